@@ -12,7 +12,7 @@ use ads_cnc_conformance::judge::{Case, Judgement, Needs, Outcome, Verdict};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
-use ads_cnc_conformance::suite::{self, Session};
+use ads_cnc_conformance::suite::{self, TargetState};
 
 /// Runs the suite against a simulated CNC with this defect, or its vectors against the codec.
 fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> {
@@ -38,7 +38,7 @@ fn run_against(
     let server = Server::start(listener, faulty).unwrap();
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::of_server(&server)).unwrap();
-    let mut session = Session::new(client, profile).with_cnc(cnc);
+    let mut session = TargetState::new(client, profile).with_cnc(cnc);
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 

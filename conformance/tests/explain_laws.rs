@@ -8,7 +8,8 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Function, OffsetRule, Service};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
-    Explanation, Outcome, Place, Question, Subject, Values, explain, parse_hex, type_by_name,
+    Explanation, Outcome, Question, ServiceAddress, Subject, Values, explain, parse_hex,
+    type_by_name,
 };
 use ads_cnc_vectors::{Expect, vectors};
 use jsonschema::Validator;
@@ -56,7 +57,7 @@ fn services() -> impl Strategy<Value = Option<Service>> {
 }
 
 /// Where functions are, and anywhere.
-fn places() -> impl Strategy<Value = Place> {
+fn places() -> impl Strategy<Value = ServiceAddress> {
     let examples: Vec<(u32, u32)> = Function::ALL
         .iter()
         .map(|function| {
@@ -79,7 +80,7 @@ fn places() -> impl Strategy<Value = Place> {
     (port, services(), address, any::<bool>()).prop_map(
         |(port, service, (group, offset), reply)| {
             let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
-            Place { port: port.map(AmsPort), service, group, offset, reply }
+            ServiceAddress { port: port.map(AmsPort), service, group, offset, reply }
         },
     )
 }

@@ -183,7 +183,7 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
         let gate = Gate::queries().with_allowed(Some(allowed));
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, cnc).unwrap();
-        let mut session = suite::Session::new(client, Profile::DEVICE);
+        let mut session = suite::TargetState::new(client, Profile::DEVICE);
         let only = named.cases.iter().map(|case| (*case).to_owned()).collect();
         let plan = Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap();
         suite::run(plan.cases, Some(&mut session), None, 1);

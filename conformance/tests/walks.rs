@@ -3,11 +3,11 @@
 
 use ads_cnc_conformance::faults::{Defect, Faulty};
 use ads_cnc_conformance::gate::Gate;
-use ads_cnc_conformance::objects::{Found, Options, Pattern, walk};
+use ads_cnc_conformance::objects::{Options, Pattern, WalkResult, walk};
 use ads_cnc_conformance::session::Session;
 use ads_cnc_conformance::simulator::{Cnc, Responder};
 
-fn found(cnc: impl Responder + 'static, options: &Options) -> Found {
+fn found(cnc: impl Responder + 'static, options: &Options) -> WalkResult {
     let mut session = Session::simulated(cnc, Gate::queries()).unwrap();
     walk(&mut session, options, &mut |_| {}).unwrap()
 }

@@ -9,7 +9,7 @@ use ads_cnc::{Decode as _, Error};
 use super::tcp::Mark;
 
 #[derive(Debug)]
-pub(super) enum Found {
+pub(super) enum FramePiece {
     /// A whole frame.
     Frame(Vec<u8>, Span),
     /// A message between a client and its local router.
@@ -59,20 +59,20 @@ impl Frames {
     }
 
     /// Takes bytes and hands over the frames that are whole now.
-    pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(Found)) {
+    pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(FramePiece)) {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);
         while self.step(out) {}
     }
 
     /// So many bytes are missing here: a frame that has begun stays unfinished.
-    pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(Found)) {
+    pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(FramePiece)) {
         let begun = self.bytes.len();
         if begun > 0 {
             if self.is_lost {
                 self.skipped = self.skipped.saturating_add(begun);
             } else if let Some(span) = self.span(begun) {
-                out(Found::Cut(self.bytes.clone(), span));
+                out(FramePiece::Cut(self.bytes.clone(), span));
             }
             self.drop(begun);
         }
@@ -81,9 +81,9 @@ impl Frames {
     }
 
     /// Nothing more comes.
-    pub(super) fn end(&mut self, out: &mut impl FnMut(Found)) {
+    pub(super) fn end(&mut self, out: &mut impl FnMut(FramePiece)) {
         if !self.is_lost && !self.bytes.is_empty() {
-            out(Found::Unfinished);
+            out(FramePiece::Unfinished);
         }
         self.skipped = self.skipped.saturating_add(if self.is_lost { self.bytes.len() } else { 0 });
         self.bytes.clear();
@@ -92,7 +92,7 @@ impl Frames {
     }
 
     /// Whether there is more to be had.
-    fn step(&mut self, out: &mut impl FnMut(Found)) -> bool {
+    fn step(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         if self.is_lost {
             return self.find(out);
         }
@@ -102,7 +102,7 @@ impl Frames {
                 return false;
             }
             self.drop(length);
-            out(Found::Router);
+            out(FramePiece::Router);
             return true;
         }
         match FrameRef::split(&self.bytes, u32::MAX) {
@@ -111,7 +111,7 @@ impl Frames {
                 if let Some(span) = self.span(length) {
                     let frame = self.bytes.get(..length).unwrap_or_default().to_vec();
                     self.drop(length);
-                    out(Found::Frame(frame, span));
+                    out(FramePiece::Frame(frame, span));
                 }
                 true
             }
@@ -119,7 +119,7 @@ impl Frames {
                 let shown = self.bytes.len().min(SHOWN);
                 if let Some(span) = self.span(shown) {
                     let bytes = self.bytes.get(..shown).unwrap_or_default().to_vec();
-                    out(Found::Broken(error, bytes, span));
+                    out(FramePiece::Broken(error, bytes, span));
                 }
                 self.skip(1);
                 self.is_lost = true;
@@ -129,7 +129,7 @@ impl Frames {
     }
 
     /// Goes to the next place where a frame may begin.
-    fn find(&mut self, out: &mut impl FnMut(Found)) -> bool {
+    fn find(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         let last = self.bytes.len().saturating_sub(FrameRef::HEADERS_LEN);
         if self.bytes.len() < FrameRef::HEADERS_LEN {
             return false;
@@ -150,10 +150,10 @@ impl Frames {
         }
     }
 
-    fn tell_skipped(&mut self, out: &mut impl FnMut(Found)) {
+    fn tell_skipped(&mut self, out: &mut impl FnMut(FramePiece)) {
         match std::mem::take(&mut self.skipped) {
             0 => {}
-            skipped => out(Found::Skipped(skipped)),
+            skipped => out(FramePiece::Skipped(skipped)),
         }
     }
 

@@ -123,7 +123,7 @@ pub fn frames(
 ) -> Result<End, FileError> {
     let mut table = Table::new(ports);
     read(input, &mut table, |step| {
-        if let Step::Event(event, _) = step
+        if let ReadStep::Event(event, _) = step
             && let Some(piece) = Piece::of(event)
         {
             each(piece);
@@ -145,7 +145,7 @@ impl Piece {
 }
 
 /// What is found while a file is read.
-enum Step<'s> {
+enum ReadStep<'s> {
     /// The next packet; whether its segment is looked at.
     Packet(&'s Packet<'s>, Content<'s>, bool),
     /// Something on a connection.
@@ -155,22 +155,22 @@ enum Step<'s> {
 fn read(
     input: impl Read + Send,
     table: &mut Table,
-    mut each: impl FnMut(Step<'_>),
+    mut each: impl FnMut(ReadStep<'_>),
 ) -> Result<End, FileError> {
     let mut events = Vec::new();
     let end = file::packets(input, |packet| {
         let content = link::segment(&packet);
         let wanted = matches!(&content, Content::Tcp(segment) if table.wants(segment));
-        each(Step::Packet(&packet, content, wanted));
+        each(ReadStep::Packet(&packet, content, wanted));
         if let (Content::Tcp(segment), true) = (content, wanted) {
             let Packet { number, time, .. } = packet;
             let mark = Mark { packet: number, time, acknowledged: None };
             table.push(&segment, mark, &mut events);
         }
-        events.drain(..).for_each(|event| each(Step::Event(event, table)));
+        events.drain(..).for_each(|event| each(ReadStep::Event(event, table)));
     })?;
     table.finish(&mut events);
-    events.drain(..).for_each(|event| each(Step::Event(event, table)));
+    events.drain(..).for_each(|event| each(ReadStep::Event(event, table)));
     Ok(end)
 }
 
@@ -182,7 +182,7 @@ pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileE
     let mut table = Table::new(options.ports);
     let mut judge = Judge::new(options.vectors);
     let end = read(input, &mut table, |step| match step {
-        Step::Packet(packet, content, wanted) => {
+        ReadStep::Packet(packet, content, wanted) => {
             count(&mut judge.tally.packets);
             judge.at(packet.time);
             match content {
@@ -194,7 +194,7 @@ pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileE
                 Content::Link(link) => count_of(&mut judge.tally.links, link),
             }
         }
-        Step::Event(event, table) => judge.take(event, table),
+        ReadStep::Event(event, table) => judge.take(event, table),
     })?;
     judge.tally.connections = table.connections();
     judge.tally.repeated = table.repeated;

@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 
 use ads_cnc::Error;
 
-use super::frames::{Found, Frames, Span};
+use super::frames::{FramePiece, Frames, Span};
 use super::link::Segment;
 use super::tcp::{Half, Mark, Part, Piece};
 
@@ -26,7 +26,7 @@ pub enum Ports {
 
 /// Where something was seen.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct SegmentDirection {
     /// Number of the connection, from 1 on.
     pub(super) connection: u64,
     pub(super) from: SocketAddr,
@@ -35,12 +35,12 @@ pub(super) struct Way {
 
 #[derive(Debug)]
 pub(super) enum Event {
-    Frame(Vec<u8>, Way, Span),
+    Frame(Vec<u8>, SegmentDirection, Span),
     Router,
-    Broken(Error, Vec<u8>, Way, Span),
-    Cut(Vec<u8>, Way, Span),
+    Broken(Error, Vec<u8>, SegmentDirection, Span),
+    Cut(Vec<u8>, SegmentDirection, Span),
     /// Bytes that were not captured.
-    Gap(u64, Way, Mark),
+    Gap(u64, SegmentDirection, Mark),
     /// Bytes that were passed over to find a frame.
     Skipped(usize),
     /// A connection whose beginning was not captured.
@@ -57,7 +57,7 @@ pub(super) struct Ending {
     pub(super) connection: u64,
     pub(super) last: u64,
     /// The direction of which nothing was captured, not even an acknowledgement.
-    pub(super) unseen: Option<Way>,
+    pub(super) unseen: Option<SegmentDirection>,
 }
 
 #[derive(Debug)]
@@ -99,16 +99,16 @@ impl Table {
     }
 
     /// Whether the direction from here is waiting for something that comes too late.
-    pub(super) fn waits(&self, way: &Way) -> bool {
+    pub(super) fn waits(&self, way: &SegmentDirection) -> bool {
         self.half(way).is_some_and(|half| half.held() > 0)
     }
 
     /// Whether the direction from here has got as far as this.
-    pub(super) fn has(&self, way: &Way, place: u64) -> bool {
+    pub(super) fn has(&self, way: &SegmentDirection, place: u64) -> bool {
         self.half(way).is_some_and(|half| half.is_seen() && half.place() >= place)
     }
 
-    fn half(&self, way: &Way) -> Option<&Half> {
+    fn half(&self, way: &SegmentDirection) -> Option<&Half> {
         let connection = self.open.get(&key(way.from, way.to))?;
         connection.halves.get(connection.side(way.from))
     }
@@ -242,7 +242,7 @@ impl Connection {
         } else if !half.is_seen() && any {
             frames.begin_anywhere();
         }
-        let way = Way { connection: self.number, from: segment.from, to: segment.to };
+        let way = SegmentDirection { connection: self.number, from: segment.from, to: segment.to };
         let part = Part {
             sequence: segment.sequence,
             syn: segment.syn,
@@ -269,7 +269,7 @@ impl Connection {
     fn finish(&mut self, out: &mut Vec<Event>) {
         let [one, other] = self.ends;
         for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {
-            let way = Way { connection: self.number, from, to };
+            let way = SegmentDirection { connection: self.number, from, to };
             let (Some(half), Some(frames)) = (self.halves.get_mut(side), self.frames.get_mut(side))
             else {
                 continue;
@@ -281,12 +281,18 @@ impl Connection {
         let (connection, last) = (self.number, self.packet);
         let mut ways = [(one, other), (other, one)].into_iter().zip(&self.halves);
         let unseen = ways.find(|(_, half)| !half.is_seen());
-        let unseen = unseen.map(|((from, to), _)| Way { connection, from, to });
+        let unseen = unseen.map(|((from, to), _)| SegmentDirection { connection, from, to });
         out.push(Event::Ended(Ending { connection, last, unseen }));
     }
 }
 
-fn feed(frames: &mut Frames, piece: Piece<'_>, way: Way, speaks: &mut bool, out: &mut Vec<Event>) {
+fn feed(
+    frames: &mut Frames,
+    piece: Piece<'_>,
+    way: SegmentDirection,
+    speaks: &mut bool,
+    out: &mut Vec<Event>,
+) {
     match piece {
         Piece::Data(bytes, mark) => {
             frames.push(bytes, mark, &mut |found| tell(found, way, speaks, out));
@@ -298,14 +304,14 @@ fn feed(frames: &mut Frames, piece: Piece<'_>, way: Way, speaks: &mut bool, out:
     }
 }
 
-fn tell(found: Found, way: Way, speaks: &mut bool, out: &mut Vec<Event>) {
-    *speaks |= matches!(found, Found::Frame(..));
+fn tell(found: FramePiece, way: SegmentDirection, speaks: &mut bool, out: &mut Vec<Event>) {
+    *speaks |= matches!(found, FramePiece::Frame(..));
     out.push(match found {
-        Found::Frame(frame, span) => Event::Frame(frame, way, span),
-        Found::Router => Event::Router,
-        Found::Broken(error, bytes, span) => Event::Broken(error, bytes, way, span),
-        Found::Cut(bytes, span) => Event::Cut(bytes, way, span),
-        Found::Skipped(length) => Event::Skipped(length),
-        Found::Unfinished => Event::Unfinished,
+        FramePiece::Frame(frame, span) => Event::Frame(frame, way, span),
+        FramePiece::Router => Event::Router,
+        FramePiece::Broken(error, bytes, span) => Event::Broken(error, bytes, way, span),
+        FramePiece::Cut(bytes, span) => Event::Cut(bytes, way, span),
+        FramePiece::Skipped(length) => Event::Skipped(length),
+        FramePiece::Unfinished => Event::Unfinished,
     });
 }

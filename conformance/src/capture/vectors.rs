@@ -15,7 +15,7 @@ use ads_cnc_vectors::{
 };
 use serde_json::json;
 
-use super::judge::Target;
+use super::judge::TargetVariable;
 use crate::client::frame;
 use crate::codec::decode_stream;
 use crate::text::json as json_text;
@@ -57,7 +57,7 @@ impl Collector {
         request: &Request<'_>,
         call: &Call<'_>,
         reply: Option<&[u8]>,
-        known: Option<&Target>,
+        known: Option<&TargetVariable>,
     ) {
         let function = request.function();
         // Programs are nobody's business.
@@ -246,7 +246,7 @@ impl Collector {
 }
 
 /// Type and dimensions of what is read or written.
-fn typed(known: Option<&Target>) -> Context {
+fn typed(known: Option<&TargetVariable>) -> Context {
     let Some(known) = known else { return Context::default() };
     let name = known.description.var_type.name();
     let kind = name.and_then(|name| serde_json::from_value(json!(name)).ok());

@@ -12,8 +12,8 @@ use super::progress::Progress;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::judge::Exit;
 use crate::objects::{
-    Found, NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern,
-    REQUESTS_MAX, columns, csv, table, walk,
+    NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
+    WalkResult, columns, csv, table, walk,
 };
 use crate::session::{Session, Trouble};
 use crate::text::{hex, json};
@@ -153,7 +153,7 @@ impl Browse {
     fn write(
         &self,
         session: &Session,
-        found: &Found,
+        found: &WalkResult,
         contents: Option<&[Content]>,
     ) -> Result<(), Trouble> {
         let mut out = BufWriter::new(io::stdout().lock());
@@ -193,7 +193,7 @@ impl Browse {
 
 fn read_all(
     session: &mut Session,
-    found: &mut Found,
+    found: &mut WalkResult,
     progress: &mut Progress,
 ) -> Result<Vec<Content>, Trouble> {
     let (objects, mut bytes) = (&found.objects, 0_usize);

@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Deserialize;
 
 use super::complain;
-use crate::clients::{self, Action, Answer, Hello, Place, Reaction, ReferenceClient};
+use crate::clients::{self, Action, Answer, CncAddress, Hello, Reaction, ReferenceClient};
 use crate::judge::Exit;
 
 /// Answers the protocol of `run --client` with this project's client, on stdin and stdout.
@@ -34,7 +34,7 @@ pub(super) struct Client {
 /// A line of the suite.
 #[derive(Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
-enum Told {
+enum Instruction {
     Do { address: SocketAddr, net_id: String, port: u16, action: String, args: Vec<String> },
     Bye,
 }
@@ -90,11 +90,11 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
     };
     say(serde_json::to_string(&ReferenceClient::hello())?)?;
     for line in io::stdin().lock().lines() {
-        let (place, action) = match serde_json::from_str::<Told>(&line?) {
-            Ok(Told::Bye) => return Ok(()),
-            Ok(Told::Do { address, net_id, port, action, args }) => {
+        let (place, action) = match serde_json::from_str::<Instruction>(&line?) {
+            Ok(Instruction::Bye) => return Ok(()),
+            Ok(Instruction::Do { address, net_id, port, action, args }) => {
                 let Ok(net_id) = net_id.parse() else { continue };
-                (Place { addr: address, net_id, port }, Action { action, args })
+                (CncAddress { addr: address, net_id, port }, Action { action, args })
             }
             Err(error) => {
                 say(serde_json::to_string(&Answer::Error(error.to_string()))?)?;
@@ -107,7 +107,7 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
 }
 
 /// What is said of an action; it dies and hangs in truth here.
-fn done(flaw: Option<clients::Flaw>, place: &Place, action: &Action) -> io::Result<String> {
+fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io::Result<String> {
     match clients::answer(flaw, place, action) {
         Reaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),
         Reaction::Garbled(what) => Ok(what),
@@ -127,7 +127,7 @@ fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
         "hello" => serde_json::to_string(&Hello { stays: false, ..ReferenceClient::hello() })?,
         line => {
             let wrong = || io::Error::other("what it is told makes no sense");
-            let place = Place {
+            let place = CncAddress {
                 addr: told("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
                 net_id: told("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
                 port: told("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,

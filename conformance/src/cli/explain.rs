@@ -13,8 +13,8 @@ use clap::{Args, ValueEnum};
 
 use super::{complain, number};
 use crate::explain::{
-    Paint, Place, Question, Subject, Values, candidates, explain, looks_like_frame, parse_hex,
-    print, type_by_name,
+    Paint, Question, ServiceAddress, Subject, Values, candidates, explain, looks_like_frame,
+    parse_hex, print, type_by_name,
 };
 use crate::judge::Exit;
 
@@ -150,7 +150,7 @@ impl Explain {
                 format!("no stream is called {name}; ads-cnc explain --list shows all")
             });
         }
-        let place = self.group.zip(self.offset).map(|(group, offset)| Place {
+        let place = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {
             port: self.port.map(AmsPort),
             service: self.service.map(Service::from),
             group: IndexGroup::new(group),

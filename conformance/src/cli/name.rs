@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::target::ChannelArgs;
 use crate::explain::type_by_name;
-use crate::named::Question;
+use crate::named::Lookup;
 use crate::objects::{Object, Pattern};
 use crate::session::Trouble;
 
@@ -42,8 +42,8 @@ pub(super) struct NameArgs {
 }
 
 impl NameArgs {
-    pub(super) fn question(&self) -> Question {
-        Question {
+    pub(super) fn question(&self) -> Lookup {
+        Lookup {
             name: self.name.clone(),
             channel: self.channel.channel,
             axis: self.axis,

@@ -9,7 +9,7 @@ use ads_cnc_vectors::Level;
 use serde_json::Value;
 
 use super::findings::Findings;
-use super::message::{Answer, Hello, Place, Reaction};
+use super::message::{Answer, CncAddress, Hello, Reaction};
 use super::result::same;
 use super::scenario::{Expect, Scenario};
 use super::script::Script;
@@ -36,7 +36,7 @@ pub struct Judged {
 pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario]) -> Judged {
     let mut manners = Findings::default();
     let mut requests = 0_usize;
-    let place = |port| Place { addr: server.addr(), net_id: server.net_id(), port };
+    let place = |port| CncAddress { addr: server.addr(), net_id: server.net_id(), port };
     let hello = match actor.hello(&place(552)) {
         Ok(hello) => hello,
         Err(_) if interrupt::came() => {
@@ -159,9 +159,9 @@ fn play(
     actor: &mut dyn Actor,
     server: &TestServer,
     scenario: &Scenario,
-    place: &Place,
+    place: &CncAddress,
 ) -> Result<(Outcome, bool, usize), String> {
-    let file = scenario.program.as_deref().map(Program::new).transpose();
+    let file = scenario.program.as_deref().map(ProgramFile::new).transpose();
     let file = file.map_err(|error| format!("the NC program: {error}"))?;
     let name = file.as_ref().and_then(|file| file.0.to_str());
     let action = scenario.told(name).ok_or("no word of the vocabulary")?;
@@ -304,9 +304,9 @@ fn of_manners(findings: Findings) -> Outcome {
 }
 
 /// An NC program in a file of its own, removed in the end.
-struct Program(PathBuf);
+struct ProgramFile(PathBuf);
 
-impl Program {
+impl ProgramFile {
     fn new(text: &[u8]) -> io::Result<Self> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -316,7 +316,7 @@ impl Program {
     }
 }
 
-impl Drop for Program {
+impl Drop for ProgramFile {
     fn drop(&mut self) {
         let _gone = fs::remove_file(&self.0);
     }
@@ -332,11 +332,11 @@ mod tests {
     struct Panics(ReferenceClient, usize);
 
     impl Actor for Panics {
-        fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
+        fn hello(&mut self, place: &CncAddress) -> Result<Hello, Reaction> {
             Actor::hello(&mut self.0, place)
         }
 
-        fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction {
+        fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> Reaction {
             self.1 += 1;
             assert_ne!(self.1, 1, "the first action");
             self.0.act(place, scenario, action)

@@ -34,7 +34,7 @@ pub struct Identity {
 
 /// Where the CNC is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct CncAddress {
     /// Its TCP address.
     pub addr: SocketAddr,
     /// Its AMS NetId.
@@ -43,7 +43,7 @@ pub struct Place {
     pub port: u16,
 }
 
-pub(super) fn told(place: &Place, scenario: &str, action: &Action) -> Value {
+pub(super) fn told(place: &CncAddress, scenario: &str, action: &Action) -> Value {
     json!({
         "cmd": "do",
         "scenario": scenario,
@@ -59,7 +59,7 @@ pub(super) fn told(place: &Place, scenario: &str, action: &Action) -> Value {
 
 /// The same for one that is started for each action.
 pub(super) fn environment(
-    place: &Place,
+    place: &CncAddress,
     scenario: &str,
     action: &str,
 ) -> [(&'static str, String); 8] {

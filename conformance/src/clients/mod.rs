@@ -24,7 +24,7 @@ mod test_server;
 
 pub use action::{Action, VOCABULARY, Word};
 pub use judge::{Judged, judge, trial};
-pub use message::{Answer, Hello, Identity, PROTOCOL, Place, Reaction};
+pub use message::{Answer, CncAddress, Hello, Identity, PROTOCOL, Reaction};
 pub use passive::{listen, requests_case};
 pub use process::Process;
 pub use reference_client::{Defect, Flaw, ReferenceClient, answer, defects, find_defect, habits};
@@ -35,10 +35,10 @@ pub use test_server::TestServer;
 /// Who is put through scenarios.
 pub trait Actor {
     /// Asks who it is and what it knows.
-    fn hello(&mut self, place: &Place) -> Result<Hello, Reaction>;
+    fn hello(&mut self, place: &CncAddress) -> Result<Hello, Reaction>;
 
     /// Tells it to do something; one that has ended before is started anew.
-    fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction;
+    fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> Reaction;
 
     /// Lets it end.
     fn bye(&mut self) -> Result<(), String>;

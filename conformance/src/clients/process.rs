@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::message::{Answer, Hello, PROTOCOL, Place, Reaction, environment, told};
+use super::message::{Answer, CncAddress, Hello, PROTOCOL, Reaction, environment, told};
 use super::{Action, Actor};
 use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, cut};
@@ -42,7 +42,7 @@ impl Process {
 
     fn answer(
         &mut self,
-        place: &Place,
+        place: &CncAddress,
         scenario: &str,
         action: &Action,
     ) -> Result<Reaction, Reaction> {
@@ -78,7 +78,7 @@ impl Actor for Process {
         self.process.over()
     }
 
-    fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
+    fn hello(&mut self, place: &CncAddress) -> Result<Hello, Reaction> {
         self.process.start(environment(place, HELLO, HELLO))?;
         let line = self.recv(START.max(self.process.timeout))?;
         let hello = serde_json::from_str::<Hello>(&line)
@@ -98,7 +98,7 @@ impl Actor for Process {
         Ok(hello)
     }
 
-    fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction {
+    fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> Reaction {
         // Of one that has said too much, what comes next cannot be told from an answer.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;

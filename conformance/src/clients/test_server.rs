@@ -123,12 +123,12 @@ impl std::fmt::Display for Beyond {
 #[derive(Debug)]
 pub struct TestServer {
     acceptor: net::Acceptor,
-    run: Arc<Mutex<Option<Arc<Run>>>>,
+    run: Arc<Mutex<Option<Arc<TestRun>>>>,
 }
 
 /// What is going on.
 #[derive(Debug)]
-struct Run {
+struct TestRun {
     script: Mutex<Script>,
     turns: Mutex<Turns>,
     /// Open connections, and how many there have been.
@@ -146,7 +146,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl TestServer {
     pub fn new(addr: SocketAddr) -> io::Result<Self> {
-        let run: Arc<Mutex<Option<Arc<Run>>>> = Arc::default();
+        let run: Arc<Mutex<Option<Arc<TestRun>>>> = Arc::default();
         let playing = Arc::clone(&run);
         let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
             // Between scenarios nobody is there. Held until all that is known of the connection is
@@ -169,7 +169,7 @@ impl TestServer {
 
     /// From now on this is played.
     pub(super) fn begin(&self, script: Script) {
-        *lock(&self.run) = Some(Arc::new(Run {
+        *lock(&self.run) = Some(Arc::new(TestRun {
             script: Mutex::new(script),
             turns: Mutex::default(),
             streams: Mutex::default(),
@@ -234,7 +234,7 @@ impl Drop for TestServer {
     }
 }
 
-impl Run {
+impl TestRun {
     fn connect(self: Arc<Self>, stream: TcpStream) -> io::Result<()> {
         let connection = self.count.fetch_add(1, Ordering::SeqCst);
         if connection >= CONNECTIONS_MAX {

@@ -5,13 +5,13 @@ use ads_cnc::{Element, TextRef};
 use ads_cnc_vectors::{Fields, Hex, Tagged, Type, Value};
 
 /// Fields by their names.
-pub(super) type Named = Vec<(&'static str, Value)>;
+pub(super) type NamedFields = Vec<(&'static str, Value)>;
 
-pub(super) fn collect(fields: Named) -> Fields {
+pub(super) fn collect(fields: NamedFields) -> Fields {
     fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-pub(super) fn record(fields: Named) -> Value {
+pub(super) fn record(fields: NamedFields) -> Value {
     Value::Record(collect(fields))
 }
 

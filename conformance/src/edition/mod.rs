@@ -164,25 +164,27 @@ impl Edition {
                 Support::assumed(true, requirement)
             }
         };
-        match Way::of(function) {
-            Way::Other => Support::documented(true, requirement),
-            Way::Index if is_in(INDEXED) => Support::documented(true, KIND_REQUIREMENT),
-            Way::Index if all && function == Function::CountVariables => {
+        match AddressedBy::of(function) {
+            AddressedBy::Other => Support::documented(true, requirement),
+            AddressedBy::Index if is_in(INDEXED) => Support::documented(true, KIND_REQUIREMENT),
+            AddressedBy::Index if all && function == Function::CountVariables => {
                 Support::documented(true, KIND_REQUIREMENT)
             }
-            Way::Index => Support::assumed(false, KIND_REQUIREMENT),
-            Way::Handle if is_in(self.by_name_only()) => {
+            AddressedBy::Index => Support::assumed(false, KIND_REQUIREMENT),
+            AddressedBy::Handle if is_in(self.by_name_only()) => {
                 Support::documented(false, BY_NAME_ONLY_REQUIREMENT)
             }
-            Way::Handle | Way::Name => match (by_name(), Feature::of(function).map(has)) {
-                (kind, Some(version)) if kind.available => {
-                    let assumed = version.assumed || (version.available && !is_in(INDEXED));
-                    Support { assumed, ..version }
+            AddressedBy::Handle | AddressedBy::Name => {
+                match (by_name(), Feature::of(function).map(has)) {
+                    (kind, Some(version)) if kind.available => {
+                        let assumed = version.assumed || (version.available && !is_in(INDEXED));
+                        Support { assumed, ..version }
+                    }
+                    (kind, _) => kind,
                 }
-                (kind, _) => kind,
-            },
-            Way::Axis if is_in(&[Kind::V_A]) => Support::documented(true, requirement),
-            Way::Axis => Support::assumed(false, requirement),
+            }
+            AddressedBy::Axis if is_in(&[Kind::V_A]) => Support::documented(true, requirement),
+            AddressedBy::Axis => Support::assumed(false, requirement),
         }
     }
 }
@@ -194,7 +196,7 @@ impl fmt::Display for Edition {
 }
 
 /// How a function addresses a variable.
-enum Way {
+enum AddressedBy {
     /// By index and kind, or the number of a kind.
     Index,
     Handle,
@@ -205,7 +207,7 @@ enum Way {
     Other,
 }
 
-impl Way {
+impl AddressedBy {
     fn of(function: Function) -> Self {
         let spec = function.spec();
         match (spec.offset, spec.request, spec.reply) {

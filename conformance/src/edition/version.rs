@@ -240,11 +240,11 @@ pub struct VersionError {
     part: &'static str,
     /// In bytes; all characters before it are ASCII.
     offset: usize,
-    fault: Fault,
+    fault: VersionFault,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-enum Fault {
+enum VersionFault {
     #[error("expected a number, found the end")]
     Truncated,
     #[error("unexpected '{0}'")]
@@ -286,16 +286,16 @@ impl Scan<'_> {
         if self.at == start {
             return Err(self.error(part));
         }
-        let fault = Fault::OutOfRange(number);
+        let fault = VersionFault::OutOfRange(number);
         u16::try_from(number).map_err(|_| VersionError { part, offset: start, fault })
     }
 
     /// The next character is wrong or missing.
     fn error(&self, part: &'static str) -> VersionError {
         let fault = match self.text.get(self.at..).and_then(|rest| rest.chars().next()) {
-            Some(character) if character.is_ascii_graphic() => Fault::Unexpected(character),
-            Some(character) => Fault::NotPrintable(character.into()),
-            None => Fault::Truncated,
+            Some(character) if character.is_ascii_graphic() => VersionFault::Unexpected(character),
+            Some(character) => VersionFault::NotPrintable(character.into()),
+            None => VersionFault::Truncated,
         };
         VersionError { part, offset: self.at, fault }
     }

@@ -11,18 +11,18 @@ use ads_cnc::operation::{
 };
 
 use super::codes;
-use super::model::{Address, FunctionReport, Part, Place};
+use super::model::{Address, FunctionReport, Part, ServiceAddress};
 use super::part;
 use crate::edition::Feature;
 use crate::values::Values;
 
 /// Data of a service at a place.
-pub(super) fn of_place(place: &Place, bytes: &[u8], values: &Values) -> Part {
+pub(super) fn of_place(place: &ServiceAddress, bytes: &[u8], values: &Values) -> Part {
     of_data(place, 0, bytes, values)
 }
 
 /// Data of a service at a place, from byte `at` of those given.
-pub(super) fn of_data(place: &Place, at: usize, bytes: &[u8], values: &Values) -> Part {
+pub(super) fn of_data(place: &ServiceAddress, at: usize, bytes: &[u8], values: &Values) -> Part {
     let found = find(place);
     let mut part = match found {
         Err(_) => Part::opaque("Data of no documented function".to_owned(), at, bytes),
@@ -39,14 +39,20 @@ pub(super) fn of_data(place: &Place, at: usize, bytes: &[u8], values: &Values) -
 }
 
 /// A place, without data.
-pub(super) fn alone(place: &Place) -> Part {
+pub(super) fn alone(place: &ServiceAddress) -> Part {
     // Of a content that is read and written, reading is the one that does no harm.
-    let reading = Place { reply: true, ..*place };
+    let reading = ServiceAddress { reply: true, ..*place };
     let found = find(if place.service.is_none() { &reading } else { place });
     Part { address: Some(report(place, found)), ..Part::default() }
 }
 
-fn no_data(place: &Place, spec: &FunctionSpec, at: usize, bytes: &[u8], values: &Values) -> Part {
+fn no_data(
+    place: &ServiceAddress,
+    spec: &FunctionSpec,
+    at: usize,
+    bytes: &[u8],
+    values: &Values,
+) -> Part {
     let mut part = part::of_stream(Stream::NoData, at, bytes, values);
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
@@ -64,7 +70,7 @@ fn no_data(place: &Place, spec: &FunctionSpec, at: usize, bytes: &[u8], values: 
 }
 
 /// The function that is meant.
-fn find(place: &Place) -> Result<Function, DispatchError> {
+fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
     if let Some(port) = place.port {
         Task::from_port(port).ok_or(DispatchError::Port(port))?;
     }
@@ -99,12 +105,12 @@ fn find(place: &Place) -> Result<Function, DispatchError> {
 
 /// Whether the port, if it is known, is that of the function's task; SDA and GEO stand in for
 /// each other (ADR-10, assumed).
-fn serves(place: &Place, spec: &FunctionSpec) -> bool {
+fn serves(place: &ServiceAddress, spec: &FunctionSpec) -> bool {
     let task = place.port.and_then(Task::from_port);
     task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
 }
 
-fn report(place: &Place, found: Result<Function, DispatchError>) -> Address {
+fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Address {
     let function = found.ok();
     let service = place.service.or(function.map(|function| function.spec().service));
     let mut notes = Vec::new();
@@ -152,7 +158,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
 }
 
 /// What else is at the place of a function, and what has to be known of it.
-fn meanings(place: &Place, function: Function, notes: &mut Vec<String>) {
+fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
     let spec = function.spec();
     if place.port.is_some_and(|port| port != spec.task.port()) {
         let (task, port) = (codes::task(spec.task), spec.task.port());
@@ -205,7 +211,7 @@ fn of_axis(axis: u32) -> String {
 }
 
 /// What the offset addresses.
-fn offset(place: &Place, function: Option<Function>, notes: &mut Vec<String>) -> String {
+fn offset(place: &ServiceAddress, function: Option<Function>, notes: &mut Vec<String>) -> String {
     let (offset, rule) = (place.offset, function.map(|function| function.spec().offset));
     match (rule, place.group.parts()) {
         (Some(OffsetRule::OfKind(offsets)), _) => {

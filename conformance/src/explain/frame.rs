@@ -11,14 +11,14 @@ use ads_cnc::{Decode as _, Error};
 
 use super::address;
 use super::codes;
-use super::model::{Fault, Part, Place};
+use super::model::{Fault, Part, ServiceAddress};
 use super::part;
 use super::value::bytes as in_words;
 use crate::values::Values;
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// Requests by who asked whom under which ID.
-type Asked = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
+type PendingRequests = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
 
 /// Whether the bytes begin with a frame, or with one whose headers are whole and agree.
 pub fn looks_like_frame(bytes: &[u8]) -> bool {
@@ -30,7 +30,11 @@ pub fn looks_like_frame(bytes: &[u8]) -> bool {
 }
 
 /// Frames, one behind the other.
-pub(super) fn of_frames(place: Option<&Place>, bytes: &[u8], values: &Values) -> Vec<Part> {
+pub(super) fn of_frames(
+    place: Option<&ServiceAddress>,
+    bytes: &[u8],
+    values: &Values,
+) -> Vec<Part> {
     let mut frames = Frames { place, values, asked: HashMap::new(), parts: Vec::new() };
     let mut at = 0_usize;
     loop {
@@ -45,9 +49,9 @@ pub(super) fn of_frames(place: Option<&Place>, bytes: &[u8], values: &Values) ->
 }
 
 struct Frames<'q> {
-    place: Option<&'q Place>,
+    place: Option<&'q ServiceAddress>,
     values: &'q Values,
-    asked: Asked,
+    asked: PendingRequests,
     parts: Vec<Part>,
 }
 
@@ -180,17 +184,17 @@ impl Frames<'_> {
         header: &AmsHeader,
         (stream, service): (Stream, Service),
         data: &[u8],
-    ) -> Option<Place> {
+    ) -> Option<ServiceAddress> {
         let group = IndexGroup::new(number(stream, data, "index_group")?);
         let offset = IndexOffset::new(number(stream, data, "index_offset")?);
         let key = (header.source, header.target, header.invoke_id);
         self.asked.insert(key, (header.command, group, offset));
         let (port, service) = (Some(header.target.port), Some(service));
-        Some(Place { port, service, group, offset, reply: false })
+        Some(ServiceAddress { port, service, group, offset, reply: false })
     }
 
     /// Where an answer comes from: by its request, or as was said.
-    fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<Place> {
+    fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<ServiceAddress> {
         let key = (header.target, header.source, header.invoke_id);
         let asked = self.asked.get(&key).filter(|(command, ..)| *command == header.command);
         let (group, offset) = match asked {
@@ -199,7 +203,7 @@ impl Frames<'_> {
         };
         self.asked.remove(&key);
         let (port, service) = (Some(header.source.port), Some(service));
-        Some(Place { port, service, group, offset, reply: true })
+        Some(ServiceAddress { port, service, group, offset, reply: true })
     }
 
     /// A command that is none of the three services.
@@ -246,7 +250,7 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
 
 /// What of a request is refused though each of its streams is in order.
 fn refused(
-    place: &Place,
+    place: &ServiceAddress,
     port: AmsPort,
     (service, read_length): (Service, Option<u32>),
     data: &[u8],

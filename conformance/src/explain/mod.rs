@@ -37,8 +37,8 @@ pub(crate) use codes::class_name;
 pub use frame::looks_like_frame;
 pub(crate) use model::sources;
 pub use model::{
-    Address, Explanation, Fault, FunctionReport, Outcome, Part, Place, Question, Row, Subject,
-    Unread,
+    Address, Explanation, Fault, FunctionReport, Outcome, Part, Question, Row, ServiceAddress,
+    Subject, Unread,
 };
 pub use show::{Paint, print};
 

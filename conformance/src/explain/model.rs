@@ -27,17 +27,17 @@ pub struct Question {
 pub enum Subject {
     Stream(Stream),
     /// What goes in or comes out at this place.
-    Place(Place),
+    Place(ServiceAddress),
     /// There are none: what is at this place.
-    Address(Place),
+    Address(ServiceAddress),
     /// AMS/TCP frames, one behind the other. The place is that of replies whose request is not
     /// among them.
-    Frames(Option<Place>),
+    Frames(Option<ServiceAddress>),
 }
 
 /// Where a service is asked for, as far as it is known.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct ServiceAddress {
     pub port: Option<AmsPort>,
     /// The service; without it, that of the function at this address.
     pub service: Option<Service>,

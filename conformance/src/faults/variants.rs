@@ -10,8 +10,8 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    Answer, ELEMENT_TEXTS, INDEXED, NAMED, Row, Twist, Upstream, behind, dimensions, first, fits,
-    function, group, is, measured, number, offset, on, put, records_mut, row, text, twisted,
+    ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Row, Twist, Upstream, behind, dimensions, first,
+    fits, function, group, is, measured, number, offset, on, put, records_mut, row, text, twisted,
     u32_at,
 };
 
@@ -30,7 +30,7 @@ const fn sent(
 }
 
 /// The handles of replies and, back, of requests made others.
-fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
+fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     let spec = function(call).map(Function::spec);
     match spec.map(|spec| (first(spec.request), first(spec.reply))) {
         Some((_, b"handle")) => number(cnc.answer(call), 0, other),
@@ -52,7 +52,7 @@ fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
 }
 
 /// If it is too long for the client, as it was.
-fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: Answer) -> Answer {
+fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: ReplyData) -> ReplyData {
     fits(call, answer).or_else(|_| cnc.answer(call))
 }
 

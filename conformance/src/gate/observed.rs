@@ -17,11 +17,11 @@ pub(super) const LEARNT_MAX: usize = 65_536;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
     /// By the channel as it was addressed: whether a rank and a number are one channel is not known.
-    handles: BTreeMap<(Channel, u32), Named>,
+    handles: BTreeMap<(Channel, u32), HandleNames>,
     /// The handle of each variable that the file names; none if replies give it several.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
     /// The lists that the file names an object of.
-    lists: BTreeMap<IndexGroup, Objects>,
+    lists: BTreeMap<IndexGroup, ObservedObjects>,
     /// The name of the object at an address, and another one that some list gives it.
     contents: BTreeMap<(IndexGroup, IndexOffset), (CncString, Option<CncString>)>,
     kept: usize,
@@ -30,7 +30,7 @@ pub(super) struct Observed {
 
 /// The names of one handle.
 #[derive(Clone, Debug, Default)]
-struct Named {
+struct HandleNames {
     /// Those that the file names.
     allowed: BTreeMap<CncString, Sources>,
     /// The one of the axis interface, at which axis.
@@ -53,7 +53,7 @@ impl Sources {
 
 /// What is known of a list of objects.
 #[derive(Clone, Debug, Default)]
-struct Objects {
+struct ObservedObjects {
     count: Option<u32>,
     seen: BTreeSet<u32>,
     addresses: BTreeMap<CncString, BTreeSet<(IndexGroup, IndexOffset)>>,
@@ -73,7 +73,7 @@ impl Observed {
 
     /// Whether a reply gave this handle to any name, as far as all of them are kept.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
-        let has_names = |named: &Named| !named.allowed.is_empty() || named.foreign.is_some();
+        let has_names = |named: &HandleNames| !named.allowed.is_empty() || named.foreign.is_some();
         self.full || self.handles.get(&(channel, handle.0)).is_some_and(has_names)
     }
 
@@ -185,7 +185,8 @@ impl Observed {
                 let objects = self.lists.entry(op.list.index_group()).or_default();
                 // Another list than before, if it has another length.
                 if objects.count != Some(count.0) {
-                    *objects = Objects { count: Some(count.0), ..Objects::default() };
+                    *objects =
+                        ObservedObjects { count: Some(count.0), ..ObservedObjects::default() };
                 }
             }
             (Request::ReadDescriptors(op), Reply::Descriptors(all)) => {
@@ -203,7 +204,7 @@ impl Observed {
     }
 
     /// The names of a handle, for one more.
-    fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut Named> {
+    fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut HandleNames> {
         let key = (channel, handle.0);
         let is_new = !self.handles.contains_key(&key);
         if is_new && !self.has_room() {
@@ -293,7 +294,7 @@ impl Observed {
     }
 }
 
-impl Objects {
+impl ObservedObjects {
     /// Whether each object was read that the list has.
     fn is_whole(&self) -> bool {
         let Some(count) = self.count else { return false };

@@ -52,7 +52,7 @@ fn areas(rows: &[Row]) -> String {
     );
     for one in AREAS {
         let prefix = format!("{}-", one.area);
-        let found = Found::of(rows.iter().filter(|row| row.id.starts_with(&prefix)));
+        let found = SectionCoverage::of(rows.iter().filter(|row| row.id.starts_with(&prefix)));
         let _ = writeln!(
             text,
             "| {} | {} | {} | {} | {} | {} | {} | {} |",
@@ -80,7 +80,7 @@ fn manual(document: &str) -> &str {
 
 /// What leads from some requirements, each once.
 #[derive(Default)]
-struct Found<'r> {
+struct SectionCoverage<'r> {
     ids: Vec<&'r str>,
     accepted: BTreeSet<&'r str>,
     rejected: BTreeSet<&'r str>,
@@ -88,7 +88,7 @@ struct Found<'r> {
     fuzz_targets: BTreeSet<&'r str>,
 }
 
-impl<'r> Found<'r> {
+impl<'r> SectionCoverage<'r> {
     fn of(rows: impl Iterator<Item = &'r Row>) -> Self {
         let mut found = Self::default();
         for row in rows {
@@ -127,7 +127,7 @@ fn line(
         .filter(|requirement| is_source(requirement))
         .map(|requirement| requirement.id.as_str())
         .collect();
-    let found = Found::of(rows.iter().filter(|row| sourced.contains(row.id.as_str())));
+    let found = SectionCoverage::of(rows.iter().filter(|row| sourced.contains(row.id.as_str())));
     if found.ids.is_empty() {
         return String::new();
     }

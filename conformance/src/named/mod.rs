@@ -17,7 +17,7 @@ use crate::session::{Session, Trouble};
 /// | any other `V.…` | a variable; with `[i][j]` at its end an element |
 /// | anything else | a COM object or an element of SDA or GEO, by its whole name |
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct Lookup {
     pub name: String,
     pub channel: Channel,
     /// Which place, over the axis interface; of V.A only.
@@ -36,14 +36,14 @@ pub struct Question {
 /// use ads_cnc::address::Channel;
 /// use ads_cnc_conformance::simulator::Cnc;
 /// use ads_cnc_conformance::gate::Gate;
-/// use ads_cnc_conformance::named::{Question, find};
+/// use ads_cnc_conformance::named::{Lookup, find};
 /// use ads_cnc_conformance::session::Session;
 /// use ads_cnc_conformance::values::plain;
 ///
 /// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
 /// let mut value = |name: &str| {
-///     let question = Question::new(name, Channel::new(1).unwrap());
-///     let object = find(&mut session, &question)?;
+///     let lookup = Lookup::new(name, Channel::new(1).unwrap());
+///     let object = find(&mut session, &lookup)?;
 ///     let bytes = object.place.read(&mut session, object.ty.size.unwrap_or(0))?;
 ///     Ok::<_, ads_cnc_conformance::session::Trouble>(plain(&object.ty, &bytes).unwrap())
 /// };
@@ -57,11 +57,11 @@ pub struct Question {
 ///
 /// # Errors
 /// That there is nothing of this name, or several, and what to do about it.
-pub fn find(session: &mut Session, question: &Question) -> Result<Object, Trouble> {
-    if variable::is_named(&question.name) || question.axis.is_some() {
-        variable::find(session, question)
+pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
+    if variable::is_named(&lookup.name) || lookup.axis.is_some() {
+        variable::find(session, lookup)
     } else {
-        object::find(session, question)
+        object::find(session, lookup)
     }
 }
 
@@ -69,14 +69,14 @@ pub fn find(session: &mut Session, question: &Question) -> Result<Object, Troubl
 ///
 /// # Errors
 /// A name that has no form on the wire.
-pub fn by_name_alone(question: &Question) -> Result<Option<Object>, Trouble> {
-    match variable::is_named(&question.name) || question.axis.is_some() {
-        true => variable::unasked(question).map(Some),
+pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, Trouble> {
+    match variable::is_named(&lookup.name) || lookup.axis.is_some() {
+        true => variable::unasked(lookup).map(Some),
         false => Ok(None),
     }
 }
 
-impl Question {
+impl Lookup {
     /// What has this name, in a channel.
     pub fn new(name: &str, channel: Channel) -> Self {
         let name = name.to_owned();

@@ -2,7 +2,7 @@
 
 use ads_cnc::CncString;
 
-use super::Question;
+use super::Lookup;
 use crate::objects::{Object, Options, Pattern, walk};
 use crate::session::{Session, Trouble};
 use crate::values::Type;
@@ -11,8 +11,8 @@ use crate::values::Type;
 const SHOWN: usize = 12;
 
 /// Looks through all lists that may have the name: if two have it, neither is meant more.
-pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object, Trouble> {
-    let Question { name, channel, lists, offset, ty, .. } = question;
+pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
+    let Lookup { name, channel, lists, offset, ty, .. } = lookup;
     let wanted: CncString = name.parse().map_err(Trouble::Unsendable)?;
     let options = Options {
         channels: vec![*channel],
@@ -44,7 +44,7 @@ pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object,
             let all: Vec<&Object> = others.iter().chain([&last]).collect();
             Err(Trouble::Usage(several(name, &all)))
         }
-        (None, _) => Err(Trouble::Unable(absent(question))),
+        (None, _) => Err(Trouble::Unable(absent(lookup))),
     }
 }
 
@@ -64,8 +64,8 @@ fn several(name: &str, all: &[&Object]) -> String {
     why
 }
 
-fn absent(question: &Question) -> String {
-    let Question { name, channel, lists, offset, .. } = question;
+fn absent(lookup: &Lookup) -> String {
+    let Lookup { name, channel, lists, offset, .. } = lookup;
     let number = channel.number();
     let place = match (lists, offset) {
         (None, None) => format!("of channel {number}, the platform, its axes and spindles"),

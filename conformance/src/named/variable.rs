@@ -6,7 +6,7 @@ use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeByName};
 use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
 
-use super::Question;
+use super::Lookup;
 use crate::objects::{Access, List, Object, Place, parameter};
 use crate::session::{Session, Trouble};
 use crate::values::Type;
@@ -30,8 +30,8 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
 }
 
 /// What the name alone says.
-pub(super) fn unasked(question: &Question) -> Result<Object, Trouble> {
-    let Question { name, channel, axis, ty, .. } = question;
+pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
+    let Lookup { name, channel, axis, ty, .. } = lookup;
     let text: CncString = name.parse().map_err(Trouble::Unsendable)?;
     let hint = |ty: &Option<DataType>| ty.map_or(Type::UNKNOWN, Type::hinted);
     match (kind_of_parameter(name), axis) {
@@ -65,10 +65,10 @@ pub(super) fn unasked(question: &Question) -> Result<Object, Trouble> {
 }
 
 /// The variable with its type: by its name if the CNC describes that, else by index.
-pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object, Trouble> {
-    let object = unasked(question)?;
+pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
+    let object = unasked(lookup)?;
     let Place::Variable { channel, axis, name } = &object.place else { return Ok(object) };
-    if question.ty.is_some() {
+    if lookup.ty.is_some() {
         return Ok(object);
     }
     let path = VariablePath::from_text(name.as_cnc_str()).map_err(Trouble::Unsendable)?;
@@ -84,7 +84,7 @@ pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object,
             listed(session, *channel, &path, axis.is_some())?
         }
     };
-    let Some(Told { ty, access, handle }) = told else { return Ok(object) };
+    let Some(DescribedVariable { ty, access, handle }) = told else { return Ok(object) };
     let indices = path.elements();
     let ty = match indices.is_empty() {
         true => ty,
@@ -97,7 +97,7 @@ pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object,
 }
 
 /// What a description tells.
-struct Told {
+struct DescribedVariable {
     ty: Type,
     access: Access,
     handle: Option<Handle>,
@@ -108,10 +108,10 @@ fn described(
     session: &mut Session,
     channel: Channel,
     path: &VariablePath<'_>,
-) -> Result<Option<Told>, Trouble> {
+) -> Result<Option<DescribedVariable>, Trouble> {
     let describe = DescribeByName { channel, name: path.variable().text().into() };
     match session.call(&describe) {
-        Ok(variable) => Ok(Some(Told {
+        Ok(variable) => Ok(Some(DescribedVariable {
             ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
             access: Access::of_variable(variable.access),
             // One that is by name only has none.
@@ -129,7 +129,7 @@ fn listed(
     channel: Channel,
     path: &VariablePath<'_>,
     of_axis: bool,
-) -> Result<Option<Told>, Trouble> {
+) -> Result<Option<DescribedVariable>, Trouble> {
     let kind = path.kind();
     if ![Kind::V_E, Kind::V_G, Kind::V_A].iter().any(|known| known.text() == kind.text()) {
         return Ok(None);
@@ -143,7 +143,7 @@ fn listed(
     for index in 0..count {
         match session.call(&DescribeByIndex::new(channel, index, kind)) {
             Ok(variable) if is_it(&variable, wanted.text(), of_axis) => {
-                return Ok(Some(Told {
+                return Ok(Some(DescribedVariable {
                     ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
                     access: Access::of_variable(variable.access),
                     // The handle is that of another place.

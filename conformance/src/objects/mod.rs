@@ -36,4 +36,6 @@ pub use place::{Access, Object, Place};
 pub use report::{ObjectReport, ObjectsReport};
 pub use table::{Column, columns, csv, table};
 pub(crate) use walk::parameter;
-pub use walk::{Found, GAP, NAMES_MAX, OBJECTS_MAX, Options, RANGE, REQUESTS_MAX, Seen, walk};
+pub use walk::{
+    GAP, NAMES_MAX, OBJECTS_MAX, Options, RANGE, REQUESTS_MAX, WalkProgress, WalkResult, walk,
+};

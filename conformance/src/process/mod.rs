@@ -33,10 +33,10 @@ pub fn shell(line: &str) -> Command {
     command
 }
 
-type Shared = Mutex<Box<dyn ChildWrapper>>;
+type SharedChild = Mutex<Box<dyn ChildWrapper>>;
 
 /// Commands that run.
-static RUNNING: Mutex<Vec<Weak<Shared>>> = Mutex::new(Vec::new());
+static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 
 /// A command that was started. When it is dropped, it is ended with what it has started, also if it
 /// has ended itself: on Unix the processes of its group - one that has made a group or a session of
@@ -44,7 +44,7 @@ static RUNNING: Mutex<Vec<Weak<Shared>>> = Mutex::new(Vec::new());
 ///
 /// Ctrl-C of a terminal is for this tool alone, which answers for the command.
 #[derive(Debug)]
-pub struct Running(Arc<Shared>);
+pub struct Running(Arc<SharedChild>);
 
 impl Running {
     pub fn start(command: Command) -> io::Result<Self> {

@@ -87,7 +87,7 @@ impl BytesReport {
 
 /// What is shown of bytes: a field, or how many are passed over for being like those around.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shown<'r> {
+pub(super) enum ShownField<'r> {
     Field(&'r FieldReport),
     /// So many items of the field above.
     More(usize),
@@ -102,7 +102,7 @@ impl BytesReport {
     }
 
     /// The fields, without most items of a long list; those that differ are always shown.
-    pub(super) fn shown(&self) -> Vec<Shown<'_>> {
+    pub(super) fn shown(&self) -> Vec<ShownField<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);
         for list in self.fields.chunk_by(|one, next| one.field == next.field) {
             let last = list.len().saturating_sub(1);
@@ -113,9 +113,9 @@ impl BytesReport {
                     more += 1;
                     continue;
                 }
-                shown.extend((more > 0).then_some(Shown::More(more)));
+                shown.extend((more > 0).then_some(ShownField::More(more)));
                 more = 0;
-                shown.push(Shown::Field(field));
+                shown.push(ShownField::Field(field));
             }
         }
         shown
@@ -181,13 +181,15 @@ mod tests {
         let stream = Some("variable-handle-read");
         let report = BytesReport::new(stream, &bytes, Some(&other), &Values::default());
         let shown = report.shown();
-        let more: Vec<_> = shown.iter().filter(|one| matches!(one, Shown::More(_))).collect();
+        let more: Vec<_> = shown.iter().filter(|one| matches!(one, ShownField::More(_))).collect();
         if report.faults.is_empty() {
-            assert_eq!(more, [&Shown::More(14), &Shown::More(18)]);
+            assert_eq!(more, [&ShownField::More(14), &ShownField::More(18)]);
             assert_eq!(shown.len(), 2 + 6 + 1 + 1 + 1 + 1);
         }
         assert!(
-            shown.iter().any(|one| matches!(one, Shown::Field(field) if !field.differs.is_empty()))
+            shown
+                .iter()
+                .any(|one| matches!(one, ShownField::Field(field) if !field.differs.is_empty()))
         );
     }
 

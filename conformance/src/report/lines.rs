@@ -1,6 +1,6 @@
 //! Bytes as lines: one for each field.
 
-use super::bytes::Shown;
+use super::bytes::ShownField;
 use super::{BytesReport, FieldReport};
 use crate::explain::Values;
 use crate::text::hex;
@@ -18,8 +18,8 @@ pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
 
 fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
     let of_shown = |shown| match shown {
-        Shown::Field(field) => of_field(field, fold),
-        Shown::More(more) => vec![format!("     …  {more} more")],
+        ShownField::Field(field) => of_field(field, fold),
+        ShownField::More(more) => vec![format!("     …  {more} more")],
     };
     let mut all: Vec<String> = match fold {
         true => bytes.shown().into_iter().flat_map(of_shown).collect(),

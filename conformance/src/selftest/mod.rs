@@ -23,7 +23,7 @@ use crate::faults::{self, Kind};
 use crate::judge::{Exit, Outcome, Verdict};
 use crate::session::Trouble;
 use crate::text::named;
-use detection::{Checked, Scope};
+use detection::{CheckedTable, Scope};
 
 pub use show::print;
 
@@ -93,7 +93,7 @@ pub struct SelfTest {
     /// Reasons for survivors that are none.
     pub stale: Vec<String>,
     /// What is detected of CNCs from outside, and what of it was measured again.
-    pub detection: Checked,
+    pub detection: CheckedTable,
 }
 
 impl SelfTest {
@@ -159,7 +159,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
         wanted(&seed.id, group, &seed.requirements)
     });
     let scope = if only.is_empty() { scope } else { Scope::All };
-    let detection = Checked::new(seeds.collect(), scope, only.is_empty(), &tell);
+    let detection = CheckedTable::new(seeds.collect(), scope, only.is_empty(), &tell);
     SelfTest { tried, stale, detection }
 }
 

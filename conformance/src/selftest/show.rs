@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::detection::{Checked, Figures, Mode};
+use super::detection::{CheckedTable, Figures, Mode};
 use super::{Group, Outcomes, SelfTest, Tried};
 use crate::judge::Exit;
 
@@ -65,7 +65,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
 
 /// What is detected of a CNC from outside, and within.
 fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
-    let Checked { table, measured, differences } = &test.detection;
+    let CheckedTable { table, measured, differences } = &test.detection;
     for difference in differences {
         writeln!(out, "DIFFERS      {difference}")?;
     }

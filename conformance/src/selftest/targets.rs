@@ -10,7 +10,7 @@ use crate::judge::{Case, Needs, Outcome};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Session};
+use crate::suite::{self, TargetState};
 
 /// A version that has 0x4C and all kinds.
 const NEWEST: &str = "V4.29.0";
@@ -78,7 +78,7 @@ fn run(
         Kind::Different => client,
         Kind::Codec | Kind::Cnc => client.with_timeout(IMPATIENCE),
     };
-    let mut session = Session::new(client, profile).with_cnc(cnc);
+    let mut session = TargetState::new(client, profile).with_cnc(cnc);
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);
     let cases = suite::cases().into_iter().filter(of_target).collect();
     let outcomes = suite::run(cases, Some(&mut session), None, 1);

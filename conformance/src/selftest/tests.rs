@@ -63,7 +63,7 @@ fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
 
 fn test(tried: Vec<Tried>) -> SelfTest {
     let table = Table::published().unwrap();
-    let detection = Checked { table, measured: 0, differences: Vec::new() };
+    let detection = CheckedTable { table, measured: 0, differences: Vec::new() };
     SelfTest { tried, stale: Vec::new(), detection }
 }
 

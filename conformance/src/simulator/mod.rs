@@ -47,7 +47,7 @@ pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::DATA_MAX;
 pub(crate) use respond::{FRAME_MAX, INFO, respond};
-pub use responder::Responder;
+pub use responder::{ReplyData, Responder};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 
 /// The most bytes of a content: what a frame has room for beside a result and a length.

@@ -8,7 +8,7 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc::{Encode, Error};
 
-use super::{to_len, to_u32};
+use super::{ReplyData, to_len, to_u32};
 use crate::wire_service::service_of;
 
 /// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
@@ -24,11 +24,11 @@ const _: () = assert!(DATA_MAX == 0x1_0000);
 const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 
 /// Answers requests with data or an error number.
-type Asked<'a> = &'a dyn Fn(&Call<'_>) -> Result<Vec<u8>, AdsError>;
+type Answering<'a> = &'a dyn Fn(&Call<'_>) -> ReplyData;
 
 /// Appends the frame to answer with; see [`Responder::respond`](super::Responder::respond).
 pub(crate) fn respond(
-    cnc: Asked<'_>,
+    cnc: Answering<'_>,
     net_id: AmsNetId,
     frame: &FrameRef<'_>,
     answers: &mut Vec<u8>,
@@ -72,7 +72,7 @@ fn write_headers(header: AmsHeader, answers: &mut [u8], start: usize) -> Result<
 }
 
 /// Appends the data of the response to a command for a port that a task has.
-fn serve(cnc: Asked<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
+fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
     let (command, data) = (frame.header().command, frame.data());
     if let Some(service) = service_of(command) {
         let reply = ask(cnc, frame);
@@ -111,7 +111,7 @@ fn serve(cnc: Asked<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<
 }
 
 /// Asks the CNC; what no frame has room for is too much to ask.
-fn ask(cnc: Asked<'_>, frame: &FrameRef<'_>) -> Result<Vec<u8>, AdsError> {
+fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     let call = Call::from_frame(frame).map_err(|error| {
         // A service's header that does not hold together is a request of the wrong size.
         tracing::debug!("refused: {error}");

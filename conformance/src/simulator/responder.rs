@@ -9,13 +9,16 @@ use ads_cnc::operation::Call;
 
 use super::respond::respond;
 
+/// The data of a reply, or the error number.
+pub type ReplyData = Result<Vec<u8>, AdsError>;
+
 /// Answers ADS requests: a [`Cnc`](super::Cnc), or what is put around one.
 pub trait Responder: fmt::Debug + Send + Sync {
     /// The data to answer with.
     ///
     /// # Errors
     /// An error number.
-    fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError>;
+    fn answer(&self, call: &Call<'_>) -> ReplyData;
 
     /// Appends the frame to answer with, as the device of this NetId; nothing for a frame that is no
     /// request.
@@ -36,7 +39,7 @@ pub trait Responder: fmt::Debug + Send + Sync {
 }
 
 impl<R: Responder + ?Sized> Responder for Arc<R> {
-    fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
+    fn answer(&self, call: &Call<'_>) -> ReplyData {
         (**self).answer(call)
     }
 

@@ -62,11 +62,11 @@ const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 #[derive(Debug)]
 pub struct Server {
     acceptor: net::Acceptor,
-    shared: Arc<Shared>,
+    shared: Arc<ServerState>,
 }
 
 #[derive(Debug)]
-struct Shared {
+struct ServerState {
     cnc: Box<dyn Responder>,
     options: ServerOptions,
     /// The open connections, to end them from outside.
@@ -93,7 +93,7 @@ impl Server {
         options: ServerOptions,
     ) -> io::Result<Self> {
         let (connections, threads) = Default::default();
-        let shared = Arc::new(Shared { cnc: Box::new(cnc), options, connections, threads });
+        let shared = Arc::new(ServerState { cnc: Box::new(cnc), options, connections, threads });
         let (accepting, mut ids) = (Arc::clone(&shared), 0_u64..);
         let acceptor = net::Acceptor::start("cnc-accept", listener, move |stream, peer| {
             lock(&accepting.threads).retain(|thread| !thread.is_finished());
@@ -130,7 +130,7 @@ impl Drop for Server {
     }
 }
 
-impl Shared {
+impl ServerState {
     fn connection(
         self: Arc<Self>,
         id: u64,
@@ -165,7 +165,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 struct Open {
-    shared: Arc<Shared>,
+    shared: Arc<ServerState>,
     id: u64,
 }
 

@@ -182,7 +182,7 @@ fn geo_answers_too(probe: &mut Probe<'_>) -> Step {
 }
 
 fn absent_channel(probe: &mut Probe<'_>) -> Step {
-    let absent = probe.session.profile.absent_channel;
+    let absent = probe.target.profile.absent_channel;
     let number = absent.or_not_applicable("no channel is known to be absent")?;
     let absent = Channel::new(number)?;
     let present = probe.channel()?;
@@ -197,8 +197,8 @@ fn absent_channel(probe: &mut Probe<'_>) -> Step {
 }
 
 fn every_frame(probe: &mut Probe<'_>) -> Step {
-    let broken = std::mem::take(&mut probe.session.broken);
-    let answered = probe.session.answered.clone();
+    let broken = std::mem::take(&mut probe.target.broken);
+    let answered = probe.target.answered.clone();
     if answered.is_empty() && broken.checks == 0 {
         return Err(Stop::inconclusive("no frame was answered"));
     }
@@ -223,8 +223,8 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
 
 /// That it is not 0 is all that is required of an error number.
 fn every_refusal(probe: &mut Probe<'_>) -> Step {
-    let by_nothing = std::mem::take(&mut probe.session.refusals.by_nothing);
-    if probe.session.refusals.by_number > 0 {
+    let by_nothing = std::mem::take(&mut probe.target.refusals.by_nothing);
+    if probe.target.refusals.by_number > 0 {
         // Whether a reply that is an error stops early or not, it was read as one.
         probe.pass(["ADS-6", "ADS-7"]);
     }

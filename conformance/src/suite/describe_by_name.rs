@@ -98,7 +98,7 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
 
 /// Whether there is a description by name; one that may be there is taken at its word.
 fn is_there(probe: &mut Probe<'_>, channel: Channel, known: &Description) -> Step {
-    if probe.session.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
+    if probe.target.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
         return Ok(());
     }
     let request = DescribeByName { channel, name: name_of(known) };

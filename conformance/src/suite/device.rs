@@ -24,7 +24,7 @@ impl Probe<'_> {
     /// Asks a task what it says of itself, and keeps it as the evidence of the checks that follow.
     pub fn inquire<R: Inquiry>(&mut self, task: Task) -> Step<Inquired<R>> {
         self.target()?;
-        let inquired = self.session.client.inquire::<R>(task.port());
+        let inquired = self.target.client.inquire::<R>(task.port());
         let fault = inquired.outcome.as_ref().err();
         self.came(fault, &inquired.violations, &inquired, Evidence::from(&inquired))?;
         Ok(inquired)
@@ -74,7 +74,7 @@ fn each<R: Inquiry>(
     mut then: impl FnMut(&mut Probe<'_>, R) -> Step,
 ) -> Step {
     for task in [Task::Com, Task::Sda, Task::Geo] {
-        if !probe.session.profile.has_task(task) {
+        if !probe.target.profile.has_task(task) {
             continue;
         }
         let inquired = probe.inquire::<R>(task)?;

@@ -37,7 +37,7 @@ pub(super) const CASES: &[Row] = &[
 fn ports_answer(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     for port in [AmsPort::GEO, AmsPort::SDA, AmsPort::COM] {
-        if !probe.session.profile.has_port(port) {
+        if !probe.target.profile.has_port(port) {
             continue;
         }
         let of_com = CountObjects::new(channel).into();
@@ -114,7 +114,7 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{zero:?}, that of channel {first} being {there:?}");
         probe.check("GEN-6", none, "no decoder of a channel 0", found);
     }
-    if probe.session.profile.spindles.is_some_and(|spindles| spindles > 0) {
+    if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
         any = true;
         let zero = find(probe, Class::Spindle, 0)?;
         let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);

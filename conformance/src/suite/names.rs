@@ -48,7 +48,7 @@ fn known(probe: &mut Probe<'_>) -> Step<CncString> {
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
-    let names = probe.session.profile.by_name_only.clone();
+    let names = probe.target.profile.by_name_only.clone();
     if names.is_empty() {
         return Err(Stop::not_applicable(
             "no variable is known that is by name only; a profile can name one",

@@ -57,7 +57,7 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
 }
 
 fn platform_axes(probe: &mut Probe<'_>) -> Step {
-    let axes = probe.session.profile.platform_axes;
+    let axes = probe.target.profile.platform_axes;
     if axes == 0 {
         return Err(Stop::not_applicable("no platform axis is claimed"));
     }

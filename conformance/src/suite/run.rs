@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::kit::{Probe, Session};
+use super::kit::{Probe, TargetState};
 
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
@@ -16,60 +16,60 @@ use crate::testee::{self, Terms};
 static TRIES: LazyLock<HashMap<&str, Try>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
-/// Runs the cases: those of the codec against the codec, all others against a session.
+/// Runs the cases: those of the codec against the codec, all others against a target.
 ///
 /// `defect` changes bytes on their way into and out of the codec, to show that its cases can fail.
 pub fn run(
     cases: Vec<Case>,
-    mut session: Option<&mut Session>,
+    mut target: Option<&mut TargetState>,
     defect: Option<&Seed>,
     seed: u32,
 ) -> Vec<Outcome> {
-    let (codec, target): (Vec<Case>, Vec<Case>) =
+    let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
         cases.into_iter().partition(|case| case.needs == Needs::Codec);
     let mut outcomes = Vec::new();
-    if !codec.is_empty() {
+    if !of_codec.is_empty() {
         let mut own = testee::Own { defect: defect.cloned() };
         let terms = Terms { seed, subject: Subject::Codec, edition: None, strict: true };
-        outcomes = testee::judge(&mut own, codec, terms).outcomes;
+        outcomes = testee::judge(&mut own, of_codec, terms).outcomes;
     }
-    outcomes.extend(target.into_iter().map(|case| {
+    outcomes.extend(of_target.into_iter().map(|case| {
         let run = TRIES.get(case.id.as_str()).copied();
-        one(case, run, session.as_deref_mut())
+        one(case, run, target.as_deref_mut())
     }));
-    if let Some(session) = session {
+    if let Some(target) = target {
         // What a panic here leaves changed is reported as such.
-        let _panic = caught(|| Probe::new(session).put_back_rest());
+        let _panic = caught(|| Probe::new(target).put_back_rest());
     }
     outcomes
 }
 
-fn one(case: Case, run: Option<Try>, session: Option<&mut Session>) -> Outcome {
-    let Some(session) = session else {
+fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Outcome {
+    let Some(target) = target else {
         return Outcome::untried(case, Verdict::NotRun, "no target");
     };
     if interrupt::came() {
         return Outcome::interrupted(case);
     }
     // Frames are judged by what there was of them, whatever became of the target.
-    if let Some(why) = session.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
+    if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return Outcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
     }
-    let late = session.deadline.filter(|_| case.needs != Needs::Frames);
+    let late = target.deadline.filter(|_| case.needs != Needs::Frames);
     if let Some(deadline) = late.filter(Deadline::is_over) {
         return Outcome::untried(case, Verdict::Inconclusive, deadline.to_string());
     }
-    let (gate, inside) = (session.client.gate(), session.cnc.is_some());
-    if let Some((verdict, why)) = case.needs.unmet(gate, &session.profile, inside) {
+    let (gate, inside) = (target.client.gate(), target.cnc.is_some());
+    if let Some((verdict, why)) = case.needs.unmet(gate, &target.profile, inside) {
         return Outcome::untried(case, verdict, why);
     }
     let writes = matches!(case.needs, Needs::Writes | Needs::MalformedWrites);
-    if writes && session.changes.any_given_up() {
+    if writes && target.changes.any_given_up() {
         let note = "writes: nothing more is written when a value could not be restored";
         return Outcome::untried(case, Verdict::NotRun, note);
     }
     // What a case has changed is restored after the deadline too.
-    let mut probe = Probe::new(session).with_deadline(late);
+    let mut probe = Probe::new(target).with_deadline(late);
     let begun = caught(|| match (case.body, run) {
         (Body::Probe, Some(run)) => run(&mut probe),
         (Body::Probe, None) => Err(Stop::Harness(format!("no function tries {}", case.id))),
@@ -85,7 +85,7 @@ fn one(case: Case, run: Option<Try>, session: Option<&mut Session>) -> Outcome {
         Err(panicked) => Err(Stop::Harness(panicked)),
     };
     let put_back = caught(|| probe.put_back()).unwrap_or_else(|panicked| {
-        probe.session.changes.give_up();
+        probe.target.changes.give_up();
         Err(Stop::Harness(panicked))
     });
     let step = step.and(put_back);
@@ -138,8 +138,8 @@ mod tests {
         );
         let gate = Gate::queries().with_allowed(Some(Allowed::from_toml(&file).unwrap()));
         let client = Client::connect(Target::local(server.addr(), NET_ID), gate).unwrap();
-        let mut session = Session::new(client, Profile::DEVICE);
-        let before = Probe::new(&mut session).value_at(&place()).unwrap();
+        let mut target = TargetState::new(client, Profile::DEVICE);
+        let before = Probe::new(&mut target).value_at(&place()).unwrap();
         let case = || Case {
             id: "write-and-panic".to_owned(),
             title: String::new(),
@@ -149,14 +149,13 @@ mod tests {
             body: Body::Probe,
         };
         let reads: Try = |probe| probe.value_at(&place()).map(drop);
-        let [panicked, next] =
-            [panics, reads].map(|run| one(case(), Some(run), Some(&mut session)));
+        let [panicked, next] = [panics, reads].map(|run| one(case(), Some(run), Some(&mut target)));
         assert_eq!(
             [panicked.verdict(), next.verdict()],
             [Verdict::HarnessError, Verdict::NotObserved]
         );
         assert_eq!(panicked.note.as_deref(), Some("the case panicked: in a case"));
-        assert_eq!(Probe::new(&mut session).value_at(&place()).unwrap(), before);
-        assert!(session.changes().left().is_empty());
+        assert_eq!(Probe::new(&mut target).value_at(&place()).unwrap(), before);
+        assert!(target.changes().left().is_empty());
     }
 }

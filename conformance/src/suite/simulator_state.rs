@@ -148,7 +148,7 @@ fn write(
         // The two homes of platform data are read.
         let rules: Vec<Rule> = rules.iter().filter(|rule| rule.id != "COM-4").copied().collect();
         let Ok(request) = place.write(value) else { continue };
-        if probe.session.profile.leaves(&held.name.to_string()) || !probe.may(request)? {
+        if probe.target.profile.leaves(&held.name.to_string()) || !probe.may(request)? {
             continue;
         }
         let exchange = probe.send(request)?;

@@ -55,7 +55,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         let whole = probe.kinds().len() == KINDS.len();
         let kept = if whole { all == sum } else { all >= sum };
         probe.check("VAR-1", kept, || format!("{sum} variables of all kinds"), found);
-        if !probe.session.client.gate().lets_malformed_pass() {
+        if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }
         // The same question in no byte at all.
@@ -172,7 +172,7 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
 }
 
 fn other_channel(probe: &mut Probe<'_>) -> Step {
-    let Some(absent) = probe.session.profile.absent_channel else {
+    let Some(absent) = probe.target.profile.absent_channel else {
         return Err(Stop::not_applicable(
             "no channel is known that is not there; a profile can name one",
         ));

@@ -128,7 +128,7 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
-    let names = probe.session.profile.by_name_only.clone();
+    let names = probe.target.profile.by_name_only.clone();
     let names: Result<Vec<CncString>, _> = names.iter().map(|name| name.parse()).collect();
     by_names(probe, "VAR-18", names?)
 }

@@ -108,7 +108,7 @@ fn may_be_a_number(type_name: &str) -> bool {
 /// Whether such a write is refused nobody says.
 fn empty_places(probe: &mut Probe<'_>) -> Step {
     let mut all: Vec<(ValueAddress, String)> = Vec::new();
-    let empty = probe.session.profile.empty_places.clone();
+    let empty = probe.target.profile.empty_places.clone();
     for instance in probe.instances()? {
         let is_empty = empty.contains(&(instance.channel, instance.axis));
         if !is_empty || !OF_PLACES.contains(&instance.class) {

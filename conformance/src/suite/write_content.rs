@@ -110,7 +110,7 @@ fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
     let number = at.saturating_sub(start);
-    let beside = match probe.session.cnc {
+    let beside = match probe.target.cnc {
         Some(_) => "SDA-9".into(),
         None => assumed("SDA-9"),
     };

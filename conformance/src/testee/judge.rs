@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::describe::describe;
-use super::plan::{Asked, Purpose, plan};
+use super::plan::{PlannedQuestion, Purpose, plan};
 use super::protocol_rules::ProtocolRules;
 use super::verdicts::{Reactions, Terms, Verdicts};
 use super::{Reaction, Testee};
@@ -66,7 +66,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
     let mut kept = 0_usize;
     let mut panicked = HashMap::new();
-    for Asked { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
+    for PlannedQuestion { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
         if let Some(why) = testee.over() {
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;

@@ -22,7 +22,7 @@ pub(super) enum Purpose {
 
 /// One question.
 #[derive(Clone, Debug)]
-pub(super) struct Asked {
+pub(super) struct PlannedQuestion {
     pub(super) purpose: Purpose,
     pub(super) question: Question,
 }
@@ -37,13 +37,13 @@ pub(super) fn plan(
     capabilities: &Capabilities,
     edition: &str,
     seed: u32,
-) -> Vec<Asked> {
+) -> Vec<PlannedQuestion> {
     let claimed = cases.iter().enumerate().flat_map(|(place, case)| {
         let questions = questions(case, edition).into_iter();
         let mine = questions.filter(|one| capabilities.claim(&one.op, &one.stream));
-        mine.map(move |question| Asked { purpose: Purpose::Case(place), question })
+        mine.map(move |question| PlannedQuestion { purpose: Purpose::Case(place), question })
     });
-    let mut asked: Vec<Asked> = claimed.collect();
+    let mut asked: Vec<PlannedQuestion> = claimed.collect();
     let sanity = sanity(cases, &asked);
     asked.sort_by_cached_key(|one| match one.purpose {
         Purpose::Case(case) => {
@@ -58,7 +58,7 @@ pub(super) fn plan(
         asked.insert(place, made_up(order(seed, &part.to_string()), edition));
     }
     let again = |first: bool| {
-        sanity.iter().map(move |(case, question)| Asked {
+        sanity.iter().map(move |(case, question)| PlannedQuestion {
             purpose: Purpose::Sanity { case: *case, first },
             question: question.clone(),
         })
@@ -67,7 +67,7 @@ pub(super) fn plan(
 }
 
 /// A few of different streams, both accepted and refused ones.
-fn sanity(cases: &[Case], asked: &[Asked]) -> Vec<(usize, Question)> {
+fn sanity(cases: &[Case], asked: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     let mut chosen: Vec<(usize, Question)> = Vec::new();
     for one in asked {
         let Purpose::Case(case) = one.purpose else { continue };
@@ -90,10 +90,10 @@ fn sanity(cases: &[Case], asked: &[Asked]) -> Vec<(usize, Question)> {
 }
 
 /// An op that nobody has, for a stream that everybody may have.
-fn made_up(number: u64, edition: &str) -> Asked {
+fn made_up(number: u64, edition: &str) -> PlannedQuestion {
     let blank = Question::new(format!("decode-{number:x}"), "object-count", edition);
     let question = Question { hex: Some(vec![1, 0, 0, 0]), ..blank };
-    Asked { purpose: Purpose::MadeUp, question }
+    PlannedQuestion { purpose: Purpose::MadeUp, question }
 }
 
 pub fn questions(case: &Case, edition: &str) -> Vec<Question> {

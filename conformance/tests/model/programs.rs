@@ -1,7 +1,7 @@
 //! What the model says of the NC programs of a channel.
 
 use ads_cnc::streaming::ProgramEnd;
-use ads_cnc_conformance::simulator::program::{Outcome, ScriptState, State};
+use ads_cnc_conformance::simulator::program::{ScriptState, ServiceOutcome, State};
 use ads_cnc_conformance::simulator::{DEFAULT_MODEL, Model};
 
 use super::common::file::TestFile;
@@ -128,8 +128,10 @@ fn the_program_asks_as_the_model_says() {
     let answers = cnc.0.with_script(1, |script| {
         let script = script.unwrap();
         let answers = script.answers().map(|answer| match &answer.outcome {
-            Outcome::Response { state, text } => format!("{} {state} {text}", answer.request),
-            Outcome::TimedOut => format!("{} -", answer.request),
+            ServiceOutcome::Response { state, text } => {
+                format!("{} {state} {text}", answer.request)
+            }
+            ServiceOutcome::TimedOut => format!("{} -", answer.request),
         });
         (answers.collect::<Vec<_>>(), script.state())
     });

@@ -7,7 +7,7 @@ use std::time::Duration;
 use ads_cnc::CncString;
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_conformance::simulator::program::service::*;
-use ads_cnc_conformance::simulator::program::{Outcome, Request, Wait};
+use ads_cnc_conformance::simulator::program::{Request, ServiceOutcome, Wait};
 use ads_cnc_conformance::suite::replay::*;
 use ads_cnc_vectors::Given;
 
@@ -112,12 +112,12 @@ impl Asking for Call {
         Some(self.0.step())
     }
 
-    fn outcome(&self) -> Option<Outcome> {
+    fn outcome(&self) -> Option<ServiceOutcome> {
         match self.0.step() {
             CallStep::Done { state, response } => {
-                Some(Outcome::Response { state, text: CncString::from(response) })
+                Some(ServiceOutcome::Response { state, text: CncString::from(response) })
             }
-            CallStep::TimedOut => Some(Outcome::TimedOut),
+            CallStep::TimedOut => Some(ServiceOutcome::TimedOut),
             _ => None,
         }
     }

@@ -6,7 +6,7 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
 use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceInterface};
 use ads_cnc_conformance::simulator::program::{
-    Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
+    Repeat, Request, Script, ScriptConfig, ScriptState, ServiceOutcome, Wait,
 };
 use ads_cnc_conformance::suite::replay::square_root;
 use proptest::prelude::*;
@@ -75,7 +75,7 @@ fn square_roots_over_and_over() {
                 [at % 2];
         let text = CncString::from(CncStr::new(text).unwrap());
         assert_eq!(answer.request, at % 2);
-        assert_eq!(answer.outcome, Outcome::Response { state, text });
+        assert_eq!(answer.outcome, ServiceOutcome::Response { state, text });
     }
 }
 
@@ -128,7 +128,7 @@ fn nobody_answers() {
     by_cycle.advance(ms(3_600_000), &mut interface);
     // REQUEST_STATE is written in the third cycle; 10 ms behind the end comes the next.
     let ends: Vec<_> = by_cycle.answers().map(|answer| (answer.at, &answer.outcome)).collect();
-    let timed_out = &Outcome::TimedOut;
+    let timed_out = &ServiceOutcome::TimedOut;
     assert_eq!(ends, [(ms(5002), timed_out), (ms(10_014), timed_out), (ms(15_026), timed_out)]);
     assert_eq!((by_cycle.state(), by_cycle.timed_out()), (ScriptState::Finished, 3));
 

@@ -7,15 +7,21 @@ use ads_cnc::{Decode as _, Error};
 
 use super::super::findings::{Observation, Topic};
 use super::super::frames::Span;
-use super::super::table::{Ending, Way};
+use super::super::table::{Ending, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
-use super::{Judge, Lost, PATIENCE, Seen, is_cnc, is_reply, location, service_clause};
+use super::{CapturedFrame, Judge, Lost, PATIENCE, is_cnc, is_reply, location, service_clause};
 use crate::judge::Checks as _;
 
 impl Judge {
-    pub(super) fn broken(&mut self, error: Error, bytes: &[u8], way: &Way, span: Span) {
+    pub(super) fn broken(
+        &mut self,
+        error: Error,
+        bytes: &[u8],
+        way: &SegmentDirection,
+        span: Span,
+    ) {
         let observation = Observation::Bytes(bytes, location(way, Some(span), None));
         let topic = self.side(way);
         self.records.on(topic, &observation).check("ADS-5", false, "the headers of a frame", error);
@@ -23,7 +29,7 @@ impl Judge {
     }
 
     /// Who sent this, as far as the ports tell.
-    fn side(&self, way: &Way) -> Topic {
+    fn side(&self, way: &SegmentDirection) -> Topic {
         let asks = self.waiting.range((way.connection, 0)..=(way.connection, u32::MAX)).next();
         match asks.and_then(|(_, all)| all.front()) {
             Some(asked) if asked.way.from == way.from => Topic::ClientFrames,
@@ -35,7 +41,7 @@ impl Judge {
     }
 
     /// A frame whose rest was not captured.
-    pub(super) fn cut(&mut self, bytes: &[u8], way: &Way, span: Span) {
+    pub(super) fn cut(&mut self, bytes: &[u8], way: &SegmentDirection, span: Span) {
         let observation = Observation::Bytes(bytes, location(way, Some(span), None));
         let there = bytes.len();
         let found = format!("{there} bytes of a frame whose rest was not captured");
@@ -80,7 +86,7 @@ impl Judge {
     }
 
     /// What a lost answer leaves open: the requirement of the function that was asked.
-    fn open_function(&mut self, asked: &Seen, observation: &Observation<'_>, found: &str) {
+    fn open_function(&mut self, asked: &CapturedFrame, observation: &Observation<'_>, found: &str) {
         let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some(call)) = Call::from_frame(&frame) else { return };
         let Ok(request) = call.dispatch() else { return };
@@ -91,7 +97,7 @@ impl Judge {
         }
     }
 
-    pub(super) fn gap(&mut self, length: u64, way: &Way, mark: Mark) {
+    pub(super) fn gap(&mut self, length: u64, way: &SegmentDirection, mark: Mark) {
         count(&mut self.tally.gaps);
         self.lost.entry(way.connection).or_default().gap = Some(mark.packet);
         self.gap = self.gap.max(Some(mark.packet));
@@ -136,7 +142,7 @@ impl Judge {
     }
 
     /// Nothing was captured of one direction, that of the CNC or that of the client.
-    fn one_sided(&mut self, way: &Way, is_cnc: bool) {
+    fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
         let observation = Observation::Bytes(&[], location(way, None, None));
         let (topic, found) = match is_cnc {
             true => (Topic::CncFrames, "nothing of what the CNC sent was captured"),
@@ -145,7 +151,7 @@ impl Judge {
         self.records.on(topic, &observation).open("ADS-5", found);
     }
 
-    fn unanswered(&mut self, asked: &Seen, lost: &Lost, ending: Ending) {
+    fn unanswered(&mut self, asked: &CapturedFrame, lost: &Lost, ending: Ending) {
         count(&mut self.tally.unanswered);
         let observation =
             Observation::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));

@@ -13,7 +13,7 @@ mod target;
 mod values;
 mod variables;
 
-pub(super) use target::Target;
+pub(super) use target::TargetVariable;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;
@@ -24,7 +24,7 @@ use ads_cnc::operation::{Call, Request, Task};
 use self::pair::Early;
 use super::findings::{Location, Observation, Topic, TopicRecords};
 use super::frames::Span;
-use super::table::{Event, Table, Way};
+use super::table::{Event, SegmentDirection, Table};
 use super::tally::{Tally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
@@ -41,12 +41,12 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A frame with what is known of it.
 #[derive(Clone, Debug)]
-struct Seen {
+struct CapturedFrame {
     /// Its number among all frames.
     number: u64,
     frame: Vec<u8>,
     header: AmsHeader,
-    way: Way,
+    way: SegmentDirection,
     span: Span,
 }
 
@@ -58,7 +58,7 @@ struct Lost {
     /// The last packet behind a gap.
     gap: Option<u64>,
     /// The first answers to nothing.
-    unasked: Vec<Seen>,
+    unasked: Vec<CapturedFrame>,
 }
 
 /// What is known of one CNC.
@@ -88,7 +88,7 @@ pub(super) struct Judge {
     records: TopicRecords,
     pub(super) tally: Tally,
     /// By connection and invoke ID.
-    waiting: BTreeMap<(u64, u32), VecDeque<Seen>>,
+    waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
     /// The same keys by invoke ID.
     waiting_ids: BTreeSet<(u32, u64)>,
     /// The numbers of those that wait on each connection, with their invoke IDs.
@@ -156,7 +156,7 @@ fn is_reply(header: &AmsHeader) -> bool {
     }
 }
 
-fn location(way: &Way, asked: Option<Span>, answered: Option<Span>) -> Location {
+fn location(way: &SegmentDirection, asked: Option<Span>, answered: Option<Span>) -> Location {
     Location { from: way.from, to: way.to, asked, answered }
 }
 
@@ -223,12 +223,12 @@ impl Judge {
         }
     }
 
-    fn frame(&mut self, frame: Vec<u8>, way: Way, span: Span, table: &Table) {
+    fn frame(&mut self, frame: Vec<u8>, way: SegmentDirection, span: Span, table: &Table) {
         count(&mut self.tally.frames);
         let Ok(Some((whole, _))) = FrameRef::split(&frame, u32::MAX) else { return };
         let header = whole.header();
         self.newest = self.newest.max(span.last.packet);
-        let seen = Seen { number: self.tally.frames, header, way, span, frame };
+        let seen = CapturedFrame { number: self.tally.frames, header, way, span, frame };
         match is_reply(&header) {
             true => self.reply(seen),
             false => self.request(seen, table),
@@ -236,7 +236,7 @@ impl Judge {
         self.tidy(table);
     }
 
-    fn request(&mut self, seen: Seen, table: &Table) {
+    fn request(&mut self, seen: CapturedFrame, table: &Table) {
         let header = seen.header;
         if !is_cnc(header.target.port) {
             count_of(&mut self.tally.other_ports, header.target.port.0);
@@ -278,7 +278,7 @@ impl Judge {
         self.wait(seen);
     }
 
-    fn exchange(&mut self, asked: &Seen, reply: &Seen) {
+    fn exchange(&mut self, asked: &CapturedFrame, reply: &CapturedFrame) {
         count(&mut self.tally.exchanges);
         self.is_crossed |= asked.way.connection != reply.way.connection;
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::findings::{Observation, Topic};
-use super::super::table::{Table, Way};
+use super::super::table::{SegmentDirection, Table};
 use super::super::tally::{count, count_of};
-use super::{Judge, Seen, is_cnc, location, service_clause};
+use super::{CapturedFrame, Judge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Requests of a connection that wait for their answers, and bytes of those of all connections; of
@@ -31,7 +31,7 @@ const SHOWN_BYTES: usize = 0x400;
 /// Answers without a request, in the order of the capture.
 #[derive(Debug, Default)]
 pub(super) struct Early {
-    all: BTreeMap<u64, Seen>,
+    all: BTreeMap<u64, CapturedFrame>,
     /// Their numbers by invoke ID.
     ids: BTreeSet<(u32, u64)>,
     /// Their numbers by connection.
@@ -40,14 +40,14 @@ pub(super) struct Early {
 }
 
 impl Early {
-    fn push(&mut self, reply: Seen) {
+    fn push(&mut self, reply: CapturedFrame) {
         self.bytes = self.bytes.saturating_add(reply.frame.len());
         self.ids.insert((reply.header.invoke_id, reply.number));
         self.connections.insert((reply.way.connection, reply.number));
         self.all.insert(reply.number, reply);
     }
 
-    fn remove(&mut self, number: u64) -> Option<Seen> {
+    fn remove(&mut self, number: u64) -> Option<CapturedFrame> {
         let reply = self.all.remove(&number)?;
         self.bytes = self.bytes.saturating_sub(reply.frame.len());
         self.ids.remove(&(reply.header.invoke_id, number));
@@ -56,7 +56,7 @@ impl Early {
     }
 
     /// The number of the first that fits, of the first with this invoke ID.
-    fn find(&self, id: u32, fits: impl Fn(&Seen) -> bool) -> Option<u64> {
+    fn find(&self, id: u32, fits: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
         let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let alike = alike.filter_map(|(_, number)| self.all.get(number));
         alike.into_iter().find(|reply| fits(reply)).map(|reply| reply.number)
@@ -75,7 +75,7 @@ impl Early {
 /// What a request takes beside its bytes while it waits.
 const WAITING_OVERHEAD: usize = 1280;
 
-impl Seen {
+impl CapturedFrame {
     /// The memory it takes while it waits.
     fn memory(&self) -> usize {
         self.frame.len().saturating_add(WAITING_OVERHEAD)
@@ -97,7 +97,7 @@ impl Seen {
 
 impl Judge {
     /// A request that is to be answered, if it was not before it was captured.
-    pub(super) fn wait(&mut self, seen: Seen) {
+    pub(super) fn wait(&mut self, seen: CapturedFrame) {
         let id = seen.header.invoke_id;
         let answered = self.early.find(id, |reply| {
             let last = reply.span.last.packet.saturating_add(REORDERED_MAX);
@@ -137,7 +137,7 @@ impl Judge {
     }
 
     /// One of the requests with this key, which waits no more.
-    pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<Seen> {
+    pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<CapturedFrame> {
         let all = self.waiting.get_mut(&key)?;
         let one = all.remove(place)?;
         self.waiting_bytes = self.waiting_bytes.saturating_sub(one.memory());
@@ -153,16 +153,16 @@ impl Judge {
 
     /// Whether another request with this invoke ID still waits; none if its answer may only not
     /// have been captured.
-    pub(super) fn is_repeated(&self, seen: &Seen, table: &Table) -> Option<bool> {
+    pub(super) fn is_repeated(&self, seen: &CapturedFrame, table: &Table) -> Option<bool> {
         let lost = self.lost.get(&seen.way.connection);
-        let back = Way { from: seen.way.to, to: seen.way.from, ..seen.way };
+        let back = SegmentDirection { from: seen.way.to, to: seen.way.from, ..seen.way };
         let got = seen.span.last.acknowledged?;
         let is_whole = lost.is_none_or(|lost| !lost.joined && lost.gap.is_none());
         let known = is_whole && table.has(&back, got);
         known.then(|| self.waiting.contains_key(&(seen.way.connection, seen.header.invoke_id)))
     }
 
-    pub(super) fn reply(&mut self, reply: Seen) {
+    pub(super) fn reply(&mut self, reply: CapturedFrame) {
         match self.asked(&reply) {
             Some(asked) => self.exchange(&asked, &reply),
             None => self.early.push(reply),
@@ -170,10 +170,10 @@ impl Judge {
     }
 
     /// The request that a reply answers, from whom it goes to.
-    fn asked(&mut self, reply: &Seen) -> Option<Seen> {
+    fn asked(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
         let key = (reply.way.connection, reply.header.invoke_id);
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
-        let fits = |asked: &Seen| asked.mirrors(reply) && !asked.follows(reply);
+        let fits = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
         let here = self.waiting.get(&key).and_then(|all| match lost {
             // Whoever uses an invoke ID once more has got the answer before, which was lost.
             true => {
@@ -203,7 +203,7 @@ impl Judge {
     /// Gives up the requests of replies for which none will come any more.
     pub(super) fn tidy(&mut self, table: &Table) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
-            let back = Way { from: first.way.to, to: first.way.from, ..first.way };
+            let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
             let last = first.span.last.packet.saturating_add(REORDERED_MAX);
             let late = last < self.newest && !table.waits(&back);
             if !late && !self.early.is_full() {
@@ -223,7 +223,7 @@ impl Judge {
     }
 
     /// A reply of which no request goes from where it goes to.
-    fn settle(&mut self, reply: Seen) {
+    fn settle(&mut self, reply: CapturedFrame) {
         let header = reply.header;
         let connection = reply.way.connection;
         let key = (connection, header.invoke_id);
@@ -253,7 +253,7 @@ impl Judge {
     }
 
     /// An answer to nothing, when all there is of its connection is known.
-    pub(super) fn unasked(&mut self, reply: &Seen, is_open: bool) {
+    pub(super) fn unasked(&mut self, reply: &CapturedFrame, is_open: bool) {
         let observation =
             Observation::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
         let mut page = self.records.on(Topic::CncFrames, &observation);

@@ -5,13 +5,13 @@ use ads_cnc::{VariableAccess, VariableType};
 
 use super::super::findings::{Observation, Topic};
 use super::Bench;
-use super::target::Target;
+use super::target::TargetVariable;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.
 const TEXT_MAX: usize = 800;
 
-impl Target {
+impl TargetVariable {
     /// Bytes of what is read or written, if the type says them.
     fn size(&self) -> Option<u32> {
         let element = self.description.var_type.element_size()?;

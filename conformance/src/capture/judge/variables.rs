@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::findings::{Observation, Topic};
-use super::target::Target;
+use super::target::TargetVariable;
 use super::{Bench, Room};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
@@ -59,11 +59,11 @@ impl Variables {
     }
 
     /// The described variable that a request reads or writes, and where in it.
-    pub(super) fn described(&self, request: &Request<'_>) -> Option<Target> {
+    pub(super) fn described(&self, request: &Request<'_>) -> Option<TargetVariable> {
         let by_handle = |group: u32, handle: u32, indices: Vec<u32>| {
             let channel = self.channels.get(&group)?;
             let (description, ..) = channel.described.get(channel.handles.get(&handle)?)?;
-            Some(Target { description: description.clone(), indices })
+            Some(TargetVariable { description: description.clone(), indices })
         };
         let group = |channel: ads_cnc::address::Channel| {
             use ads_cnc::address::{Attribute, Class};
@@ -82,11 +82,11 @@ impl Variables {
         }
     }
 
-    fn by_name(&self, group: u32, name: CncStr<'_>) -> Option<Target> {
+    fn by_name(&self, group: u32, name: CncStr<'_>) -> Option<TargetVariable> {
         let channel = self.channels.get(&group)?;
         let of = |name: String, indices| {
             let (description, ..) = channel.described.get(&name)?;
-            Some(Target { description: description.clone(), indices })
+            Some(TargetVariable { description: description.clone(), indices })
         };
         let path = VariablePath::from_text(name).ok()?;
         of(name.to_string(), Vec::new())

@@ -14,7 +14,7 @@ use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Changes, Session};
+use crate::suite::{self, Changes, TargetState};
 use crate::text::Moment;
 
 impl Run {
@@ -43,7 +43,7 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        let session = Session::new(client, profile);
+        let session = TargetState::new(client, profile);
         let session = session.with_changes(changes.clone()).with_deadline(deadline);
         let target = TargetReport {
             name: "device".to_owned(),
@@ -74,7 +74,7 @@ impl Run {
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, _running) = session.into_parts();
-        let session = Session::new(client, profile).with_cnc(cnc);
+        let session = TargetState::new(client, profile).with_cnc(cnc);
         let target = TargetReport {
             name: match &defect {
                 None => "simulated CNC".to_owned(),
@@ -91,7 +91,7 @@ impl Run {
     fn judge(
         &self,
         plan: Plan,
-        mut session: Session,
+        mut session: TargetState,
         defect: Option<&Seed>,
         about: About,
     ) -> Result<Report, Stopped> {

@@ -8,7 +8,7 @@ use ads_cnc::streaming::{LineError, NcText};
 const SHOWN_MAX: usize = 100;
 
 /// A text that can be sent.
-pub(super) struct Checked<'a> {
+pub(super) struct CheckedText<'a> {
     pub(super) text: NcText<'a>,
     /// Places where the CNC would end streaming.
     pub(super) ends: usize,
@@ -16,7 +16,11 @@ pub(super) struct Checked<'a> {
 
 /// Looks through a text and says what is wrong, one line for each place; nothing if there are lines
 /// that cannot be sent.
-pub(super) fn check<'a>(bytes: &'a [u8], name: &str, out: &mut dyn Write) -> Option<Checked<'a>> {
+pub(super) fn check<'a>(
+    bytes: &'a [u8],
+    name: &str,
+    out: &mut dyn Write,
+) -> Option<CheckedText<'a>> {
     let mut messages = Messages { out, count: 0 };
     let Ok(text) = NcText::new(bytes) else {
         for (line, error) in line_errors(bytes) {
@@ -41,7 +45,7 @@ pub(super) fn check<'a>(bytes: &'a [u8], name: &str, out: &mut dyn Write) -> Opt
         messages.say(format_args!("{name}:{line}:{column}: {level}: {what}"));
     }
     messages.end();
-    Some(Checked { text, ends })
+    Some(CheckedText { text, ends })
 }
 
 struct Messages<'o> {

@@ -27,9 +27,9 @@ use crate::judge::Exit;
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::text::duration;
-use check::Checked;
+use check::CheckedText;
 use progress::Progress;
-use send::{End, Retry, Sending};
+use send::{Retry, SendEnd, Sending};
 
 const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 
@@ -101,7 +101,8 @@ impl Stream {
     fn run(&self) -> Result<Exit, Trouble> {
         let name = self.name();
         let bytes = self.read(&name)?;
-        let Checked { text, ends } = match check::check(&bytes, &name, &mut io::stderr().lock()) {
+        let CheckedText { text, ends } = match check::check(&bytes, &name, &mut io::stderr().lock())
+        {
             Some(checked) => checked,
             None => {
                 complain("nothing was sent: these lines cannot be");
@@ -167,12 +168,12 @@ impl Stream {
             return Err(Trouble::Internal(format!("that could not be written: {error}")));
         }
         Ok(match end {
-            End::Done => Exit::Success,
-            End::Interrupted => {
+            SendEnd::Done => Exit::Success,
+            SendEnd::Interrupted => {
                 complain("interrupted. The machine runs what the CNC has taken");
                 Exit::Nothing
             }
-            End::GivenUp(error) => {
+            SendEnd::GivenUp(error) => {
                 complain(format_args!(
                     "given up: the CNC still refuses, with {error:#x}. Is the streaming program (see \
                      P-CHAN-00158) running in channel {channel}, and does nothing hold the machine? \
@@ -180,7 +181,7 @@ impl Stream {
                 ));
                 Exit::Failure
             }
-            End::Stopped(trouble) => {
+            SendEnd::Stopped(trouble) => {
                 complain(&trouble);
                 if trouble.ads_error().is_some() {
                     complain(format_args!(
@@ -190,7 +191,7 @@ impl Stream {
                 }
                 trouble.exit()
             }
-            End::Unknown(trouble) => {
+            SendEnd::Unknown(trouble) => {
                 complain(&trouble);
                 complain("it is not sent again: lines that are run twice may do harm");
                 trouble.exit()

@@ -19,7 +19,7 @@ pub(super) struct Retry {
 }
 
 /// Why no more is sent.
-pub(super) enum End {
+pub(super) enum SendEnd {
     /// All of it was taken.
     Done,
     /// A signal.
@@ -50,12 +50,12 @@ impl Sending<'_> {
         session: &mut Session,
         interrupt: &Interrupt,
         progress: &mut Progress,
-    ) -> End {
+    ) -> SendEnd {
         loop {
             if interrupt.came() {
-                return End::Interrupted;
+                return SendEnd::Interrupted;
             }
-            let Some(packet) = self.sender.packet() else { return End::Done };
+            let Some(packet) = self.sender.packet() else { return SendEnd::Done };
             self.out = packet.iter().filter(|&&byte| byte == b'\n').count();
             let write = WriteProgramStream::new(self.channel, packet);
             let trouble = session.call(&write).err();
@@ -65,7 +65,7 @@ impl Sending<'_> {
                 Some(trouble) => trouble.ads_error().map_or(Ack::Rejected, Ack::from_result),
             };
             if let Err(trouble) = acknowledge(&mut self.sender, ack) {
-                return End::Stopped(trouble);
+                return SendEnd::Stopped(trouble);
             }
             match trouble {
                 None => progress.show(self.sender.sent(), None),
@@ -73,27 +73,33 @@ impl Sending<'_> {
                     self.refusals = self.refusals.saturating_add(1);
                     let times = self.sender.busy_count();
                     if times > self.retry.times {
-                        return End::GivenUp(error);
+                        return SendEnd::GivenUp(error);
                     }
                     let times =
                         if times == 1 { "once".to_owned() } else { format!("{times} times") };
                     let waits = format!("refused {times} with {error:#x}");
                     progress.show(self.sender.sent(), Some(&waits));
                     if interrupt.sleep(self.retry.after) {
-                        return End::Interrupted;
+                        return SendEnd::Interrupted;
                     }
                 }
                 // It may have arrived.
                 Some(trouble @ (Trouble::NoAnswer(_) | Trouble::Reply(_))) => {
-                    return End::Unknown(trouble);
+                    return SendEnd::Unknown(trouble);
                 }
-                Some(trouble) => return End::Stopped(trouble),
+                Some(trouble) => return SendEnd::Stopped(trouble),
             }
         }
     }
 
     /// What was taken, and what was not.
-    pub(super) fn summary(&self, name: &str, lines: usize, end: &End, took: Duration) -> String {
+    pub(super) fn summary(
+        &self,
+        name: &str,
+        lines: usize,
+        end: &SendEnd,
+        took: Duration,
+    ) -> String {
         let sent = self.sender.sent();
         let (packets, bytes, rate) = (sent.packets, Size(sent.bytes), Rate(sent.bytes, took));
         let channel = self.channel.number();
@@ -119,7 +125,7 @@ impl Sending<'_> {
         };
         summary.push_str(&refused);
         let mut next = sent.lines.saturating_add(1);
-        if let End::Unknown(_) = end {
+        if let SendEnd::Unknown(_) = end {
             let behind = next.saturating_add(self.out);
             let out = range(next, behind.saturating_sub(1));
             let _infallible = write!(summary, "\n  not known whether it was taken: {out}");

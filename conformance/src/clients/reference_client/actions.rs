@@ -14,7 +14,7 @@ use ads_cnc::{CncStr, Descriptor, Handle, Kind, U32List};
 use serde_json::{Value, json};
 
 use super::error::Fail;
-use super::wire::Wire;
+use super::wire::Connection;
 use super::{DONE, Flaw, service, streaming};
 use crate::clients::Action;
 use crate::values::{self, Type};
@@ -84,7 +84,7 @@ fn numbers(text: &str) -> Result<Vec<u32>, Fail> {
     text.split(',').map(|one| Ok(one.trim().parse()?)).collect()
 }
 
-fn shown(wire: &Wire, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
+fn shown(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
     let mut ty = ty.clone();
     if wire.has(Flaw::Unsigned) {
         ty.data_type = ty.data_type.map(|data_type| match data_type {
@@ -96,7 +96,7 @@ fn shown(wire: &Wire, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
     values::value_of(&ty, bytes).ok_or_else(|| format!("{} bytes are no {ty}", bytes.len()).into())
 }
 
-pub(super) fn act(wire: &mut Wire, action: &Action) -> Result<Value, Fail> {
+pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail> {
     let mut args = Arguments(action.args.iter());
     let args = &mut args;
     let mut reply = Vec::new();
@@ -217,7 +217,11 @@ pub(super) fn act(wire: &mut Wire, action: &Action) -> Result<Value, Fail> {
     })
 }
 
-fn by_handle(wire: &mut Wire, action: &Action, args: &mut Arguments<'_>) -> Result<Value, Fail> {
+fn by_handle(
+    wire: &mut Connection,
+    action: &Action,
+    args: &mut Arguments<'_>,
+) -> Result<Value, Fail> {
     let (channel, handle) = (args.channel()?, Handle(args.number()?));
     let indices = match args.text()? {
         "-" => Vec::new(),
@@ -234,7 +238,7 @@ fn by_handle(wire: &mut Wire, action: &Action, args: &mut Arguments<'_>) -> Resu
     Ok(DONE)
 }
 
-fn list(wire: &mut Wire, channel: Channel) -> Result<Vec<Descriptor>, Fail> {
+fn list(wire: &mut Connection, channel: Channel) -> Result<Vec<Descriptor>, Fail> {
     let (mut all, mut reply) = (Vec::new(), Vec::new());
     let count = wire.call(&CountObjects::new(channel), &mut reply)?.0;
     let mut next = 1_u32;
@@ -267,7 +271,7 @@ fn descriptor(object: &Descriptor) -> Value {
     })
 }
 
-fn object(wire: &mut Wire, args: &mut Arguments<'_>) -> Result<Descriptor, Fail> {
+fn object(wire: &mut Connection, args: &mut Arguments<'_>) -> Result<Descriptor, Fail> {
     let (channel, name) = (args.channel()?, args.text()?);
     let found = list(wire, channel)?.into_iter().find(|object| object.name() == name);
     found.ok_or_else(|| "there is no such object".into())
@@ -279,7 +283,11 @@ fn content(object: &Descriptor) -> Type {
 
 /// Elements of instances: those of channels, places and spindles are found by their address, all
 /// others are asked for.
-fn element(wire: &mut Wire, action: &Action, args: &mut Arguments<'_>) -> Result<Value, Fail> {
+fn element(
+    wire: &mut Connection,
+    action: &Action,
+    args: &mut Arguments<'_>,
+) -> Result<Value, Fail> {
     let (class, channel, axis) = (args.class()?, args.number()?, args.number()?);
     let number = if action.action == "count-elements" { 0 } else { args.number()? };
     let mut reply = Vec::new();

@@ -8,7 +8,7 @@ use super::Flaw;
 use super::error::Fail;
 
 /// A request, to be spoilt.
-pub(super) struct Asked {
+pub(super) struct OutgoingRequest {
     pub(super) port: AmsPort,
     pub(super) service: Service,
     pub(super) group: u32,
@@ -17,7 +17,7 @@ pub(super) struct Asked {
     pub(super) data: Vec<u8>,
 }
 
-impl Asked {
+impl OutgoingRequest {
     pub(super) fn call(&self) -> Call<'_> {
         Call {
             port: self.port,
@@ -146,7 +146,7 @@ impl Asked {
     }
 }
 
-impl Asked {
+impl OutgoingRequest {
     /// What is done otherwise and is as right.
     fn accustom(&mut self, habit: Flaw) {
         let class = self.group & 0xF000;
@@ -216,7 +216,7 @@ pub(super) fn believe(flaw: Flaw, received: &mut [u8]) -> Result<(), Fail> {
 }
 
 /// What is made of data that is not as long as it should be, or not of its type.
-pub(super) fn misread(flaw: Flaw, asked: &Asked, reply: &mut Vec<u8>) {
+pub(super) fn misread(flaw: Flaw, asked: &OutgoingRequest, reply: &mut Vec<u8>) {
     match flaw {
         Flaw::FillsUp if asked.is(0x44) => reply.resize(4, 0),
         Flaw::FillsUpHandle if asked.is(0x46) => reply.resize(4, 0),

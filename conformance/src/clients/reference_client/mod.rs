@@ -14,10 +14,10 @@ use serde_json::Value;
 
 pub use defects::{Defect, Flaw, defects, find_defect, habits};
 
-use super::message::{Answer, Hello, Identity, PROTOCOL, Place, Reaction};
+use super::message::{Answer, CncAddress, Hello, Identity, PROTOCOL, Reaction};
 use super::{Action, Actor, VOCABULARY};
 use error::Fail;
-use wire::Wire;
+use wire::Connection;
 
 /// This project's client, in this process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,11 +41,11 @@ impl ReferenceClient {
 }
 
 impl Actor for ReferenceClient {
-    fn hello(&mut self, _: &Place) -> Result<Hello, Reaction> {
+    fn hello(&mut self, _: &CncAddress) -> Result<Hello, Reaction> {
         Ok(Self::hello())
     }
 
-    fn act(&mut self, place: &Place, _: &str, action: &Action) -> Reaction {
+    fn act(&mut self, place: &CncAddress, _: &str, action: &Action) -> Reaction {
         answer(self.flaw, place, action)
     }
 
@@ -56,11 +56,12 @@ impl Actor for ReferenceClient {
 
 /// What comes of an action; a death and a hang are only told, so that it can be done in a process
 /// that goes on.
-pub fn answer(flaw: Option<Flaw>, place: &Place, action: &Action) -> Reaction {
+pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> Reaction {
     if flaw == Some(Flaw::Garbles) {
         return Reaction::Garbled("done!".to_owned());
     }
-    let done = Wire::connect(place, flaw).and_then(|mut wire| actions::act(&mut wire, action));
+    let done =
+        Connection::connect(place, flaw).and_then(|mut wire| actions::act(&mut wire, action));
     match done {
         Ok(value) => Reaction::Answer(Answer::Result(value)),
         Err(Fail::Said(why)) => Reaction::Answer(Answer::Error(why)),

@@ -11,17 +11,21 @@ use serde_json::Value;
 use super::Flaw;
 use super::error::Fail;
 use super::streaming::{PATIENCE, PAUSE};
-use super::wire::Wire;
+use super::wire::Connection;
 use crate::values::until_nul;
 
-fn read(wire: &mut Wire, channel: Channel, variable: ServiceVariable) -> Result<Vec<u8>, Fail> {
+fn read(
+    wire: &mut Connection,
+    channel: Channel,
+    variable: ServiceVariable,
+) -> Result<Vec<u8>, Fail> {
     let mut reply = Vec::new();
     let read = ReadByName::new(channel, variable.name())?;
     Ok(wire.call(&read, &mut reply)?.bytes.to_vec())
 }
 
 fn write(
-    wire: &mut Wire,
+    wire: &mut Connection,
     channel: Channel,
     variable: ServiceVariable,
     value: &[u8],
@@ -32,7 +36,7 @@ fn write(
 
 /// A service that answers with what it is asked.
 pub(super) fn serve(
-    wire: &mut Wire,
+    wire: &mut Connection,
     channel: Channel,
     uuid: &str,
     requests: u32,
@@ -77,7 +81,7 @@ pub(super) fn serve(
 
 /// Asks a service, as a CNC's program does.
 pub(super) fn ask(
-    wire: &mut Wire,
+    wire: &mut Connection,
     channel: Channel,
     uuid: &str,
     request: &str,

@@ -11,7 +11,7 @@ use ads_cnc::streaming::{Ack, NcText};
 use serde_json::Value;
 
 use super::error::Fail;
-use super::wire::Wire;
+use super::wire::Connection;
 use super::{DONE, Flaw};
 
 /// From one look to the next.
@@ -20,7 +20,7 @@ pub(super) const PAUSE: Duration = Duration::from_millis(10);
 /// How long it writes a packet again, and waits for a response.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 
-pub(super) fn stream(wire: &mut Wire, channel: Channel, file: &str) -> Result<Value, Fail> {
+pub(super) fn stream(wire: &mut Connection, channel: Channel, file: &str) -> Result<Value, Fail> {
     let program = fs::read(file)?;
     let packets = packets(wire.flaw, &program)?;
     for packet in packets {

@@ -9,24 +9,24 @@ use ads_cnc::operation::{Operation, Service};
 
 use super::Flaw;
 use super::error::Fail;
-use super::faults::{Asked, believe, misread, spoil_frame};
+use super::faults::{OutgoingRequest, believe, misread, spoil_frame};
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
-use crate::clients::Place;
+use crate::clients::CncAddress;
 use crate::net;
 use crate::simulator::DATA_MAX;
 
 /// How long it waits for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
 
-pub(super) struct Wire {
+pub(super) struct Connection {
     stream: TcpStream,
     header: AmsHeader,
     received: Vec<u8>,
     pub(super) flaw: Option<Flaw>,
 }
 
-impl Wire {
-    pub(super) fn connect(place: &Place, flaw: Option<Flaw>) -> Result<Self, Fail> {
+impl Connection {
+    pub(super) fn connect(place: &CncAddress, flaw: Option<Flaw>) -> Result<Self, Fail> {
         let stream = net::rehearse(place.addr, TIMEOUT)?;
         let source = AmsAddr { net_id: net_id_of(stream.local_addr()?.ip()), port: SOURCE_PORT };
         let target = AmsAddr { net_id: place.net_id, port: AmsPort::SDA };
@@ -47,7 +47,7 @@ impl Wire {
         let spec = O::FUNCTION.spec();
         let mut buf = vec![0; operation.encoded_len()];
         let data = operation.encode(&mut buf)?.to_vec();
-        let mut asked = Asked {
+        let mut asked = OutgoingRequest {
             port: spec.task.port(),
             service: spec.service,
             group: operation.index_group().get(),
@@ -65,7 +65,7 @@ impl Wire {
         Ok(operation.decode_reply(reply)?)
     }
 
-    fn exchange(&mut self, asked: &Asked) -> Result<Vec<u8>, Fail> {
+    fn exchange(&mut self, asked: &OutgoingRequest) -> Result<Vec<u8>, Fail> {
         let call = asked.call();
         let invoke_id = self.header.invoke_id.wrapping_add(1);
         self.header = AmsHeader {
@@ -117,7 +117,7 @@ impl Wire {
     }
 
     /// The data of the reply, if it has come whole.
-    fn reply(&mut self, asked: &Asked) -> Result<Option<Vec<u8>>, Fail> {
+    fn reply(&mut self, asked: &OutgoingRequest) -> Result<Option<Vec<u8>>, Fail> {
         loop {
             if let Some(flaw) = self.flaw {
                 believe(flaw, &mut self.received)?;

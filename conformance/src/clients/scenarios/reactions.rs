@@ -10,7 +10,7 @@ use crate::clients::tamper::{LengthField, Tamper, WrongLength};
 use crate::judge::{CLIENT, Rule, assumed};
 
 /// What a client is told while its replies are tampered with.
-struct Told {
+struct ReactionScenario {
     id: &'static str,
     action: &'static str,
     function: Function,
@@ -20,7 +20,7 @@ struct Told {
     result: fn() -> Value,
 }
 
-const NAME: Told = Told {
+const NAME: ReactionScenario = ReactionScenario {
     id: "name",
     action: "read-by-name 1 V.E.Testvar SGN32[5]",
     function: Function::ReadByName,
@@ -29,7 +29,7 @@ const NAME: Told = Told {
     result: || json!([123, 234, 345, 456, 567]),
 };
 
-const COUNT: Told = Told {
+const COUNT: ReactionScenario = ReactionScenario {
     id: "count",
     action: "count-objects 1",
     function: Function::CountObjects,
@@ -38,7 +38,7 @@ const COUNT: Told = Told {
     result: || json!(30),
 };
 
-const WRITE: Told = Told {
+const WRITE: ReactionScenario = ReactionScenario {
     id: "write",
     action: "write-by-name 1 V.E.test[4] SGN32 123",
     function: Function::WriteByName,
@@ -47,7 +47,7 @@ const WRITE: Told = Told {
     result: || Value::Null,
 };
 
-impl Told {
+impl ReactionScenario {
     fn scenario(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
         let title = format!("{}: {what}", self.action);
         Scenario::new(format!("client-{}-{id}", self.id), title, self.action)
@@ -84,7 +84,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     all
 }
 
-fn ways(told: &Told) -> Vec<Scenario> {
+fn ways(told: &ReactionScenario) -> Vec<Scenario> {
     vec![
         told.right("bytewise", "one byte at a time", Tamper::Bytewise),
         told.right("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
@@ -109,7 +109,7 @@ fn ways(told: &Told) -> Vec<Scenario> {
     ]
 }
 
-fn lies(told: &Told) -> Vec<Scenario> {
+fn lies(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = Vec::new();
     for (place, name, rule) in [
         (LengthField::AmsTcp, "AMS/TCP length", "ADS-5"),
@@ -148,7 +148,7 @@ fn lies(told: &Told) -> Vec<Scenario> {
     all
 }
 
-fn errors(told: &Told) -> Vec<Scenario> {
+fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
         // What is no payload is known from help pages; that an error is one is not.
         told.wrong("ams-error", "an AMS error without payload", Tamper::AmsError, "ADS-5")
@@ -180,7 +180,7 @@ fn errors(told: &Told) -> Vec<Scenario> {
     all
 }
 
-fn ends(told: &Told) -> Vec<Scenario> {
+fn ends(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
         told.wrong("closed", "closed without a reply", Tamper::CutAt(0), "ADS-5"),
         told.wrong("closed-header", "closed within the headers", Tamper::CutAt(20), "ADS-5"),
@@ -193,7 +193,7 @@ fn ends(told: &Told) -> Vec<Scenario> {
     all
 }
 
-fn amounts(told: &Told) -> Vec<Scenario> {
+fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
     let wrong = |id: &str, what: &str, tamper| told.wrong(id, what, tamper, told.data);
     vec![
         wrong("more", "four bytes more than there should be", Tamper::More(4)),

@@ -3,7 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
-use super::{Answer, Row, Upstream, function, group, of_decoder, offset, on, row, text, u32_at};
+use super::{ReplyData, Row, Upstream, function, group, of_decoder, offset, on, row, text, u32_at};
 
 const READ: &[Function] = &[Function::AxisReadByName];
 const WRITE: &[Function] = &[Function::AxisWriteByName];
@@ -16,7 +16,7 @@ fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
 }
 
 /// The same function of another axis.
-fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u32) -> Answer {
+fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u32) -> ReplyData {
     match of_axis(call) {
         Some((axis, function)) => cnc.at(call, group(call), other(axis) << 16 | function),
         None => cnc.answer(call),

@@ -1,6 +1,6 @@
 //! What is in the bytes of requests and replies.
 
-use super::{Answer, text};
+use super::{ReplyData, text};
 
 /// The UNS32 at a place.
 pub(in crate::faults) fn u32_at(bytes: &[u8], place: usize) -> Option<u32> {
@@ -16,7 +16,11 @@ pub(in crate::faults) fn put(bytes: &mut [u8], place: usize, number: u32) {
 }
 
 /// The answer with the UNS32 at a place made another.
-pub(in crate::faults) fn number(answer: Answer, place: usize, other: fn(u32) -> u32) -> Answer {
+pub(in crate::faults) fn number(
+    answer: ReplyData,
+    place: usize,
+    other: fn(u32) -> u32,
+) -> ReplyData {
     answer.map(|mut bytes| {
         if let Some(number) = u32_at(&bytes, place) {
             put(&mut bytes, place, other(number));

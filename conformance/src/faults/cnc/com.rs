@@ -5,14 +5,14 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Row, Upstream, com_group, group, is, number, offset, on, records, records_mut, row,
+    ReplyData, Row, Upstream, com_group, group, is, number, offset, on, records, records_mut, row,
     u32_at,
 };
 
 const LEN: u32 = 84;
 
 /// The descriptors of the answer, changed one by one.
-fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> Answer {
+fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> ReplyData {
     let mut answer = cnc.answer(call)?;
     if is(call, &[Function::ReadDescriptors]) {
         records_mut(&mut answer).for_each(other);
@@ -21,7 +21,7 @@ fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> Answer
 }
 
 /// The descriptors of the answer, as a list.
-fn list(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut Vec<[u8; 84]>)) -> Answer {
+fn list(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut Vec<[u8; 84]>)) -> ReplyData {
     let answer = cnc.answer(call)?;
     if !is(call, &[Function::ReadDescriptors]) {
         return Ok(answer);

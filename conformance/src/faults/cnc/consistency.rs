@@ -5,7 +5,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Key, Row, Upstream, class, group, is, number, offset, on, put, reply, row, text, u32_at,
+    Key, ReplyData, Row, Upstream, class, group, is, number, offset, on, put, reply, row, text,
+    u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -15,7 +16,7 @@ const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
 /// The question for an instance with one of its numbers made another.
-fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u32) -> Answer {
+fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u32) -> ReplyData {
     match (is(call, FIND), u32_at(call.data, place)) {
         (true, Some(number)) => {
             let mut data = call.data.to_vec();
@@ -27,7 +28,7 @@ fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u3
 }
 
 /// Instances of a class behind an axis are not found.
-fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> Answer {
+fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
     match is(call, FIND) && group(call) & 0xF000 == of {
         true if u32_at(call.data, 4) > Some(last) => cnc.answer(call).map(|_| vec![0; 8]),
         _ => cnc.answer(call),
@@ -35,7 +36,7 @@ fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> Answer {
 }
 
 /// What was answered once is answered for ever.
-fn kept(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> Answer {
+fn kept(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
     }
@@ -50,7 +51,7 @@ fn kept(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> Answer {
 }
 
 /// A write that goes elsewhere too, if there is something of that length.
-fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Answer {
+fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
     let done = cnc.answer(call);
     if done.is_ok() {
         let _also = cnc.at(call, group, offset);

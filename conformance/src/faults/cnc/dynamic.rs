@@ -4,7 +4,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Row, Upstream, fits, group, is, number, of_decoder, offset, on, put, row, text, u32_at,
+    ReplyData, Row, Upstream, fits, group, is, number, of_decoder, offset, on, put, row, text,
+    u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountDynamic];
@@ -20,7 +21,7 @@ fn index(
     call: &Call<'_>,
     of: &[Function],
     other: impl FnOnce(u32) -> u32,
-) -> Answer {
+) -> ReplyData {
     match (is(call, of), u32_at(call.data, 0)) {
         (true, Some(index)) => cnc.with(call, &other(index).to_le_bytes()),
         _ => cnc.answer(call),

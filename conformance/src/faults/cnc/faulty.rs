@@ -9,7 +9,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Call;
 
-use super::{Answer, Memory, Twist, Upstream, is};
+use super::{Memory, ReplyData, Twist, Upstream, is};
 use crate::faults::{How, Seed};
 use crate::simulator::{Cnc, Model, Responder, respond};
 use crate::wire_service::{reply_stream, request_stream, service_of};
@@ -89,7 +89,7 @@ impl Faulty {
 }
 
 impl Responder for Faulty {
-    fn answer(&self, call: &Call<'_>) -> Answer {
+    fn answer(&self, call: &Call<'_>) -> ReplyData {
         match &self.how {
             Some(How::Cnc(Twist::Answer(answer))) => answer(&self.upstream(), call),
             Some(How::Cnc(Twist::Function(functions, answer))) if is(call, functions) => {

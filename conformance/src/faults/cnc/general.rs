@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function, FunctionSpec};
 use ads_cnc::text::cp1252_to_char;
 
 use super::{
-    Answer, DESCRIPTIONS, NAMED, Row, Upstream, VALUES, WRITES, behind, dimensions, first, fits,
+    DESCRIPTIONS, NAMED, ReplyData, Row, Upstream, VALUES, WRITES, behind, dimensions, first, fits,
     function, functions, number, on, put, records, row, text, u32_at,
 };
 
@@ -31,7 +31,7 @@ fn texts(
     call: &Call<'_>,
     outwards: fn(&[u8]) -> Vec<u8>,
     inwards: fn(&[u8]) -> Vec<u8>,
-) -> Answer {
+) -> ReplyData {
     let answer = match function(call) {
         Some(function) if TEXTS.contains(&function) => {
             cnc.whole(call).map(|bytes| again(text(&bytes), outwards, &[0]))

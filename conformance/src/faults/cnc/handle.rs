@@ -4,8 +4,8 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Row, Upstream, fours, function, group, number, of_decoder, offset, on, put, row, text,
-    u32_at,
+    ReplyData, Row, Upstream, fours, function, group, number, of_decoder, offset, on, put, row,
+    text, u32_at,
 };
 
 const HANDLE: &[Function] = &[Function::HandleByName, Function::AxisHandleByName];
@@ -25,7 +25,7 @@ pub(super) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
 }
 
 /// The handle told, made another one that is understood again, or not.
-fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
+fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     match function(call) {
         Some(Function::HandleByName | Function::AxisHandleByName) => {
             number(cnc.answer(call), 0, other)

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
 use super::variable::{described, element, first_element};
-use super::{Answer, Row, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
+use super::{ReplyData, Row, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
 
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
@@ -16,7 +16,7 @@ fn indices(
     call: &Call<'_>,
     of: &[Function],
     other: impl FnOnce(Vec<u32>) -> Vec<u32>,
-) -> Answer {
+) -> ReplyData {
     match (is(call, of), parts(call.data)) {
         (true, Some((handle, indices, value))) => {
             cnc.with(call, &joined(handle, &other(indices), value))

@@ -4,12 +4,12 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::{Answer, LOGICAL, Row, Upstream, class, group, is, offset, put, reply, row, u32_at};
+use super::{LOGICAL, ReplyData, Row, Upstream, class, group, is, offset, put, reply, row, u32_at};
 
 const FIND: &[Function] = &[Function::FindInstance];
 
 /// The question for an instance, with channel and axis made others.
-fn asked(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32, u32) -> (u32, u32)) -> Answer {
+fn asked(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32, u32) -> (u32, u32)) -> ReplyData {
     let (Some(channel), Some(axis)) = (u32_at(call.data, 0), u32_at(call.data, 4)) else {
         return cnc.answer(call);
     };
@@ -24,7 +24,7 @@ fn asked(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32, u32) -> (u32, u32))
 }
 
 /// The answer (0, 0) where this says so.
-fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> Answer {
+fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     let numbers = (u32_at(call.data, 0), u32_at(call.data, 4));
     match (is(call, FIND), numbers) {
         (true, (Some(channel), Some(axis))) if is_absent(group(call) & 0xF000, channel, axis) => {

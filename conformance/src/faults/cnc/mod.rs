@@ -50,23 +50,21 @@ pub(in crate::faults) use self::upstream::{Key, fits, later, put_off, reply};
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
 
-use ads_cnc::ads::{AdsError, FrameRef};
+use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::{Call, Function};
 
 use crate::edition::Edition;
 use crate::judge::in_catalogue;
+pub(in crate::faults) use crate::simulator::ReplyData;
 use crate::simulator::program::Policy;
-
-/// Data, or the error number.
-pub(super) type Answer = Result<Vec<u8>, AdsError>;
 
 /// How a CNC does something wrong, or otherwise.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Twist {
     /// Around each request.
-    Answer(fn(&Upstream<'_>, &Call<'_>) -> Answer),
+    Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
     /// Around each request for one of these functions.
-    Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> Answer),
+    Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
     /// After each frame that answers one: what is sent instead.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
     /// Bytes leave in pieces of so many at most.
@@ -94,7 +92,7 @@ pub(super) const fn row(
     id: &'static str,
     breaks: &'static [&'static str],
     what: &'static str,
-    answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
+    answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
 ) -> Row {
     twisted(id, breaks, what, Twist::Answer(answer))
 }
@@ -105,7 +103,7 @@ pub(super) const fn on(
     breaks: &'static [&'static str],
     what: &'static str,
     functions: &'static [Function],
-    answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
+    answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
 ) -> Row {
     twisted(id, breaks, what, Twist::Function(functions, answer))
 }

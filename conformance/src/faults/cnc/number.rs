@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, INDEXED, Row, Upstream, group, is, number, of_decoder, offset, on, put, row, text,
+    INDEXED, ReplyData, Row, Upstream, group, is, number, of_decoder, offset, on, put, row, text,
     u32_at,
 };
 
@@ -15,7 +15,7 @@ fn indexed(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
     other: impl FnOnce(u32, &[u8]) -> (u32, Vec<u8>),
-) -> Answer {
+) -> ReplyData {
     let (true, Some(index)) = (is(call, INDEXED), u32_at(call.data, 0)) else {
         return cnc.answer(call);
     };

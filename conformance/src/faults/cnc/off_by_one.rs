@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
 use super::{
-    Answer, LOGICAL, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
+    LOGICAL, ReplyData, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
     put, records_mut, reply, row, text, u32_at,
 };
 
@@ -27,7 +27,7 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
 }
 
 /// Elements of one byte behind the one that was written become 0.
-fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let done = cnc.answer(call)?;
     let (name, indices) = indexed(text(call.data));
     let described = described(cnc, group(call), name).unwrap_or_default();
@@ -43,7 +43,7 @@ fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
 }
 
 /// Kinds of parameters in the order of their functions, from one on.
-fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> Answer {
+fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> ReplyData {
     let count = cnc.read(call.port, group(call), (at.wrapping_sub(0x1B) / 3).saturating_add(2))?;
     let count = u32_at(&count, 0).unwrap_or_default();
     cnc.at(

@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    Answer, DESCRIPTIONS, LOGICAL, Row, Upstream, behind, dimensions, fits, function, group, is,
+    DESCRIPTIONS, LOGICAL, ReplyData, Row, Upstream, behind, dimensions, fits, function, group, is,
     number, of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
 };
 
@@ -27,7 +27,7 @@ fn rounded(value: [u8; 8]) -> [u8; 8] {
 }
 
 /// Channels of the HLD hold platform axes apart from the HLD without a channel.
-fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let key = (0x3301, offset(call), Vec::new());
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {
         (true, Some(Function::WriteElement)) => {

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    Answer, Row, Upstream, behind, dimensions, function, group, is, number, offset, on, program,
+    ReplyData, Row, Upstream, behind, dimensions, function, group, is, number, offset, on, program,
     row, text, u32_at,
 };
 use crate::simulator::program::Policy;
@@ -35,7 +35,7 @@ fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
     (group(call) & 0xFF, 0, Vec::new())
 }
 
-fn read(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> Answer {
+fn read(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> ReplyData {
     cnc.ask(group(call), 0x48, &[name.as_bytes(), &[0]].concat())
 }
 

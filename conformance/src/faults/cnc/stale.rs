@@ -7,7 +7,7 @@ use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
 use super::lookup::{instance, one, over};
 use super::{
-    Answer, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
+    ReplyData, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -20,7 +20,7 @@ const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 const SLOTS: u32 = 16;
 
 /// Handles by name take turns in a table that is too short.
-fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
     match function(call) {
         Some(Function::HandleByName) => {

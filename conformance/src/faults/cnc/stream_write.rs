@@ -3,7 +3,9 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
-use super::{Answer, LOGICAL, Row, Upstream, at, function, group, later, offset, records_mut, row};
+use super::{
+    LOGICAL, ReplyData, Row, Upstream, at, function, group, later, offset, records_mut, row,
+};
 
 /// Whether it is a write to a stream, of whatever length.
 fn stream(call: &Call<'_>) -> bool {
@@ -13,7 +15,7 @@ fn stream(call: &Call<'_>) -> bool {
 }
 
 /// The write with other data.
-fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> Answer {
+fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> ReplyData {
     match stream(call) {
         true => cnc.with(call, &other(call.data)),
         false => cnc.answer(call),

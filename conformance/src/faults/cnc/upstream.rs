@@ -6,7 +6,7 @@ use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::Answer;
+use super::ReplyData;
 use super::request::{at, group, is, offset};
 use crate::simulator::Cnc;
 
@@ -58,27 +58,27 @@ impl Memory {
 
 impl Upstream<'_> {
     /// The right answer.
-    pub(in crate::faults) fn answer(&self, call: &Call<'_>) -> Answer {
+    pub(in crate::faults) fn answer(&self, call: &Call<'_>) -> ReplyData {
         self.cnc.answer(call)
     }
 
     /// The right answer at another address.
-    pub(in crate::faults) fn at(&self, call: &Call<'_>, group: u32, offset: u32) -> Answer {
+    pub(in crate::faults) fn at(&self, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
         self.answer(&at(call, group, offset))
     }
 
     /// The right answer to other data.
-    pub(in crate::faults) fn with(&self, call: &Call<'_>, data: &[u8]) -> Answer {
+    pub(in crate::faults) fn with(&self, call: &Call<'_>, data: &[u8]) -> ReplyData {
         self.answer(&Call { data, ..*call })
     }
 
     /// The right answer, however long it is.
-    pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> Answer {
+    pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> ReplyData {
         self.answer(&Call { read_length: u32::MAX, ..*call })
     }
 
     /// The right answer of SDA to a name or the like.
-    pub(in crate::faults) fn ask(&self, group: u32, offset: u32, data: &[u8]) -> Answer {
+    pub(in crate::faults) fn ask(&self, group: u32, offset: u32, data: &[u8]) -> ReplyData {
         self.answer(&Call {
             port: AmsPort::SDA,
             service: Service::ReadWrite,
@@ -90,7 +90,7 @@ impl Upstream<'_> {
     }
 
     /// The right answer of this task to a Read.
-    pub(in crate::faults) fn read(&self, port: AmsPort, group: u32, offset: u32) -> Answer {
+    pub(in crate::faults) fn read(&self, port: AmsPort, group: u32, offset: u32) -> ReplyData {
         self.answer(&Call {
             port,
             service: Service::Read,
@@ -102,7 +102,7 @@ impl Upstream<'_> {
     }
 
     /// The right answer to what was put off.
-    pub(in crate::faults) fn late(&self, later: &Later) -> Answer {
+    pub(in crate::faults) fn late(&self, later: &Later) -> ReplyData {
         self.answer(&Call {
             port: later.port,
             service: later.service,
@@ -136,14 +136,14 @@ pub(in crate::faults) fn later(call: &Call<'_>) -> Later {
 }
 
 /// Keeps the write for the next one, and does that which was kept before.
-pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())
 }
 
 /// The answer no longer than asked for.
-pub(in crate::faults) fn fits(call: &Call<'_>, answer: Answer) -> Answer {
+pub(in crate::faults) fn fits(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
         match u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
             true => Ok(bytes),
@@ -158,7 +158,7 @@ pub(in crate::faults) fn reply(
     call: &Call<'_>,
     of: &[Function],
     other: impl FnOnce(Vec<u8>) -> Vec<u8>,
-) -> Answer {
+) -> ReplyData {
     match is(call, of) {
         true => fits(call, cnc.whole(call).map(other)),
         false => cnc.answer(call),

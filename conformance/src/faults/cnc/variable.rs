@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 
 use super::number::count;
 use super::{
-    Answer, DESCRIPTIONS, Row, Upstream, dimensions, fits, function, group, on, put, reply, row,
+    DESCRIPTIONS, ReplyData, Row, Upstream, dimensions, fits, function, group, on, put, reply, row,
     text, u32_at,
 };
 
@@ -43,7 +43,7 @@ pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
 }
 
 /// The answer cut behind the first element of the variable it is about.
-pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
     cnc.answer(call).map(|mut bytes| {
         bytes.truncate(len.max(1));

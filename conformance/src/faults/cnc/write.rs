@@ -5,14 +5,15 @@ use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
 use super::{
-    Answer, Row, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off, row, text,
+    ReplyData, Row, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off, row,
+    text,
 };
 
 const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
 const BY_NAME: &[Function] = &[Function::WriteByName];
 
 /// A write that succeeds if the right one does, and is undone.
-fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> Answer {
+fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> ReplyData {
     let old = cnc.ask(group(call), read, key);
     let done = cnc.answer(call)?;
     if let Ok(old) = old {

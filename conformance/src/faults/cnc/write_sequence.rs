@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 
 use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
-use super::{Answer, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
+use super::{ReplyData, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
@@ -20,12 +20,12 @@ fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> b
     is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
 }
 
-fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> Answer {
+fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
     cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
 /// RESPONSE_STATE as it was before a write that should have reset it.
-fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> Answer {
+fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     let key = (instance(call), 0x5C, Vec::new());
     if now {
         let before = read(cnc, group(call), RESPONSE_STATE)?;

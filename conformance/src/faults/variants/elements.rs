@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    Answer, Row, Twist, Upstream, class, fits, function, group, is, number, offset, on, put, row,
-    text, twisted, u32_at,
+    ReplyData, Row, Twist, Upstream, class, fits, function, group, is, number, offset, on, put,
+    row, text, twisted, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -25,7 +25,7 @@ fn is_number(call: &Call<'_>) -> bool {
 }
 
 /// Instances of a class that are not there.
-fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> Answer {
+fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     match (is(call, FIND), u32_at(call.data, 0), u32_at(call.data, 4)) {
         (true, Some(channel), Some(axis)) if is_absent(group(call) & 0xF000, channel, axis) => {
             cnc.answer(call).map(|_| vec![0; 8])
@@ -44,7 +44,7 @@ fn empty_place(call: &Call<'_>) -> bool {
 }
 
 /// The stride of classes of which none is printed.
-fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let of = |at: Class| {
         matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)
     };

@@ -4,7 +4,7 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    Answer, NAMED, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row,
+    NAMED, ReplyData, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row,
     text, twisted, u32_at, unprinted,
 };
 use super::{measured, sent};
@@ -12,7 +12,7 @@ use super::{measured, sent};
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 
 /// The request with the case of its name as it is listed, if it is in another.
-fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let answer = cnc.answer(call);
     if !is(call, NAMED) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
         return answer;
@@ -53,7 +53,7 @@ fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
 }
 
 /// Where an axis is now: it moves a little with each look at it.
-fn moved(cnc: &Upstream<'_>, answer: Answer) -> Answer {
+fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
     answer.map(|bytes| match bytes.first_chunk::<8>() {
         Some(value) if bytes.len() == 8 => {
             let mut memory = cnc.memory();

@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 
 use super::super::{Access, List, Object, Place};
-use super::{NUMBER_MAX, Tally, Walk};
+use super::{NUMBER_MAX, Unanswered, Walk};
 use crate::session::Trouble;
 use crate::values::Type;
 
@@ -170,7 +170,7 @@ impl Walk<'_> {
             self.note(list, "the number of its elements was refused");
             return Ok(());
         };
-        let mut tally = Tally::new(count);
+        let mut tally = Unanswered::new(count);
         for place in 1..=count.min(ELEMENTS_MAX) {
             let Ok(element) = first.nth(place) else { break };
             let name = self.ask_task(&ReadElementName::new(element))?;

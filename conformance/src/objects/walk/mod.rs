@@ -47,7 +47,7 @@ pub struct Options {
 }
 
 #[derive(Clone, Debug, Default)]
-pub struct Found {
+pub struct WalkResult {
     /// In the order of their lists.
     pub objects: Vec<Object>,
     /// How many lists there are.
@@ -62,7 +62,7 @@ pub struct Found {
 
 /// How far it is, for whoever waits.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct WalkProgress {
     /// In which list.
     pub list: List,
     /// Objects found so far.
@@ -92,9 +92,9 @@ pub struct Seen {
 pub fn walk(
     session: &mut Session,
     options: &Options,
-    watch: &mut dyn FnMut(Seen),
-) -> Result<Found, Trouble> {
-    let found = Found::default();
+    watch: &mut dyn FnMut(WalkProgress),
+) -> Result<WalkResult, Trouble> {
+    let found = WalkResult::default();
     let (instances, alike, task) = (Vec::new(), HashMap::new(), Task::Sda);
     let mut walk =
         Walk { session, options, watch, found, names: 0, instances, alike, task, geo: Ok(()) };
@@ -112,8 +112,8 @@ pub fn walk(
 struct Walk<'w> {
     session: &'w mut Session,
     options: &'w Options,
-    watch: &'w mut dyn FnMut(Seen),
-    found: Found,
+    watch: &'w mut dyn FnMut(WalkProgress),
+    found: WalkResult,
     /// Bytes of all names and units so far.
     names: usize,
     /// The first elements of the instances found.
@@ -208,7 +208,7 @@ impl Walk<'_> {
 
     fn tell(&mut self, list: List) {
         let (objects, requests) = (self.found.objects.len(), self.found.requests);
-        (self.watch)(Seen { list, objects, requests });
+        (self.watch)(WalkProgress { list, objects, requests });
     }
 
     fn is_named(&self, name: impl std::fmt::Display) -> bool {
@@ -296,13 +296,13 @@ fn decoder_of(channel: Channel) -> FindInstance {
 }
 
 /// How many did not answer. Parameters come and go while they are asked for.
-struct Tally {
+struct Unanswered {
     count: u32,
     refused: u32,
     in_a_row: u32,
 }
 
-impl Tally {
+impl Unanswered {
     const fn new(count: u32) -> Self {
         Self { count, refused: 0, in_a_row: 0 }
     }

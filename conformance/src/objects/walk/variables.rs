@@ -7,7 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncString, DescriptionRef, Kind};
 
 use super::super::{Access, List, Object, Place};
-use super::{OBJECTS_MAX, Tally, Walk};
+use super::{OBJECTS_MAX, Unanswered, Walk};
 use crate::session::Trouble;
 use crate::values::Type;
 
@@ -45,7 +45,7 @@ impl Walk<'_> {
             self.note(list, "their number was refused");
             return Ok(());
         };
-        let mut tally = Tally::new(count);
+        let mut tally = Unanswered::new(count);
         for index in 0..count.min(OBJECTS_MAX) {
             let variable = self.ask(&DescribeByIndex::new(channel, index, kind))?;
             let Some(object) = variable.map(|variable| row(list, channel, &variable)) else {
@@ -77,7 +77,7 @@ impl Walk<'_> {
             self.note(list, "their number was refused");
             return Ok(());
         };
-        let mut tally = Tally::new(count);
+        let mut tally = Unanswered::new(count);
         for index in 1..=count.min(OBJECTS_MAX) {
             let op = DynamicNameByIndex::new(channel, kind, index).map_err(Trouble::Unsendable)?;
             let name = self.ask(&op)?.map(|reply| CncString::from(reply.name.text()));

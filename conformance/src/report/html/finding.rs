@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::judge::Verdict;
-use crate::report::bytes::Shown;
+use crate::report::bytes::ShownField;
 use crate::report::console::worded;
 use crate::report::model::{EvidenceReport, FailureReport};
 use crate::report::{BytesReport, FieldReport};
@@ -109,8 +109,8 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
         there.find(|one| !one.differs.is_empty() || !field.differs.is_empty())
     };
     let row_of = |shown| match shown {
-        Shown::More(more) => RowView { more, ..RowView::default() },
-        Shown::Field(field) => {
+        ShownField::More(more) => RowView { more, ..RowView::default() },
+        ShownField::Field(field) => {
             RowView { instead: instead(field).map(|one| Box::new(row(one))), ..row(field) }
         }
     };

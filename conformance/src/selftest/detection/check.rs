@@ -21,7 +21,7 @@ pub const SAMPLE: usize = 60;
 
 /// The table, and what was measured of it again.
 #[derive(Clone, Debug, Serialize)]
-pub struct Checked {
+pub struct CheckedTable {
     /// The figures of each mode.
     #[serde(serialize_with = "figures")]
     pub table: Table,
@@ -31,7 +31,7 @@ pub struct Checked {
     pub differences: Vec<String>,
 }
 
-impl Checked {
+impl CheckedTable {
     /// Measures as many of these defects as wanted. `whole` is whether they are all there are.
     pub(crate) fn new(
         seeds: Vec<&'static Seed>,

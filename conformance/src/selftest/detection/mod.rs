@@ -29,7 +29,7 @@ use crate::suite;
 use crate::text::named;
 
 use super::Outcomes;
-pub use check::{Checked, SAMPLE, Scope};
+pub use check::{CheckedTable, SAMPLE, Scope};
 pub use table::{Figures, Row, Table, inputs};
 
 /// How the suite is run against a device.
@@ -168,7 +168,7 @@ impl Device {
             return Ok(Vec::new());
         }
         let (client, _) = session.into_parts();
-        let mut session = suite::Session::new(client, profile);
+        let mut session = suite::TargetState::new(client, profile);
         let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
         let plan = Selection::default().plan(cases, 1);
         let plan = plan.map_err(|error| Trouble::Internal(error.to_string()))?;

@@ -74,7 +74,7 @@ struct Variable {
 }
 
 /// A content with an address that was found, of an object or an element.
-struct Content {
+struct ContentAddress {
     group: IndexGroup,
     offset: IndexOffset,
     element: Option<ElementAddress>,
@@ -90,11 +90,11 @@ pub(super) struct Dialogue<'t> {
     difference: Option<String>,
     malformed: BTreeMap<Function, usize>,
     variables: Vec<Variable>,
-    contents: Vec<Content>,
+    contents: Vec<ContentAddress>,
 }
 
 /// What came of asking everything.
-pub(super) struct Asked {
+pub(super) struct Answers {
     pub(super) answers: Vec<u64>,
     /// The first request that was answered otherwise than by the CNC it was compared with.
     pub(super) difference: Option<String>,
@@ -102,7 +102,7 @@ pub(super) struct Asked {
 
 /// Asks a CNC everything that its client's gate lets through; up to the first answer that is not
 /// this one of another CNC, if there is one to compare with.
-pub(super) fn ask_everything(client: Client, cnc: Arc<Cnc>, right: Option<&[u64]>) -> Asked {
+pub(super) fn ask_everything(client: Client, cnc: Arc<Cnc>, right: Option<&[u64]>) -> Answers {
     let mut dialogue = Dialogue {
         client,
         cnc,
@@ -118,7 +118,7 @@ pub(super) fn ask_everything(client: Client, cnc: Arc<Cnc>, right: Option<&[u64]
     if difference.is_none() && right.is_some_and(|right| right.len() != answers.len()) {
         difference = Some("the end: the other CNC is asked more".to_owned());
     }
-    Asked { answers, difference }
+    Answers { answers, difference }
 }
 
 impl Dialogue<'_> {
@@ -394,7 +394,7 @@ impl Dialogue<'_> {
                 let Ok(found) = DescriptorsRef::decode(&data) else { continue };
                 for object in found.iter().filter(|_| many == 1) {
                     let (group, offset) = (object.index_group(), object.index_offset());
-                    self.contents.push(Content {
+                    self.contents.push(ContentAddress {
                         group,
                         offset,
                         element: None,
@@ -474,7 +474,7 @@ impl Dialogue<'_> {
             let size = size.map_or(8, |data| {
                 data.iter().rev().fold(0_u32, |size, &byte| size.wrapping_shl(8) | u32::from(byte))
             });
-            let content = Content {
+            let content = ContentAddress {
                 group: element.group(ads_cnc::address::Attribute::Content),
                 offset: element.index_offset(),
                 element: Some(element),
@@ -506,7 +506,7 @@ impl Dialogue<'_> {
             }
         }
         for content in std::mem::take(&mut self.contents) {
-            let Content { group, offset, element, size } = content;
+            let ContentAddress { group, offset, element, size } = content;
             let read = |dialogue: &mut Self| match element {
                 Some(element) => {
                     ReadElement::new(element, size).ok().and_then(|op| dialogue.ask(op))

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::requests::{Asked, ask_everything};
+use super::requests::{Answers, ask_everything};
 use super::{Device, Found, Mode};
 use crate::faults::{self, Change, Defect, Kind, Seed};
 use crate::session::{Session, Trouble};
@@ -52,7 +52,7 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
     let mut witnesses: Vec<&str> = Vec::new();
     for device in devices {
         let right = device.right(mode)?;
-        let Asked { answers: mine, difference } = answers(device, Some(seed), mode, Some(right))?;
+        let Answers { answers: mine, difference } = answers(device, Some(seed), mode, Some(right))?;
         let Some(request) = difference else { continue };
         shown = shown.or(Some(request));
         // One that differs from the right CNC elsewhere gives other answers.
@@ -81,7 +81,7 @@ pub(super) fn answers(
     seed: Option<&Seed>,
     mode: Mode,
     right: Option<&[u64]>,
-) -> Result<Asked, Trouble> {
+) -> Result<Answers, Trouble> {
     let cnc = device.cnc(seed)?;
     let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();

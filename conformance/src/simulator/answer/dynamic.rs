@@ -7,28 +7,28 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName,
 };
 
-use super::{Answer, Running, encode};
+use super::{ReplyData, Running, encode};
 use crate::simulator::parameters::ParameterState;
 use crate::simulator::{to_len, to_u32};
 
 impl Running<'_> {
-    pub(super) fn count_dynamic(&self, op: &CountDynamic) -> Answer {
+    pub(super) fn count_dynamic(&self, op: &CountDynamic) -> ReplyData {
         let channel = self.channel(op.channel)?;
         encode(DynamicCount(to_u32(self.state.parameters(channel, op.kind).count())))
     }
 
-    pub(super) fn dynamic_name(&self, op: &DynamicNameByIndex) -> Answer {
+    pub(super) fn dynamic_name(&self, op: &DynamicNameByIndex) -> ReplyData {
         let channel = self.channel(op.channel)?;
         let parameter = self.parameter(channel, op.kind, op.index)?;
         encode(DynamicNameRef { name: TextRef::from(parameter.name()) })
     }
 
-    pub(super) fn dynamic_by_index(&self, op: &DynamicValueByIndex) -> Answer {
+    pub(super) fn dynamic_by_index(&self, op: &DynamicValueByIndex) -> ReplyData {
         let channel = self.channel(op.channel)?;
         encode(self.parameter(channel, op.kind, op.index)?.value)
     }
 
-    pub(super) fn dynamic_by_name(&self, op: &DynamicValueByName<'_>) -> Answer {
+    pub(super) fn dynamic_by_name(&self, op: &DynamicValueByName<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         let mut parameters = self.state.parameters(channel, op.kind);
         let found = parameters.find(|one| one.name() == op.name.text());

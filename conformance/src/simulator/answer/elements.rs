@@ -8,7 +8,7 @@ use ads_cnc::operation::{FindInstance, WriteElement};
 use ads_cnc::sda::{ElementCount, ElementLength, ElementTextRef, ElementWriteFlag, ObjectAddress};
 use ads_cnc::{CncStr, ContentRef, TextRef};
 
-use super::{Answer, Running, encode};
+use super::{ReplyData, Running, encode};
 use crate::simulator::content::{self, Owner};
 use crate::simulator::model::Item;
 use crate::simulator::{to_len, to_u32};
@@ -20,7 +20,7 @@ const COUNT_UNIT: &str = "-";
 
 impl Running<'_> {
     /// Where an instance is; (0, 0) if there is none (SDA-2).
-    pub(super) fn find_instance(&self, op: &FindInstance) -> Answer {
+    pub(super) fn find_instance(&self, op: &FindInstance) -> ReplyData {
         let found = self.instance(op.class_group(), op.query().channel, op.query().axis);
         encode(found.map_or(ObjectAddress::NONE, ObjectAddress::from))
     }
@@ -35,7 +35,7 @@ impl Running<'_> {
     }
 
     /// The content; of the first element, how many there are besides.
-    pub(super) fn read_element(&self, address: ElementAddress) -> Answer {
+    pub(super) fn read_element(&self, address: ElementAddress) -> ReplyData {
         match self.locate(address)? {
             (owner, None) => encode(ElementCount(to_u32(content::items(self.model, owner).len()))),
             (owner, Some(index)) => {
@@ -45,7 +45,7 @@ impl Running<'_> {
         }
     }
 
-    pub(super) fn write_element(&mut self, op: &WriteElement<'_>) -> Answer {
+    pub(super) fn write_element(&mut self, op: &WriteElement<'_>) -> ReplyData {
         let (owner, index) = self.locate(op.element())?;
         let index = index.ok_or(AdsError::INVALID_ACCESS)?;
         content::write(self.model, &mut self.state, owner, index, op.content().bytes)?;
@@ -53,30 +53,30 @@ impl Running<'_> {
     }
 
     /// The name; that of the first element is the instance's.
-    pub(super) fn element_name(&self, address: ElementAddress) -> Answer {
+    pub(super) fn element_name(&self, address: ElementAddress) -> ReplyData {
         match self.element(address)? {
             (_, Some(item)) => encode_text(item.name.as_cnc_str()),
             (owner, None) => text(&self.instance_name(owner)),
         }
     }
 
-    pub(super) fn element_type(&self, address: ElementAddress) -> Answer {
+    pub(super) fn element_type(&self, address: ElementAddress) -> ReplyData {
         text(self.element(address)?.1.map_or(COUNT_TYPE, |item| item.type_name))
     }
 
-    pub(super) fn element_length(&self, address: ElementAddress) -> Answer {
+    pub(super) fn element_length(&self, address: ElementAddress) -> ReplyData {
         let item = self.element(address)?.1;
         encode(ElementLength::new(item.map_or(COUNT_LENGTH, |item| to_u32(item.initial.size))))
     }
 
-    pub(super) fn element_unit(&self, address: ElementAddress) -> Answer {
+    pub(super) fn element_unit(&self, address: ElementAddress) -> ReplyData {
         match self.element(address)?.1 {
             Some(item) => encode_text(item.unit.as_cnc_str()),
             None => text(COUNT_UNIT),
         }
     }
 
-    pub(super) fn element_write_flag(&self, address: ElementAddress) -> Answer {
+    pub(super) fn element_write_flag(&self, address: ElementAddress) -> ReplyData {
         let writable = self.element(address)?.1.is_some_and(|item| item.writable);
         let flag = if writable { ElementWriteFlag::WRITABLE } else { ElementWriteFlag::READ_ONLY };
         encode(flag)
@@ -167,11 +167,11 @@ const fn stride(class: Class, instance: u8) -> AxisStride {
     }
 }
 
-fn text(text: &str) -> Answer {
+fn text(text: &str) -> ReplyData {
     // Names were checked to be CP1252.
     encode_text(CncStr::new(text).map_err(|_| AdsError::INVALID_DATA)?)
 }
 
-fn encode_text(text: CncStr<'_>) -> Answer {
+fn encode_text(text: CncStr<'_>) -> ReplyData {
     encode(ElementTextRef { text: TextRef::from(text) })
 }

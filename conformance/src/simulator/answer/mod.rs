@@ -16,7 +16,7 @@ use ads_cnc::{Encode, NoData};
 use super::clock::Clock;
 use super::program::Policy;
 use super::state::State;
-use super::{Model, ModelError, Responder, program, to_u32};
+use super::{Model, ModelError, ReplyData, Responder, program, to_u32};
 
 /// The simulated CNC: a model, and its state behind one lock.
 #[derive(Debug)]
@@ -26,9 +26,6 @@ pub struct Cnc {
     clock: Clock,
     policy: Policy,
 }
-
-/// Data, or the error number.
-type Answer = Result<Vec<u8>, AdsError>;
 
 impl Cnc {
     /// A CNC with this data model, in the state it starts in.
@@ -157,7 +154,7 @@ impl Cnc {
         self.policy
     }
 
-    fn reply(&self, request: &Request<'_>) -> Answer {
+    fn reply(&self, request: &Request<'_>) -> ReplyData {
         let (state, now) = self.state_and_time();
         let mut running = Running { model: &self.model, state, now };
         match request {
@@ -198,7 +195,7 @@ impl Cnc {
 }
 
 impl Responder for Cnc {
-    fn answer(&self, call: &Call<'_>) -> Answer {
+    fn answer(&self, call: &Call<'_>) -> ReplyData {
         Self::answer(self, call)
     }
 
@@ -219,7 +216,7 @@ impl Running<'_> {
         self.state.channel(self.model, at.addressing(), at.number())
     }
 
-    fn write_program_stream(&mut self, op: &WriteProgramStream<'_>) -> Answer {
+    fn write_program_stream(&mut self, op: &WriteProgramStream<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
         match program::result(channel.program.write(op.packet, self.now)) {
@@ -236,7 +233,7 @@ fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
     })
 }
 
-fn encode<'a>(reply: impl Into<Reply<'a>>) -> Answer {
+fn encode<'a>(reply: impl Into<Reply<'a>>) -> ReplyData {
     // The model was checked to fit: this does not fail.
     reply.into().encode_to_vec().map_err(|_| AdsError::INVALID_DATA)
 }

@@ -5,29 +5,29 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject, WriteObject};
 use ads_cnc::{ContentRef, Descriptors, DescriptorsRef, ObjectCount};
 
-use super::{Answer, Running, encode};
+use super::{ReplyData, Running, encode};
 use crate::simulator::content::{self, Owner};
 use crate::simulator::{to_len, to_u32};
 
 impl Running<'_> {
-    pub(super) fn count_objects(&self, op: &CountObjects) -> Answer {
+    pub(super) fn count_objects(&self, op: &CountObjects) -> ReplyData {
         encode(ObjectCount(to_u32(self.objects(op.list)?.len())))
     }
 
-    pub(super) fn descriptors(&self, op: &ReadDescriptors) -> Answer {
+    pub(super) fn descriptors(&self, op: &ReadDescriptors) -> ReplyData {
         let list = self.objects(op.list())?;
         let first = to_len(op.first()).checked_sub(1).ok_or(AdsError::INVALID_OFFSET)?;
         let asked = list.slice(first, to_len(op.count()));
         if asked.is_empty() { Err(AdsError::INVALID_OFFSET) } else { encode(asked) }
     }
 
-    pub(super) fn read_object(&self, op: &ReadObject) -> Answer {
+    pub(super) fn read_object(&self, op: &ReadObject) -> ReplyData {
         let (owner, index) = self.object(op.address())?;
         let bytes = content::read(self.model, &self.state, owner, index)?;
         encode(ContentRef { bytes: &bytes })
     }
 
-    pub(super) fn write_object(&mut self, op: &WriteObject<'_>) -> Answer {
+    pub(super) fn write_object(&mut self, op: &WriteObject<'_>) -> ReplyData {
         let (owner, index) = self.object(op.address())?;
         content::write(self.model, &mut self.state, owner, index, op.content().bytes)?;
         Ok(Vec::new())

@@ -16,14 +16,14 @@ use ads_cnc::{
     VariableAccess, VariableCount, VariableType,
 };
 
-use self::resolve::{Named, UNKNOWN, parameter};
-use super::{Answer, Running, encode};
+use self::resolve::{Resolved, UNKNOWN, parameter};
+use super::{ReplyData, Running, encode};
 use crate::simulator::content::{check_size, put};
 use crate::simulator::model::At;
 use crate::simulator::to_u32;
 
 impl Running<'_> {
-    pub(super) fn count_variables(&self, op: &CountVariables<'_>) -> Answer {
+    pub(super) fn count_variables(&self, op: &CountVariables<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         self.permit(Function::CountVariables, op.kind)?;
         let count = if op.kind.text().is_empty() {
@@ -35,7 +35,7 @@ impl Running<'_> {
         encode(VariableCount(to_u32(count)))
     }
 
-    pub(super) fn describe_by_index(&self, op: &DescribeByIndex<'_>) -> Answer {
+    pub(super) fn describe_by_index(&self, op: &DescribeByIndex<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         self.permit(Function::DescribeByIndex, op.kind)?;
         let at = self.by_index(channel, op.kind, op.index)?;
@@ -50,7 +50,7 @@ impl Running<'_> {
         })
     }
 
-    pub(super) fn describe_extended(&self, op: &DescribeExtended<'_>) -> Answer {
+    pub(super) fn describe_extended(&self, op: &DescribeExtended<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         self.permit(Function::DescribeExtended, op.kind)?;
         let at = self.by_index(channel, op.kind, op.index)?;
@@ -58,10 +58,10 @@ impl Running<'_> {
         encode(ExtendedReply(self.variable(channel, at)?.extended))
     }
 
-    pub(super) fn describe_by_name(&self, op: &DescribeByName<'_>) -> Answer {
+    pub(super) fn describe_by_name(&self, op: &DescribeByName<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         let (named, indices) = self.named(Function::DescribeByName, channel, op.name.text())?;
-        let Named::Variable(at) = named else {
+        let Resolved::Variable(at) = named else {
             // What a parameter is; that it has no handle is assumed.
             return encode(DescriptionByNameRef {
                 handle: Handle(0),
@@ -84,33 +84,33 @@ impl Running<'_> {
         })
     }
 
-    pub(super) fn handle_by_name(&self, op: &HandleByName<'_>) -> Answer {
+    pub(super) fn handle_by_name(&self, op: &HandleByName<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         match self.named(Function::HandleByName, channel, op.name.text())? {
             // A handle is the variable's, not an element's.
-            (Named::Variable(at), indices) if indices.is_empty() => {
+            (Resolved::Variable(at), indices) if indices.is_empty() => {
                 encode(self.handle(channel, at)?)
             }
             _ => Err(UNKNOWN),
         }
     }
 
-    pub(super) fn read_by_handle(&self, op: &ReadByHandle<'_>) -> Answer {
+    pub(super) fn read_by_handle(&self, op: &ReadByHandle<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         self.read(channel, self.by_handle(channel, op.handle)?, op.indices)
     }
 
-    pub(super) fn write_by_handle(&mut self, op: &WriteByHandle<'_>) -> Answer {
+    pub(super) fn write_by_handle(&mut self, op: &WriteByHandle<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         let at = self.by_handle(channel, op.handle)?;
         self.write(channel, at, op.indices, op.value.as_bytes())
     }
 
-    pub(super) fn read_by_name(&self, op: &ReadByName<'_>) -> Answer {
+    pub(super) fn read_by_name(&self, op: &ReadByName<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         match self.named(Function::ReadByName, channel, op.name.text())? {
-            (Named::Variable(at), indices) => self.read(channel, at, indices),
-            (Named::Parameter, _) => {
+            (Resolved::Variable(at), indices) => self.read(channel, at, indices),
+            (Resolved::Parameter, _) => {
                 let (kind, name) = parameter(op.name.text())?;
                 let found = self.state.parameters(channel, kind).find(|one| one.is.name == name);
                 encode(found.ok_or(UNKNOWN)?.value)
@@ -118,11 +118,13 @@ impl Running<'_> {
         }
     }
 
-    pub(super) fn write_by_name(&mut self, op: &WriteByName<'_>) -> Answer {
+    pub(super) fn write_by_name(&mut self, op: &WriteByName<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         match self.named(Function::WriteByName, channel, op.name)? {
-            (Named::Variable(at), indices) => self.write(channel, at, indices, op.value.as_bytes()),
-            (Named::Parameter, _) => {
+            (Resolved::Variable(at), indices) => {
+                self.write(channel, at, indices, op.value.as_bytes())
+            }
+            (Resolved::Parameter, _) => {
                 let (_, name) = parameter(op.name)?;
                 tracing::debug!(channel, %name, "write to a parameter");
                 let value = op.value.as_bytes().try_into().map_err(|_| AdsError::INVALID_SIZE)?;
@@ -134,28 +136,28 @@ impl Running<'_> {
         }
     }
 
-    pub(super) fn axis_handle_by_name(&self, op: &AxisHandleByName<'_>) -> Answer {
+    pub(super) fn axis_handle_by_name(&self, op: &AxisHandleByName<'_>) -> ReplyData {
         let name = op.name.text();
         let (channel, at, indices) =
             self.of_axis(Function::AxisHandleByName, op.channel, op.axis, name)?;
         if indices.is_empty() { encode(self.handle(channel, at)?) } else { Err(UNKNOWN) }
     }
 
-    pub(super) fn axis_read_by_name(&self, op: &AxisReadByName<'_>) -> Answer {
+    pub(super) fn axis_read_by_name(&self, op: &AxisReadByName<'_>) -> ReplyData {
         let name = op.name.text();
         let (channel, at, indices) =
             self.of_axis(Function::AxisReadByName, op.channel, op.axis, name)?;
         self.read(channel, at, indices)
     }
 
-    pub(super) fn axis_write_by_name(&mut self, op: &AxisWriteByName<'_>) -> Answer {
+    pub(super) fn axis_write_by_name(&mut self, op: &AxisWriteByName<'_>) -> ReplyData {
         let (channel, at, indices) =
             self.of_axis(Function::AxisWriteByName, op.channel, op.axis, op.name)?;
         self.write(channel, at, indices, op.value.as_bytes())
     }
 
     /// The value of a variable or of one of its elements; blank where no axis is (SDA-11).
-    fn read(&self, channel: usize, at: At, indices: U32List<'_>) -> Answer {
+    fn read(&self, channel: usize, at: At, indices: U32List<'_>) -> ReplyData {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
         let value = match (at, variable.service) {
@@ -177,7 +179,7 @@ impl Running<'_> {
         encode(ValueRef { bytes: value.get(part).ok_or(AdsError::INVALID_DATA)? })
     }
 
-    fn write(&mut self, channel: usize, at: At, indices: U32List<'_>, bytes: &[u8]) -> Answer {
+    fn write(&mut self, channel: usize, at: At, indices: U32List<'_>, bytes: &[u8]) -> ReplyData {
         let variable = self.variable(channel, at)?;
         if tracing::enabled!(tracing::Level::DEBUG)
             && let (Ok(name), Some(model)) =

@@ -5,7 +5,7 @@ use toml::Value;
 
 /// A type by its name.
 #[derive(Debug)]
-pub(super) struct Named {
+pub(super) struct NamedType {
     pub(super) name: &'static str,
     pub(super) scalar: Scalar,
 }
@@ -35,12 +35,12 @@ impl Scalar {
     }
 }
 
-const fn named(name: &'static str, scalar: Scalar) -> Named {
-    Named { name, scalar }
+const fn named(name: &'static str, scalar: Scalar) -> NamedType {
+    NamedType { name, scalar }
 }
 
 /// Of variables (VAR-5).
-pub(super) const VARIABLE: &[Named] = &[
+pub(super) const VARIABLE: &[NamedType] = &[
     named("BOOLEAN", Scalar::Boolean),
     named("SGN08", Scalar::Signed(1)),
     named("UNS08", Scalar::Unsigned(1)),
@@ -53,7 +53,7 @@ pub(super) const VARIABLE: &[Named] = &[
 ];
 
 /// Of elements (SDA-7).
-pub(super) const ELEMENT: &[Named] = &[
+pub(super) const ELEMENT: &[NamedType] = &[
     named("BOOLEAN", Scalar::Boolean),
     named("SGN08", Scalar::Signed(1)),
     named("UNS08", Scalar::Unsigned(1)),
@@ -67,7 +67,7 @@ pub(super) const ELEMENT: &[Named] = &[
 ];
 
 /// Of COM objects (GEN-5).
-pub(super) const OBJECT: &[Named] = &[
+pub(super) const OBJECT: &[NamedType] = &[
     named("BOOL", Scalar::Boolean),
     named("BYTE", Scalar::Unsigned(1)),
     named("SINT", Scalar::Signed(1)),
@@ -82,7 +82,7 @@ pub(super) const OBJECT: &[Named] = &[
     named("STRING", Scalar::String),
 ];
 
-pub(super) fn find(types: &'static [Named], name: &str) -> Result<&'static Named, String> {
+pub(super) fn find(types: &'static [NamedType], name: &str) -> Result<&'static NamedType, String> {
     types.iter().find(|known| known.name == name).ok_or_else(|| {
         let known: Vec<&str> = types.iter().map(|known| known.name).collect();
         format!("{name:?} is no type; there are {}", known.join(" "))

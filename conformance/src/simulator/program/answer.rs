@@ -7,7 +7,7 @@ use ads_cnc::CncString;
 
 /// What came of a request of a [`Script`](super::Script).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Answer {
+pub struct ServiceAnswer {
     /// Which it was of all that were made, from 1.
     pub number: u64,
     /// Its place in the script, from 0.
@@ -15,12 +15,12 @@ pub struct Answer {
     /// When the program went on.
     pub at: Duration,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: ServiceOutcome,
 }
 
 /// How a request ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum ServiceOutcome {
     Response {
         state: u32,
         text: CncString,
@@ -32,7 +32,7 @@ pub enum Outcome {
 /// The latest answers, and how many there were.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
-    pub(super) kept: VecDeque<Answer>,
+    pub(super) kept: VecDeque<ServiceAnswer>,
     pub(super) count: u64,
     pub(super) timed_out: u64,
 }
@@ -41,14 +41,14 @@ impl Answers {
     /// So many are kept.
     pub(super) const KEPT: usize = 64;
 
-    pub(super) fn push(&mut self, request: usize, at: Duration, outcome: Outcome) {
+    pub(super) fn push(&mut self, request: usize, at: Duration, outcome: ServiceOutcome) {
         self.count = self.count.saturating_add(1);
-        if outcome == Outcome::TimedOut {
+        if outcome == ServiceOutcome::TimedOut {
             self.timed_out = self.timed_out.saturating_add(1);
         }
         if self.kept.len() >= Self::KEPT {
             self.kept.pop_front();
         }
-        self.kept.push_back(Answer { number: self.count, request, at, outcome });
+        self.kept.push_back(ServiceAnswer { number: self.count, request, at, outcome });
     }
 }

@@ -40,7 +40,7 @@ pub mod service;
 mod state;
 mod stream;
 
-pub use answer::{Answer, Outcome};
+pub use answer::{ServiceAnswer, ServiceOutcome};
 pub(crate) use executed::lines;
 pub use executed::{Executed, digest};
 pub use interface::StreamingInterface;

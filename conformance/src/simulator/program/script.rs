@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
 use ads_cnc::{CncStr, CncString, Error};
 
-use super::answer::{Answer, Answers, Outcome};
+use super::answer::{Answers, ServiceAnswer, ServiceOutcome};
 use super::policy::Policy;
 use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServiceWait};
 
@@ -123,7 +123,7 @@ pub enum ScriptState {
 /// use ads_cnc::CncStr;
 /// use ads_cnc::service::{Host, HostStep};
 /// use ads_cnc_conformance::simulator::program::service::ServiceInterface;
-/// use ads_cnc_conformance::simulator::program::{Outcome, Script, ScriptConfig};
+/// use ads_cnc_conformance::simulator::program::{ServiceOutcome, Script, ScriptConfig};
 ///
 /// let config = ScriptConfig::square_root()?;
 /// let ids = [config.requests[0].uuid];
@@ -144,8 +144,8 @@ pub enum ScriptState {
 /// let states: Vec<u32> = script
 ///     .answers()
 ///     .filter_map(|answer| match &answer.outcome {
-///         Outcome::Response { state, .. } => Some(*state),
-///         Outcome::TimedOut => None,
+///         ServiceOutcome::Response { state, .. } => Some(*state),
+///         ServiceOutcome::TimedOut => None,
 ///     })
 ///     .collect();
 /// assert_eq!(states, [1, 99]);
@@ -261,9 +261,9 @@ impl Script {
         }
         let outcome = match call.step() {
             CallStep::Done { state, response } => {
-                Outcome::Response { state, text: CncString::from(response) }
+                ServiceOutcome::Response { state, text: CncString::from(response) }
             }
-            CallStep::TimedOut => Outcome::TimedOut,
+            CallStep::TimedOut => ServiceOutcome::TimedOut,
             _ => return,
         };
         let at = *at;
@@ -287,7 +287,7 @@ impl Script {
     }
 
     /// The latest answers, in their order.
-    pub fn answers(&self) -> impl DoubleEndedIterator<Item = &Answer> {
+    pub fn answers(&self) -> impl DoubleEndedIterator<Item = &ServiceAnswer> {
         self.answers.kept.iter()
     }
 

@@ -11,11 +11,11 @@ pub(crate) struct Segment {
     at: usize,
     /// Number of the next line in the program, from 1.
     number: u32,
-    stop: Option<Stop>,
+    stop: Option<SegmentEnd>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Stop {
+enum SegmentEnd {
     /// Behind its line: what else was read with it is not run.
     End { end: ProgramEnd, line: u32 },
     /// In place of its line.
@@ -49,7 +49,7 @@ impl Segment {
                 // Not run.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
-                    fault = Some(Stop::Fault(finding));
+                    fault = Some(SegmentEnd::Fault(finding));
                     break;
                 }
                 CheckEvent::ProgramEnd { end: word, line, .. } => {
@@ -58,14 +58,14 @@ impl Segment {
                 CheckEvent::Diagnostic(_) => {}
             }
         }
-        let stop = fault.or(end.map(|(end, line)| Stop::End { end, line }));
+        let stop = fault.or(end.map(|(end, line)| SegmentEnd::End { end, line }));
         Self { lines: read.to_vec(), at: 0, number, stop }
     }
 
     pub(super) fn next(&self) -> Next<'_> {
         match self.stop {
-            Some(Stop::End { end, line }) if line < self.number => Next::End(end),
-            Some(Stop::Fault(finding)) if finding.line <= self.number => Next::Fault(finding),
+            Some(SegmentEnd::End { end, line }) if line < self.number => Next::End(end),
+            Some(SegmentEnd::Fault(finding)) if finding.line <= self.number => Next::Fault(finding),
             _ => match lines(self.lines.get(self.at..).unwrap_or_default()).next() {
                 Some(line) => Next::Line(line),
                 None => Next::Nothing,

@@ -23,9 +23,9 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
         let Some(whole) = maybe(probe, request)? else { continue };
         any = true;
         for piece in [37, 6, 1] {
-            probe.session.client.set_piece(Some(piece));
+            probe.target.client.set_piece(Some(piece));
             let exchange = probe.send(request);
-            probe.session.client.set_piece(None);
+            probe.target.client.set_piece(None);
             let exchange = exchange?;
             let same = exchange.success() == Some(&whole[..]);
             let expected = || format!("the same to a frame in pieces of {piece} bytes");
@@ -82,7 +82,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
         let call = call.with(|call| call.read_length = read_length);
         // The gate may let no other lengths pass.
-        if probe.session.client.check(&call.call()).is_err() {
+        if probe.target.client.check(&call.call()).is_err() {
             return Ok(None);
         }
         let exchange = probe.call(&call)?;
@@ -103,7 +103,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         probe.check(rule, fits, expected, || format!("{found:?}"));
     }
     let Extent::Fixed(own) = extent else { return Ok(()) };
-    if !probe.session.client.gate().lets_malformed_pass() {
+    if !probe.target.client.gate().lets_malformed_pass() {
         return Ok(());
     }
     // Nothing is behind what there is.

@@ -46,7 +46,7 @@ fn element(
 impl Addresses {
     pub(crate) fn new(probe: &mut Probe<'_>) -> Step<Self> {
         Ok(Self {
-            channels: probe.session.profile.channels.to_vec(),
+            channels: probe.target.profile.channels.to_vec(),
             // What is not there or not claimed says nothing.
             objects: probe.objects().if_applicable()?.unwrap_or_default(),
             instances: probe.instances().if_applicable()?.unwrap_or_default(),

@@ -31,7 +31,7 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
 pub(crate) fn dynamic_among_variables(
     probe: &mut Probe<'_>,
 ) -> Step<Vec<(DynamicKind, CncString)>> {
-    let profile = &probe.session.profile;
+    let profile = &probe.target.profile;
     let lacks = |why| Err(Stop::not_applicable(why));
     if profile.edition != Edition::German {
         return lacks("the edition has V.P, V.L and V.S among the parameters only");

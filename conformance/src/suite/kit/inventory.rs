@@ -144,7 +144,7 @@ impl Probe<'_> {
 
     /// The rank of the channel with this number.
     pub(crate) fn rank_of(&self, number: u32) -> Option<u8> {
-        let channels = self.session.profile.channels.iter();
+        let channels = self.target.profile.channels.iter();
         (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
     }
 
@@ -165,7 +165,7 @@ impl Probe<'_> {
     /// is written there nobody has.
     pub(crate) fn is_blank(&self, object: &Object) -> bool {
         let channel = u32::from(object.list.parts().instance);
-        let empty = self.session.profile.empty_places.iter();
+        let empty = self.target.profile.empty_places.iter();
         empty.filter(|at| at.0 == channel).any(|at| object.is_at(at.1))
     }
 
@@ -178,7 +178,7 @@ impl Probe<'_> {
     /// The object lists of the platform, the channels and the platform axes that are claimed.
     pub(crate) fn lists(&self) -> Step<Vec<ObjectList>> {
         let channels = self.channels()?.into_iter().map(ObjectList::from);
-        let axes = (1..=self.session.profile.platform_axes).map(PlatformAxis::new);
+        let axes = (1..=self.target.profile.platform_axes).map(PlatformAxis::new);
         let axes: Result<Vec<_>, _> = axes.map(|axis| axis.map(ObjectList::from)).collect();
         let platform = std::iter::once(ObjectList::PLATFORM);
         Ok(platform.chain(channels).chain(axes?).collect())
@@ -186,7 +186,7 @@ impl Probe<'_> {
 
     /// Every object of all lists. What cannot be read is judged elsewhere, and left out here.
     pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
-        if self.session.inventory.objects.is_none() {
+        if self.target.inventory.objects.is_none() {
             let mut all = Vec::new();
             for list in self.lists()? {
                 let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
@@ -216,16 +216,16 @@ impl Probe<'_> {
                     });
                 }
             }
-            self.session.inventory.objects = Some(all);
+            self.target.inventory.objects = Some(all);
         }
-        let all = self.session.inventory.objects.clone();
+        let all = self.target.inventory.objects.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
     /// Whether an instance is at a place that the profile says to be without an axis.
     pub(crate) fn is_claimed_empty(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
-        OF_PLACES.contains(&instance.class) && self.session.profile.empty_places.contains(&at)
+        OF_PLACES.contains(&instance.class) && self.target.profile.empty_places.contains(&at)
     }
 
     /// Every instance that the target says to have. Whether it says so rightly is judged
@@ -234,7 +234,7 @@ impl Probe<'_> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
         }
-        if self.session.inventory.instances.is_none() {
+        if self.target.inventory.instances.is_none() {
             let mut all = Vec::new();
             let channels: Vec<u32> =
                 self.channels()?.into_iter().map(|channel| channel.number().into()).collect();
@@ -251,9 +251,9 @@ impl Probe<'_> {
                     break;
                 }
             }
-            self.session.inventory.instances = Some(all);
+            self.target.inventory.instances = Some(all);
         }
-        let all = self.session.inventory.instances.clone();
+        let all = self.target.inventory.instances.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")
     }
 

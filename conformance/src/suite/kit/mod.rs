@@ -13,9 +13,9 @@ mod object_list;
 mod probe;
 mod raw_call;
 mod service_channels;
-mod session;
 mod steady;
 mod stream_write;
+mod target_state;
 mod undo;
 mod value_address;
 mod writable;
@@ -43,9 +43,9 @@ pub use probe::Probe;
 pub(crate) use probe::heard;
 pub(crate) use raw_call::{IntoRawCall, RawCall};
 pub(crate) use service_channels::service_channels;
-pub use session::Session;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{HELD_MAX, StreamWrite, send, send_until_taken};
+pub use target_state::TargetState;
 pub use undo::Changes;
 pub(crate) use value_address::{
     NOTHING_WRITABLE, ValueAddress, WriteCheck, another, is_sendable, same,

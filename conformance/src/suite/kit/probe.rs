@@ -20,7 +20,7 @@ use crate::judge::{
 use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::simulator::Cnc;
-use crate::suite::kit::{RawCall, Session};
+use crate::suite::kit::{RawCall, TargetState};
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;
@@ -28,11 +28,10 @@ const SILENCES_MAX: usize = 8;
 /// Requests of one case after which it ends: a target may say to have no end of anything.
 const REQUESTS_MAX: usize = 50_000;
 
-/// One case's view of the session.
+/// A case's access to the target.
 #[derive(Debug)]
 pub struct Probe<'s> {
-    /// The session.
-    pub session: &'s mut Session,
+    pub target: &'s mut TargetState,
     record: Record,
     last: Option<Evidence>,
     asked: usize,
@@ -44,9 +43,9 @@ pub struct Probe<'s> {
 }
 
 impl<'s> Probe<'s> {
-    pub(crate) fn new(session: &'s mut Session) -> Self {
+    pub(crate) fn new(target: &'s mut TargetState) -> Self {
         Self {
-            session,
+            target,
             record: Record::default(),
             last: None,
             asked: 0,
@@ -67,7 +66,7 @@ impl<'s> Probe<'s> {
 
     /// The channels the target claims, by number.
     pub fn channels(&self) -> Step<Vec<Channel>> {
-        let numbers = &self.session.profile.channels;
+        let numbers = &self.target.profile.channels;
         numbers.iter().map(|&number| Ok(Channel::new(number)?)).collect()
     }
 
@@ -103,12 +102,12 @@ impl<'s> Probe<'s> {
 
     /// The CNC itself, to do to it from within what nobody can ask for.
     pub(crate) fn cnc(&self) -> Step<Arc<Cnc>> {
-        self.session.cnc.clone().or_not_applicable("the CNC is not in this process")
+        self.target.cnc.clone().or_not_applicable("the CNC is not in this process")
     }
 
     /// Whether the target claims a function.
     pub fn claims(&self, function: Function) -> Claim {
-        self.session.profile.claims(function)
+        self.target.profile.claims(function)
     }
 
     /// Judges a check, for each of the rules. The words are formatted if it fails.
@@ -194,11 +193,11 @@ impl<'s> Probe<'s> {
             let why = format!("the profile does not claim {}", function.spec().name);
             return Err(Stop::NotApplicable(why));
         }
-        let exchange = self.session.client.call(&call);
+        let exchange = self.target.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
         self.came(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
-        if fault.is_none() && !self.session.answered.contains(&call.service) {
-            self.session.answered.push(call.service);
+        if fault.is_none() && !self.target.answered.contains(&call.service) {
+            self.target.answered.push(call.service);
         }
         Ok(exchange)
     }
@@ -209,13 +208,13 @@ impl<'s> Probe<'s> {
             self.interrupted = true;
             return Err(Stop::Interrupted);
         }
-        if self.session.changes.any_pending() {
+        if self.target.changes.any_pending() {
             self.check_time_to_restore()?;
         }
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
             return Err(Stop::Inconclusive(deadline.to_string()));
         }
-        match &self.session.gone {
+        match &self.target.gone {
             Some(why) => Err(Stop::Inconclusive(format!("no target left: {why}"))),
             None => Ok(()),
         }
@@ -229,24 +228,24 @@ impl<'s> Probe<'s> {
         what: &impl Display,
         evidence: Evidence,
     ) -> Step {
-        let session = &mut *self.session;
+        let state = &mut *self.target;
         match fault {
             Some(Fault::Refused(why)) => return Err(Stop::Refused(format!("{what}: {why}"))),
             Some(Fault::Gone(why)) => {
-                session.gone = Some(why.clone());
+                state.gone = Some(why.clone());
                 return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
             }
-            Some(_) => session.silences = session.silences.saturating_add(1),
-            None => session.silences = 0,
+            Some(_) => state.silences = state.silences.saturating_add(1),
+            None => state.silences = 0,
         }
-        session.frames = session.frames.saturating_add(1);
-        if session.silences >= SILENCES_MAX {
-            session.gone = Some(format!("{SILENCES_MAX} requests in a row without an answer"));
+        state.frames = state.frames.saturating_add(1);
+        if state.silences >= SILENCES_MAX {
+            state.gone = Some(format!("{SILENCES_MAX} requests in a row without an answer"));
         }
         for Violation { requirement, what } in violations {
             let rule = Rule::from(*requirement);
             let evidence = || Some(evidence.clone());
-            session.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
+            state.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
         }
         self.last = Some(evidence);
         Ok(())
@@ -265,7 +264,7 @@ impl<'s> Probe<'s> {
         let exchange = self.send(request)?;
         let mut rules: Vec<Rule> = rules.rules().collect();
         // What is claimed by its name must work, whatever is documented of it.
-        if self.session.profile.names(request.function()) {
+        if self.target.profile.names(request.function()) {
             rules.iter_mut().for_each(|rule| rule.level = Some(Level::Must));
         }
         let data = exchange.success();

@@ -12,7 +12,7 @@ use crate::suite::kit::Probe;
 /// The channels that have the interface: all, if it is claimed; else those that describe it, or
 /// answer.
 pub(crate) fn service_channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
-    let profile = &probe.session.profile;
+    let profile = &probe.target.profile;
     let lacks = |why| Err(Stop::not_applicable(why));
     if !profile.has_section(Section::Service) {
         return lacks("the profile does not claim the Service Interface");

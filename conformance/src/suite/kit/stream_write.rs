@@ -71,7 +71,7 @@ pub(crate) fn send_until_taken(
         if !sent.is_refused() {
             break;
         }
-        probe.session.client.wait(Duration::from_millis(1));
+        probe.target.client.wait(Duration::from_millis(1));
         sent = send(probe, channel, data)?;
     }
     Ok(sent)

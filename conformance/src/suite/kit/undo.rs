@@ -134,7 +134,7 @@ impl Probe<'_> {
             }
             _ => None,
         };
-        self.session.changes.begin(Change {
+        self.target.changes.begin(Change {
             address: address.clone(),
             by_name,
             name: write_check.name.cloned(),
@@ -148,7 +148,7 @@ impl Probe<'_> {
         let changed = change(self);
         let restored = match restore(self) {
             Ok(true) => {
-                self.session.changes.end(address);
+                self.target.changes.end(address);
                 Ok(())
             }
             restored => restored.map(drop),
@@ -160,7 +160,7 @@ impl Probe<'_> {
     /// Rejects a change, and any further request of a case that has changed a value, when the file that
     /// permits it expires before the value could be restored.
     pub(crate) fn check_time_to_restore(&self) -> Step {
-        let client = &self.session.client;
+        let client = &self.target.client;
         let target = client.target();
         // Each request may wait for a connection and for an answer.
         let request = target.timeout.saturating_mul(2).saturating_add(target.pace);
@@ -176,7 +176,7 @@ impl Probe<'_> {
     /// nothing more is asked of the target otherwise.
     pub(crate) fn put_back(&mut self) -> Step {
         let mut all = Ok(());
-        while let Some(change) = self.session.changes.last() {
+        while let Some(change) = self.target.changes.last() {
             all = all.and(self.put_back_one(change));
         }
         all
@@ -184,18 +184,18 @@ impl Probe<'_> {
 
     /// Tries again what could not be restored.
     pub(crate) fn put_back_rest(&mut self) {
-        self.session.changes.all().iter_mut().for_each(|change| change.given_up = false);
+        self.target.changes.all().iter_mut().for_each(|change| change.given_up = false);
         // What is left is shown.
         let _left = self.put_back();
     }
 
     fn put_back_one(&mut self, mut change: Change) -> Step {
-        let (changes, address) = (self.session.changes.clone(), change.address.clone());
+        let (changes, address) = (self.target.changes.clone(), change.address.clone());
         let mut written = false;
         for times in 0..=WRITES_MAX {
             if times > 1 {
                 let pause = PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8));
-                self.session.client.wait(pause);
+                self.target.client.wait(pause);
                 // Its handle may lead to nothing any more, or not be confirmed again.
                 if let Some(by_name) = change.by_name.take() {
                     change.address = by_name;
@@ -256,7 +256,7 @@ impl Probe<'_> {
                 self.insist(DescribeByName { channel, name: name.into() });
             }
             (ValueAddress::Object { .. }, _) => {
-                let allowed = self.session.client.gate().allowed();
+                let allowed = self.target.client.gate().allowed();
                 let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
                 for entry in entries {
                     let Entry::Object { list, .. } = entry else { continue };
@@ -278,7 +278,7 @@ impl Probe<'_> {
     /// Sends a request, whatever ends the case or the run otherwise.
     fn insist<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
         let request = RawCall::new(request).ok()?;
-        self.session.frames = self.session.frames.saturating_add(1);
-        Some(self.session.client.call(&request.call()))
+        self.target.frames = self.target.frames.saturating_add(1);
+        Some(self.target.client.call(&request.call()))
     }
 }

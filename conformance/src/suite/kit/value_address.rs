@@ -140,7 +140,7 @@ impl Probe<'_> {
 
     /// Whether this place may be written, and is not to be left alone.
     pub(crate) fn may_write(&mut self, address: &ValueAddress, name: &str) -> Step<bool> {
-        let left = self.session.profile.leaves(name);
+        let left = self.target.profile.leaves(name);
         match address.write(&[]) {
             Ok(write) if !left => self.may(write),
             _ => Ok(false),
@@ -158,7 +158,7 @@ impl Probe<'_> {
             let why = format!("{} of {} bytes cannot be written", write_check.what, value.len());
             return Err(Stop::Inconclusive(why));
         };
-        self.session.changes.is_now(address, Some(value));
+        self.target.changes.is_now(address, Some(value));
         let exchange = self.send(write)?;
         let kept = exchange.success().is_some();
         let expected = || format!("{} takes {}", write_check.what, Hex(value.to_vec()));

@@ -194,7 +194,7 @@ pub(crate) fn write_value(
     value: &[u8],
 ) -> Step<bool> {
     let Some(write) = address.write(value).ok().filter(is_sendable) else { return Ok(false) };
-    probe.session.changes.is_now(address, Some(value));
+    probe.target.changes.is_now(address, Some(value));
     let exchange = probe.send(write)?;
     Ok(exchange.success().is_some())
 }

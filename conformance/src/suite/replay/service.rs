@@ -9,7 +9,7 @@ use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use super::{Done, Fault, differs, lacks};
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
-use crate::simulator::program::{Outcome, Repeat, Request, Script, ScriptConfig, Wait};
+use crate::simulator::program::{Repeat, Request, Script, ScriptConfig, ServiceOutcome, Wait};
 
 /// The interfaces of a CNC's channels, by number, and the program that asks.
 pub trait ServiceActor {
@@ -42,7 +42,7 @@ pub trait Asking {
     fn next_step(&self) -> Option<CallStep<'_>>;
 
     /// What came of its request.
-    fn outcome(&self) -> Option<Outcome>;
+    fn outcome(&self) -> Option<ServiceOutcome>;
 }
 
 impl Asking for Script {
@@ -54,7 +54,7 @@ impl Asking for Script {
         Script::next_step(self)
     }
 
-    fn outcome(&self) -> Option<Outcome> {
+    fn outcome(&self) -> Option<ServiceOutcome> {
         self.answers().next().map(|answer| answer.outcome.clone())
     }
 }
@@ -111,12 +111,12 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
             },
             ServiceAction::Timeout => match self.outcome(step)? {
                 None => Ok(Some("too-early")),
-                Some(Outcome::TimedOut) => Ok(None),
+                Some(ServiceOutcome::TimedOut) => Ok(None),
                 Some(other) => differs("no answer in time", format!("{other:?}")),
             },
             ServiceAction::Done => match self.outcome(step)? {
                 None => Ok(Some("too-early")),
-                Some(Outcome::Response { state, text: response }) => {
+                Some(ServiceOutcome::Response { state, text: response }) => {
                     let stated = (text(&step.response)?, number(&step.response_state)?);
                     let same = (response.as_bytes().to_vec(), state) == stated;
                     Ok((!same).then_some("outcome"))
@@ -149,7 +149,7 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
     }
 
     /// What came of the request, once the program has looked.
-    fn outcome(&mut self, step: &ServiceStep) -> Done<Option<Outcome>> {
+    fn outcome(&mut self, step: &ServiceStep) -> Done<Option<ServiceOutcome>> {
         self.program_step(step)?;
         Ok(self.program_step(step)?.outcome())
     }

@@ -24,7 +24,7 @@ use crate::suite::kit::{
 /// Plays a sequence of the Service Interface, and leaves the interfaces as at the start.
 pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let (cnc, channels) = (probe.cnc()?, service_channels(probe)?);
-    let mut actor = Services { probe, cnc, channels };
+    let mut actor = ServicePlayer { probe, cnc, channels };
     for step in &given.steps {
         actor.channel(step.channel.unwrap_or(1))?;
     }
@@ -34,13 +34,13 @@ pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> 
     done
 }
 
-struct Services<'s, 'p> {
+struct ServicePlayer<'s, 'p> {
     probe: &'s mut Probe<'p>,
     cnc: Arc<Cnc>,
     channels: Vec<Channel>,
 }
 
-impl Services<'_, '_> {
+impl ServicePlayer<'_, '_> {
     fn reset(&self) -> Done<()> {
         let mut all = self.channels.iter();
         let reset = |one: &Channel| self.cnc.with_service(one.number(), |service| service.reset());
@@ -56,7 +56,7 @@ impl Services<'_, '_> {
     }
 }
 
-impl ServiceActor for Services<'_, '_> {
+impl ServiceActor for ServicePlayer<'_, '_> {
     type Program = Script;
 
     fn ask(&self, request: Request) -> Result<Script, CallError> {
@@ -104,7 +104,7 @@ pub(super) fn stream<'c>(
     rules: &[&'static Requirement],
 ) -> Done<Fault<'c>> {
     let (cnc, channel) = (probe.cnc()?, probe.channel()?);
-    let mut actor = Stream { probe, cnc, channel, rules };
+    let mut actor = StreamPlayer { probe, cnc, channel, rules };
     let config = actor.with(|program| program.config().clone())?;
     if config.name.is_empty() {
         let why = format!("streaming is off in channel {}", channel.number());
@@ -116,7 +116,7 @@ pub(super) fn stream<'c>(
     done
 }
 
-struct Stream<'s, 'p> {
+struct StreamPlayer<'s, 'p> {
     probe: &'s mut Probe<'p>,
     cnc: Arc<Cnc>,
     channel: Channel,
@@ -124,7 +124,7 @@ struct Stream<'s, 'p> {
     rules: &'s [&'static Requirement],
 }
 
-impl Stream<'_, '_> {
+impl StreamPlayer<'_, '_> {
     fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
         Ok(self.cnc.with_program(self.channel.number(), then)?)
     }
@@ -143,7 +143,7 @@ impl Stream<'_, '_> {
 }
 
 /// Time does not pass: the program is on hold.
-impl StreamActor for Stream<'_, '_> {
+impl StreamActor for StreamPlayer<'_, '_> {
     fn start(&mut self, _: Duration) -> Done<()> {
         match self.with(|one| one.start(Duration::ZERO))? {
             Ok(()) => Ok(()),

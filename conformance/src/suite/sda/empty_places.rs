@@ -11,7 +11,7 @@ use crate::simulator::Cnc;
 use crate::suite::kit::{Instance, OBJECTS_MAX, OF_PLACES, Probe};
 
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
-    let places = probe.session.profile.empty_places.clone();
+    let places = probe.target.profile.empty_places.clone();
     if places.is_empty() {
         return Err(Stop::not_applicable("no place is known to be empty; a profile can name one"));
     }
@@ -94,7 +94,7 @@ fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
 const CHANNELS: [(u8, u32); 2] = [(2, 4), (6, 5)];
 
 /// The element with this number among those of a place; nothing if it is a function's.
-type Found = (Class, u32);
+type ClassElement = (Class, u32);
 
 pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
@@ -116,17 +116,18 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     let moved = (at(probe, one, theirs), numbers_of(probe, one, theirs));
     let blank = blank_at(probe, other.into(), 1, &before);
     restore(&cnc)?;
-    let numbers: Vec<Found> = moved.0?.into_iter().filter(|one| before.contains(one)).collect();
+    let numbers: Vec<ClassElement> =
+        moved.0?.into_iter().filter(|one| before.contains(one)).collect();
     let of_com: Vec<_> = moved.1?.into_iter().filter(|one| objects.contains(one)).collect();
     if numbers.is_empty() && of_com.is_empty() {
         return Err(none());
     }
-    let is_number = |(element, _): &&(Found, Vec<u8>)| numbers.contains(element);
+    let is_number = |(element, _): &&(ClassElement, Vec<u8>)| numbers.contains(element);
     for ((class, element), content) in blank?.iter().filter(is_number) {
         let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
         probe.check("SDA-11", is_blank(content), "0 where the axis was", found);
     }
-    for &(channel, place) in probe.session.profile.empty_places.clone().iter() {
+    for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for ((class, element), content) in blank_at(probe, channel, place, &numbers)? {
             let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
             let expected = || format!("0 at place {place} of channel {channel}");
@@ -161,7 +162,7 @@ fn holding(
     channel: u32,
     place: u32,
     is_such: impl Fn(&[u8]) -> bool,
-) -> Step<Vec<Found>> {
+) -> Step<Vec<ClassElement>> {
     let mut all = Vec::new();
     for one in probe.instances()? {
         if !OF_PLACES.contains(&one.class) || (one.channel, one.axis) != (channel, place) {
@@ -181,8 +182,8 @@ fn blank_at(
     probe: &mut Probe<'_>,
     channel: u32,
     place: u32,
-    elements: &[Found],
-) -> Step<Vec<(Found, Vec<u8>)>> {
+    elements: &[ClassElement],
+) -> Step<Vec<(ClassElement, Vec<u8>)>> {
     let mut all = Vec::new();
     for one in probe.instances()? {
         if (one.channel, one.axis) != (channel, place) {

@@ -88,12 +88,12 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
         }
     }
     // A place is there whether an axis is or not.
-    for &(channel, place) in probe.session.profile.empty_places.clone().iter() {
+    for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for class in OF_PLACES {
             is_there(probe, &[of_axes(class, "SDA-5")], class, channel, place)?;
         }
     }
-    let axes = probe.session.profile.platform_axes;
+    let axes = probe.target.profile.platform_axes;
     for axis in 1..=axes {
         is_there(probe, &rules, Class::PositionController, 0, axis)?;
         is_there(probe, &rules, Class::Hld, 0, axis)?;
@@ -111,13 +111,13 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
             is_nowhere(probe, &["SDA-5"], Class::Hld, channel, beyond)?;
         }
     }
-    if let Some(spindles) = probe.session.profile.spindles {
+    if let Some(spindles) = probe.target.profile.spindles {
         for index in 0..spindles {
             is_there(probe, &rules, Class::Spindle, index, 0)?;
         }
         is_nowhere(probe, &["SDA-5"], Class::Spindle, spindles, 0)?;
     }
-    if let Some(absent) = probe.session.profile.absent_channel {
+    if let Some(absent) = probe.target.profile.absent_channel {
         for class in OF_PLACES.into_iter().chain([Class::Hld]) {
             is_nowhere(probe, &["SDA-5"], class, absent, 0)?;
             is_nowhere(probe, &["SDA-5"], class, absent, 1)?;

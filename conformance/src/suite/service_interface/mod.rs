@@ -42,7 +42,7 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn variables(probe: &mut Probe<'_>) -> Step {
-    let version = probe.session.profile.cnc_version;
+    let version = probe.target.profile.cnc_version;
     let since = version.map(|version| version.has(Feature::ServiceInterface));
     let of_version = since
         .filter(|answer| answer.available)

@@ -9,7 +9,7 @@ use ads_cnc_vectors::Hex;
 
 use super::{NONE, get, put, within};
 use crate::judge::{Step, Stop};
-use crate::simulator::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
+use crate::simulator::program::{Repeat, Script, ScriptConfig, ScriptState, ServiceOutcome};
 use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
@@ -70,8 +70,8 @@ pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
             answers.map(|answer| answer.outcome).collect::<Vec<_>>()
         });
         let expected = vec![
-            Outcome::Response { state: 1, text: "1.732051".parse()? },
-            Outcome::Response { state: 99, text: NEGATIVE.parse()? },
+            ServiceOutcome::Response { state: 1, text: "1.732051".parse()? },
+            ServiceOutcome::Response { state: 99, text: NEGATIVE.parse()? },
         ];
         let found = answers?;
         probe.check(

@@ -108,7 +108,7 @@ fn comment(len: usize) -> Vec<u8> {
 fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     for channel in probe.channels()? {
         if probe.may(WriteProgramStream::new(channel, b"\r\n"))? {
-            if let Some(cnc) = &probe.session.cnc {
+            if let Some(cnc) = &probe.target.cnc {
                 let config = cnc.with_program(channel.number(), |one| one.config().clone());
                 let set_up = config.and_then(|config| cnc.set_program(channel.number(), config));
                 set_up?;
@@ -126,7 +126,7 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
     let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
     // The speed of the simulated CNC is known.
-    let (wait, patience) = if probe.session.cnc.is_some() {
+    let (wait, patience) = if probe.target.cnc.is_some() {
         (Duration::from_millis(5), Duration::from_millis(300))
     } else {
         (RETRY_AFTER, PATIENCE)
@@ -137,7 +137,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
             return Ok(Some(refused));
         }
         if begun.elapsed().max(waited) > patience {
-            let room = match &probe.session.cnc {
+            let room = match &probe.target.cnc {
                 Some(cnc) => {
                     let held = cnc.with_program(channel.number(), |program| program.held());
                     held?.saturating_add(data.len()) <= HELD_MAX
@@ -148,7 +148,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
             return if room { Ok(None) } else { Err(Stop::Inconclusive(why)) };
         }
         refused = refused.saturating_add(1);
-        probe.session.client.wait(wait);
+        probe.target.client.wait(wait);
         waited = waited.saturating_add(wait);
     }
 }

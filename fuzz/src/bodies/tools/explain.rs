@@ -7,7 +7,8 @@ use ads_cnc::operation::{Call, Service};
 use ads_cnc::streaming::{NcText, check_line_ends};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
-    Explanation, Outcome as CheckEvent, Place, Question, Subject, Values, explain, parse_hex,
+    Explanation, Outcome as CheckEvent, Question, ServiceAddress, Subject, Values, explain,
+    parse_hex,
 };
 
 use super::Input;
@@ -118,7 +119,7 @@ fn is_nc(bytes: &[u8]) -> bool {
 }
 
 /// What the codec finds at a place is what is said to be there.
-fn dispatches(place: &Place, bytes: &[u8], explanation: &Explanation, faulty: bool) {
+fn dispatches(place: &ServiceAddress, bytes: &[u8], explanation: &Explanation, faulty: bool) {
     let (Some(port), Some(service), false) = (place.port, place.service, place.reply) else {
         return;
     };
@@ -161,10 +162,10 @@ fn values(input: &mut Input<'_>) -> Values {
     Values { ty, dimensions }
 }
 
-fn place(input: &mut Input<'_>) -> Place {
+fn place(input: &mut Input<'_>) -> ServiceAddress {
     let services = [None, Some(Service::Read), Some(Service::Write), Some(Service::ReadWrite)];
     let ports = [None, Some(551), Some(552), Some(553), Some(851)];
-    Place {
+    ServiceAddress {
         port: input.choose(&ports).map(AmsPort),
         service: *input.choose(&services),
         reply: input.byte() & 1 == 1,

@@ -12,7 +12,7 @@ use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_k
 use crate::simulator::to_len;
 
 /// What a name on the channel interface stands for.
-pub(super) enum Named {
+pub(super) enum Resolved {
     Variable(At),
     /// A V.P, V.L or V.S, in editions that have them here.
     Parameter,
@@ -80,7 +80,7 @@ impl Running<'_> {
         function: Function,
         channel: usize,
         name: CncStr<'n>,
-    ) -> Result<(Named, U32List<'n>), AdsError> {
+    ) -> Result<(Resolved, U32List<'n>), AdsError> {
         if let (Some(version), Some(feature)) = (self.model.version, Feature::of(function))
             && !version.has(feature).available
         {
@@ -91,15 +91,15 @@ impl Running<'_> {
         let model = self.model.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
         let (whole, indices) = (CncString::from(path.variable().text()), path.elements());
         if let Some(place) = model.variables.named(whole.as_bytes()) {
-            return Ok((Named::Variable(At::Own(place)), indices));
+            return Ok((Resolved::Variable(At::Own(place)), indices));
         }
         if path.kind() == Kind::V_A {
             let at = self.of_named_axis(channel, model, whole.as_bytes()).ok_or(UNKNOWN)?;
-            return Ok((Named::Variable(at), indices));
+            return Ok((Resolved::Variable(at), indices));
         }
         let (kind, name) = parameter(name)?;
         let found = self.state.parameters(channel, kind).any(|one| one.is.name == name);
-        if found { Ok((Named::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
+        if found { Ok((Resolved::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
     }
 
     /// The variable in front of the last dot, of the axis whose name is behind it.

@@ -8,7 +8,7 @@ use toml::{Spanned, Value};
 use super::super::document::{ClassesTable, ElementRow, ElementTable, ObjectRow};
 use super::super::error::Source;
 use super::super::item::{ClassModel, Elements, Initial, Item, Meaning, Objects, Values};
-use super::super::types::{self, Named, Scalar};
+use super::super::types::{self, NamedType, Scalar};
 use super::super::{ModelError, class_place};
 use super::text;
 use crate::simulator::{CONTENT_MAX, to_len};
@@ -24,7 +24,7 @@ const HLD_AXIS_STRIDE: usize = 0x1000;
 /// A value as it is declared, whatever it is of.
 pub(super) struct Declared<'a> {
     pub(super) source: Source<'a>,
-    pub(super) types: &'static [Named],
+    pub(super) types: &'static [NamedType],
     pub(super) of_type: &'a Spanned<String>,
     pub(super) size: Option<&'a Spanned<u32>>,
     /// Elements of an array, multiplied.
@@ -39,7 +39,8 @@ impl Declared<'_> {
     pub(super) fn read(&self) -> Result<(&'static str, Initial), ModelError> {
         let of_type = self.of_type;
         let error = |why: String| self.source.error(&of_type.span(), why);
-        let Named { name, scalar } = types::find(self.types, of_type.get_ref()).map_err(error)?;
+        let NamedType { name, scalar } =
+            types::find(self.types, of_type.get_ref()).map_err(error)?;
         let each = match (scalar.size(), self.size) {
             (Some(size), None) => size,
             (Some(_), Some(size)) => {

@@ -23,7 +23,7 @@ pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
 impl Probe<'_> {
     /// The kinds that the target lists.
     pub(crate) fn kinds(&self) -> Vec<(&'static str, Kind<'static>)> {
-        let profile = &self.session.profile;
+        let profile = &self.target.profile;
         KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
     }
 
@@ -33,11 +33,11 @@ impl Probe<'_> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
             let key = (u32::from(channel.number()), name);
-            if !self.session.variables.contains_key(&key) {
+            if !self.target.variables.contains_key(&key) {
                 let described = self.describe(channel, kind)?;
-                self.session.variables.insert(key, described);
+                self.target.variables.insert(key, described);
             }
-            all.extend(self.session.variables.get(&key).into_iter().flatten().cloned());
+            all.extend(self.target.variables.get(&key).into_iter().flatten().cloned());
         }
         applicable(!all.is_empty(), "the target has no variable")?;
         Ok(all)

@@ -18,12 +18,12 @@ impl Probe<'_> {
             return Ok(());
         }
         let number = u32::from(op.channel.number());
-        let is_described = self.session.variables.iter().any(|((channel, _), all)| {
+        let is_described = self.target.variables.iter().any(|((channel, _), all)| {
             *channel == number && all.iter().any(|variable| variable.handle == op.handle)
         });
-        if is_described && !self.session.client.gate().knows_handle(op.channel, op.handle) {
+        if is_described && !self.target.client.gate().knows_handle(op.channel, op.handle) {
             // They were read on another connection, maybe of a device that has been restarted since.
-            self.session.variables.retain(|(channel, _), _| *channel != number);
+            self.target.variables.retain(|(channel, _), _| *channel != number);
             self.variables(op.channel)?;
         }
         if let Some(name) = self.unconfirmed(request)?
@@ -53,7 +53,7 @@ impl Probe<'_> {
     /// Whether a request could be sent, and why the gate rejects it if that is why not. Nothing is
     /// sent.
     pub(crate) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
-        match self.session.client.check(&RawCall::new(*request)?.call()) {
+        match self.target.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),
             Err(Fault::Refused(refusal)) => Ok(Err(Some(*refusal))),
             Err(_) => Ok(Err(None)),

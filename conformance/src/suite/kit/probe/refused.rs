@@ -40,12 +40,12 @@ impl Probe<'_> {
             }
             Some(data) => {
                 if exchange.is_error() {
-                    let refusals = &mut self.session.refusals;
+                    let refusals = &mut self.target.refusals;
                     refusals.by_number = refusals.by_number.saturating_add(1);
                 } else if data.is_empty() && rule.level == Some(Level::Must) {
                     let (rule, last) = (Rule::from("ADS-7"), &self.last);
                     let found = "a success that gives nothing";
-                    let by_nothing = &mut self.session.refusals.by_nothing;
+                    let by_nothing = &mut self.target.refusals.by_nothing;
                     let verdict = rule.verdict(false);
                     by_nothing.add(rule, verdict, "an error number", found, || last.clone());
                 }
@@ -55,7 +55,7 @@ impl Probe<'_> {
                 // Silence is no way to refuse, however little is documented of the request.
                 let rule = Rule { id: rule.id, level: Some(Level::Must) };
                 self.check(rule, false, expected, &exchange);
-                if self.session.silences > 1 {
+                if self.target.silences > 1 {
                     return Err(Stop::Judged);
                 }
             }
@@ -80,7 +80,7 @@ impl Probe<'_> {
     /// Numbers from the first that is too many on; of those far beyond only what cannot move is
     /// asked. Some have the lower bytes of a number that is not: who reads fewer finds it.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
-        if !self.session.client.gate().lets_malformed_pass() {
+        if !self.target.client.gate().lets_malformed_pass() {
             return vec![first];
         }
         let last = first.saturating_sub(1);

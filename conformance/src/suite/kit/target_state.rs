@@ -1,4 +1,4 @@
-//! What all cases of a run share.
+//! The state of a target during a run, which all cases share.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,9 +13,9 @@ use crate::profile::Profile;
 use crate::simulator::Cnc;
 use crate::suite::kit::{Changes, Inventory};
 
-/// The connection, and what has been learnt of the target so far.
+/// A connection to a target, and the state that the cases of a run have found so far.
 #[derive(Debug)]
-pub struct Session {
+pub struct TargetState {
     /// The connection.
     pub client: Client,
     /// What the target claims.
@@ -53,8 +53,8 @@ pub(in crate::suite) struct Refusals {
     pub(in crate::suite) by_nothing: Record,
 }
 
-impl Session {
-    /// A session over a connection.
+impl TargetState {
+    /// The state at the start, over a connection.
     pub fn new(client: Client, profile: Profile) -> Self {
         Self {
             client,
