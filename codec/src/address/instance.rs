@@ -11,10 +11,7 @@ use crate::layout::index_offset::CHANNEL_AXIS;
 
 /// Checks a number against the bits it has in a group or offset (ADR-9).
 fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
-    let nearest = match range(field) {
-        Some((_, least, most)) => number.max(least).min(most),
-        None => number,
-    };
+    let nearest = range(field).map_or(number, |(_, least, most)| number.max(least).min(most));
     match N::try_from(number) {
         Ok(fits) if nearest == number => Ok(fits),
         _ => Err(Error::new(ErrorKind::OutOfRange, field, 0, nearest, number)),

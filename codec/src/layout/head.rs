@@ -43,7 +43,7 @@ mod tests {
     /// The sizes are those of the rows, and the offsets of the rows are their sums.
     #[test]
     fn heads_are_the_fixed_fields_in_front() {
-        for stream in Stream::all() {
+        for stream in Stream::all().chain([Stream::NoData]) {
             let rows = stream.layout().fields;
             let front = rows.iter().take_while(|row| row.per_item == 0 && row.size.fixed() > 0);
             assert_eq!(front.clone().count(), stream.head_sizes().len(), "{stream}");
