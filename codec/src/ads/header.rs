@@ -100,11 +100,14 @@ impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::exact(Self::STREAM, bytes).map(Self::from_layout)
+        let fixed: &HeaderLayout = Reader::exact(Self::STREAM, bytes)?;
+        Ok(Self::from_layout(fixed))
     }
 }
 
 impl AmsHeader {
+    // A call would copy the header once more.
+    #[inline]
     fn from_layout(fixed: &HeaderLayout) -> Self {
         let end =
             |net_id, port: U16| AmsAddr { net_id: AmsNetId(net_id), port: AmsPort(port.get()) };
