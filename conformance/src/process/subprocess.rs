@@ -1,4 +1,4 @@
-//! A program that is spoken with in lines, and what it does when it is told something.
+//! A program that exchanges lines with the suite over its stdin and stdout.
 
 use std::process::ExitStatus;
 use std::time::Duration;
@@ -6,10 +6,10 @@ use std::time::Duration;
 use super::{LineProcess, RecvError, Stderr, interrupt, shell};
 use crate::deadline::Deadline;
 
-/// How long a program has for ending when all is said.
+/// How long a program may take to end after its stdin is closed.
 pub const GRACE: Duration = Duration::from_secs(2);
 
-/// What a program does when it is told something.
+/// The reaction of a program to a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reaction<A> {
     Answer(A),

@@ -15,12 +15,13 @@ const TRIES: usize = 3;
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
-    /// In between there was no answer.
+    /// The reading between them got no answer.
     NoAnswer,
     Same,
-    /// It stood still the last time, and differed. The evidence is that of the reading in between.
+    /// In the last attempt both readings of the value were equal, and the reading between them
+    /// differed. The evidence is that of the reading between them.
     Differs(B, R, Option<Box<Evidence>>),
-    /// It did not stand still the last time.
+    /// In the last attempt the two readings of the value differed.
     Moved,
 }
 

@@ -116,7 +116,7 @@ impl Probe<'_> {
         }
     }
 
-    /// What is there now, if it is not empty: what could be written back.
+    /// The present value, if it is not empty: an empty value could not be restored.
     pub(crate) fn filled_value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
         Ok(self.value_at(address)?.filter(|value| !value.is_empty()))
     }
