@@ -61,7 +61,7 @@ stream! {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(from = "HeaderLayout", into = "HeaderLayout")
+    serde(try_from = "HeaderLayout", into = "HeaderLayout")
 )]
 pub struct AmsHeader {
     /// The receiver of the frame.
@@ -101,17 +101,9 @@ impl<'a> Decode<'a> for AmsHeader {
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let fixed: &HeaderLayout = Reader::exact(Self::STREAM, bytes)?;
-        Ok(Self::from_layout(fixed))
-    }
-}
-
-impl AmsHeader {
-    // A call would copy the header once more.
-    #[inline]
-    fn from_layout(fixed: &HeaderLayout) -> Self {
         let end =
             |net_id, port: U16| AmsAddr { net_id: AmsNetId(net_id), port: AmsPort(port.get()) };
-        Self {
+        Ok(Self {
             target: end(fixed.target_net_id, fixed.target_port),
             source: end(fixed.source_net_id, fixed.source_port),
             command: Command(fixed.command.get()),
@@ -119,7 +111,7 @@ impl AmsHeader {
             data_length: fixed.data_length.get(),
             error: AdsError(fixed.error.get()),
             invoke_id: fixed.invoke_id.get(),
-        }
+        })
     }
 }
 
@@ -184,9 +176,11 @@ impl AmsHeader {
 }
 
 #[cfg(feature = "serde")]
-impl From<HeaderLayout> for AmsHeader {
-    fn from(layout: HeaderLayout) -> Self {
-        Self::from_layout(&layout)
+impl TryFrom<HeaderLayout> for AmsHeader {
+    type Error = Error;
+
+    fn try_from(layout: HeaderLayout) -> Result<Self, Error> {
+        Self::decode(layout.as_bytes())
     }
 }
 
