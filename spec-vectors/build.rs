@@ -27,6 +27,8 @@ fn included(folder: &str) -> io::Result<String> {
     println!("cargo::rerun-if-changed={folder}");
     let files = fs::read_dir(folder)?.map(|file| Ok(file?.file_name()));
     let mut files = files.collect::<io::Result<Vec<_>>>()?;
+    // An editor may leave other files there.
+    files.retain(|file| Path::new(file).extension().is_some_and(|extension| extension == "json"));
     files.sort();
     let files = files.iter().map(|file| {
         let path = format!("{folder}/{}", file.to_string_lossy());
