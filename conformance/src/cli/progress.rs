@@ -33,11 +33,11 @@ impl Progress {
         self.last.elapsed() >= every
     }
 
-    /// Shows this; in a line of its own where stderr is no terminal.
+    /// Replaces the progress line on a terminal; elsewhere writes a new line.
     pub(super) fn show(&mut self, text: &str) {
         self.last = Instant::now();
         let line = self.fitted(text);
-        // Progress that nobody sees is none.
+        // A run must not fail because its progress cannot be written.
         let _unseen = match self.live {
             true => write!(io::stderr(), "\r{line:<0$}", self.width),
             false => writeln!(io::stderr(), "{line}"),

@@ -3,7 +3,8 @@
 #![cfg_attr(
     not(test),
     deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
-    deny(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
 )]
 
 use std::io::{self, Write as _};
@@ -139,7 +140,7 @@ impl Set {
         checked
     }
 
-    /// The simulated CNC may be written what is asked for, in a dry run too.
+    /// For the simulated CNC the gate allows the requested value, in a dry run too.
     fn open(&self, alone: Option<&Object>) -> Result<Session, Trouble> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {

@@ -3,7 +3,8 @@
 #![cfg_attr(
     not(test),
     deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
-    deny(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
 )]
 
 mod command;

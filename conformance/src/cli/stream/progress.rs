@@ -7,7 +7,7 @@ use ads_cnc::streaming::{self, NcText};
 
 use super::super::progress::{self, EVERY};
 
-/// How often a line is written where stderr is no terminal.
+/// The time between two lines if stderr is not a terminal.
 const ELSEWHERE: Duration = Duration::from_secs(5);
 
 /// Shows how far it is: one line that changes on a terminal, one every few seconds elsewhere.

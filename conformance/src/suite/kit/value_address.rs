@@ -1,4 +1,11 @@
-//! What can be read and written, and how it is put back afterwards.
+//! The address of a value: how a case reads it, writes it and restores it.
+
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
 
 use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::operation::{
