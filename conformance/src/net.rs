@@ -67,7 +67,7 @@ impl Acceptor {
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);
-        // The thread waits for a connection: it gets one. Without, it is left behind.
+        // The thread waits for a connection; if none can be made, the thread is not joined.
         if self.knock().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }

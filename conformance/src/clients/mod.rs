@@ -48,7 +48,7 @@ pub trait Actor {
         Vec::new()
     }
 
-    /// Why it is not to be told any more.
+    /// The reason why no further action may be sent; `None` if one may.
     fn over(&self) -> Option<String> {
         None
     }

@@ -25,13 +25,13 @@ impl Process {
         Self { process: Subprocess::new(line, timeout), stays: false, unasked: Vec::new() }
     }
 
-    /// With a moment after which it is told nothing more.
+    /// Sends nothing after a deadline.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// The line it answers with; ended if there is none.
+    /// The line of its answer; without an answer the program is ended.
     fn recv(&mut self, timeout: Duration) -> Result<String, Reaction> {
         let line = self.process.recv(timeout);
         if line.is_err() {

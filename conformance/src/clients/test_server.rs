@@ -149,8 +149,8 @@ impl TestServer {
         let run: Arc<Mutex<Option<Arc<TestRun>>>> = Arc::default();
         let playing = Arc::clone(&run);
         let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
-            // Between scenarios nobody is there. Held until all that is known of the connection is
-            // with its scenario, which may end at any time.
+            // Between two scenarios no run exists, and the connection is dropped. The lock is kept until
+            // the connection is registered with its scenario, which may end at any time.
             let run = lock(&playing);
             let _gone = run.clone().map(|run| run.connect(stream));
         })?;

@@ -13,13 +13,13 @@ pub const GRACE: Duration = Duration::from_secs(2);
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reaction<A> {
     Answer(A),
-    /// It says something that is no answer.
+    /// It sends a line that is not an answer.
     Garbled(String),
     /// It ends, or closes its stdout.
     Died(String),
-    /// It says nothing for so long.
+    /// It sends no line within this time.
     Silent(Duration),
-    /// It could not be told.
+    /// The line could not be sent to it.
     Broken(String),
 }
 
@@ -41,13 +41,13 @@ impl Subprocess {
         Self { line, timeout, stderr, deadline: None, running: None }
     }
 
-    /// With a moment after which it is told nothing more.
+    /// Sends nothing after a deadline.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
     }
 
-    /// Why it is not to be told any more.
+    /// The reason why no further line may be sent; `None` if one may.
     pub fn over(&self) -> Option<String> {
         self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
     }
@@ -84,10 +84,11 @@ impl Subprocess {
         }
     }
 
-    /// The line it answers with. Unless that is only no text, it is ended if there is none.
+    /// The line of its answer. Without a line the program is ended; a line that is not text does not
+    /// end it.
     ///
     /// # Errors
-    /// What it does instead.
+    /// The reaction in place of an answer.
     pub fn recv<A>(&mut self, timeout: Duration) -> Result<String, Reaction<A>> {
         let limit = self.limit(timeout);
         let Some(running) = self.running.take() else {

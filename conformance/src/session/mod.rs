@@ -126,8 +126,8 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
     }
 
-    /// The same simulated CNC behind another gate, over a connection of its own: what a device is
-    /// never without a file, a CNC that is thrown away may be.
+    /// The same simulated CNC with another gate, over a new connection. A device gets a wider gate from a
+    /// file for `--allow-write` only.
     ///
     /// # Errors
     /// [`Trouble::Usage`] for anything but a simulated CNC.
@@ -330,7 +330,7 @@ impl Session {
         self.client.target()
     }
 
-    /// The connection, for what is not typed, and the simulated CNC to keep alive beside it.
+    /// The connection, for untyped requests, and the simulated CNC, which must outlive it.
     pub fn into_parts(self) -> (Client, Option<Server>) {
         (self.client, self.simulated)
     }

@@ -160,7 +160,7 @@ impl ServerState {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // It is whole whatever panicked meanwhile.
+    // No panic leaves the value incomplete.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -20,7 +20,7 @@ pub struct Terms<'t> {
     pub subject: Subject,
     /// The edition it is judged by, if one was chosen.
     pub edition: Option<&'t str>,
-    /// Whether what is assumed is required too, as it is of this project's own codec.
+    /// Whether assumed requirements can fail too, as for this project's own codec.
     pub strict: bool,
 }
 

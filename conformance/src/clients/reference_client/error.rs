@@ -2,7 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 
-/// Why there is no result.
+/// The reason why an action has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Fail {
     /// The CNC refuses.

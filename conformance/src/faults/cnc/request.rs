@@ -105,8 +105,8 @@ pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }
 
-/// Whether it is at an offset of the decoder that one of these functions has, whatever channel and
-/// way of addressing.
+/// Whether a call addresses the decoder of any channel, in any addressing, at the offset of one of these
+/// functions.
 pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool {
     let mut offsets = functions.iter().map(|function| function.spec().offset);
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))

@@ -47,7 +47,7 @@ impl Addresses {
     pub(crate) fn new(probe: &mut Probe<'_>) -> Step<Self> {
         Ok(Self {
             channels: probe.target.profile.channels.to_vec(),
-            // What is not there or not claimed says nothing.
+            // A target without objects or elements has no addresses to judge.
             objects: probe.objects().if_applicable()?.unwrap_or_default(),
             instances: probe.instances().if_applicable()?.unwrap_or_default(),
         })

@@ -1,4 +1,4 @@
-//! What is counted, and can be asked for by its number.
+//! The lists that a CNC counts, and the request for an item by its number.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind};

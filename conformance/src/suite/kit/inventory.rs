@@ -148,8 +148,8 @@ impl Probe<'_> {
         (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
     }
 
-    /// The same object where channels are counted by rank; None if its group is no logical one. The
-    /// platform and its axes have the same number there.
+    /// The same object in the group that addresses its channel by rank; `None` unless its group is
+    /// logical. The numbers of the platform and its axes are the same in both.
     pub(crate) fn object_by_rank(&self, object: &Object) -> Option<Object> {
         let Some(Group::Com(com)) = object.group.parts() else { return None };
         let instance = match (com.table, com.instance) {
@@ -161,8 +161,8 @@ impl Probe<'_> {
             .then(|| Object { group: by_rank.index_group(), ..object.clone() })
     }
 
-    /// Whether an object is of a place of its channel that the profile says to be without an axis: what
-    /// is written there nobody has.
+    /// Whether an object belongs to an axis index to which, by the profile, the channel assigns no axis: a
+    /// value written to it is not kept.
     pub(crate) fn is_blank(&self, object: &Object) -> bool {
         let channel = u32::from(object.list.parts().instance);
         let empty = self.target.profile.empty_places.iter();

@@ -118,7 +118,7 @@ impl<'s> Probe<'s> {
         expected: impl Describe,
         found: impl Describe,
     ) -> bool {
-        // What was not asked for any more is no fault of the target.
+        // After an interrupt requests are no longer sent; that is not a fault of the target.
         if !self.interrupted {
             self.record.add_all(rules, kept, expected, found, || self.last.clone());
         }
@@ -322,8 +322,8 @@ impl Checks for Probe<'_> {
     }
 }
 
-/// An exchange that was not passed over in silence: whether it was done then nobody knows, and
-/// nothing of what follows can be held against it.
+/// An exchange with any reply. Without a reply the target may or may not have executed the request, so
+/// that later answers prove nothing: the case is inconclusive.
 pub(crate) fn heard(exchange: Exchange) -> Step<Exchange> {
     match &exchange.outcome {
         Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),

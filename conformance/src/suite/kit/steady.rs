@@ -164,8 +164,8 @@ impl PendingCheck {
 }
 
 /// Judges what `act` finds, if the guards answer the same before and after it; it gets their
-/// answers. What fails is tried again: it has to fail every time. Where nothing stands still,
-/// nothing is judged.
+/// answers. A failed check is repeated and has to fail every time. If the answers of the guards always
+/// differ, nothing is judged.
 pub(crate) fn steadily(
     probe: &mut Probe<'_>,
     guards: &[Request<'_>],

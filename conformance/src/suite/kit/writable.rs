@@ -108,7 +108,7 @@ pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber
     Ok(all)
 }
 
-/// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
+/// Whether the target accepts a request; a missing reply fails `rule`.
 pub(crate) fn is_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
@@ -123,7 +123,7 @@ pub(crate) fn is_taken(
     Ok(exchange.success().is_some())
 }
 
-/// What is refused must differ by its fault only from what is taken.
+/// Requires that the target accepts the correct request: the rejected one differs from it by its fault only.
 pub(crate) fn require_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

@@ -89,7 +89,7 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
-    // The simulated CNC does what is assumed too.
+    // Of the simulated CNC assumed requirements are judged too.
     let cited = sequence.cited().into_iter().map(|one| one.id.as_str());
     let cited: Vec<&str> = cited.filter(|id| !NOT_THE_TARGETS.contains(id)).collect();
     probe.check(&cited, kept, expected, found);

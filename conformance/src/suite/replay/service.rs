@@ -1,4 +1,5 @@
-//! The steps at the Service Interface: a program that asks, services and anybody else.
+//! The steps of a sequence of the Service Interface: those of the NC program, of services and of other
+//! clients.
 
 use std::collections::BTreeMap;
 use std::time::Duration;

@@ -31,7 +31,7 @@ pub trait StreamActor {
         now: Duration,
     ) -> Done<Ack>;
 
-    /// Lets the decoder take what is there. The class of what is at fault.
+    /// Lets the decoder read the buffer; returns the class of a fault.
     fn take(&mut self, step: &StreamStep, now: Duration) -> Done<Option<&'static str>>;
 }
 

@@ -21,7 +21,7 @@ use crate::suite::kit::{
     HELD_MAX, Probe, StreamWrite, heard, send, send_until_taken, service_channels,
 };
 
-/// Plays a sequence of the Service Interface, and leaves the interfaces as at the start.
+/// Replays a sequence of the Service Interface, and resets the interfaces before and after it.
 pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let (cnc, channels) = (probe.cnc()?, service_channels(probe)?);
     let mut actor = ServicePlayer { probe, cnc, channels };
@@ -47,7 +47,7 @@ impl ServicePlayer<'_, '_> {
         Ok(all.try_for_each(reset)?)
     }
 
-    /// The channel of a step: the first is the first that has the interface, whatever its number.
+    /// The channel of a step: 1 is the first channel with a Service Interface, independent of its number.
     fn channel(&self, place: u32) -> Step<Channel> {
         let before = usize::try_from(place).ok().and_then(|place| place.checked_sub(1));
         let channel = before.and_then(|before| self.channels.get(before)).copied();
@@ -97,7 +97,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
     }
 }
 
-/// Plays a sequence of streaming, and leaves the program as it was set up.
+/// Replays a sequence of data streaming, and restores the configuration of the program.
 pub(super) fn stream<'c>(
     probe: &mut Probe<'_>,
     given: &'c Streaming,

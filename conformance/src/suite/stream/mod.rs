@@ -103,8 +103,8 @@ fn comment(len: usize) -> Vec<u8> {
     line
 }
 
-/// The first channel whose stream may be written. That of the simulated CNC is set up anew: whatever was
-/// sent before, it waits for lines.
+/// The first channel whose stream may be written. On the simulated CNC its program is configured anew, so
+/// that earlier lines have no effect.
 fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     for channel in probe.channels()? {
         if probe.may(WriteProgramStream::new(channel, b"\r\n"))? {

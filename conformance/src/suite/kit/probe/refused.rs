@@ -9,8 +9,7 @@ use crate::suite::kit::{IntoRawCall, Probe};
 impl Probe<'_> {
     /// Sends a request that must be rejected; `sibling` differs by the fault only and must not be.
     ///
-    /// A success that gives no byte of data is taken for an error: it gives nothing of what is not
-    /// there.
+    /// A success without data counts as an error: it returns no value of an object that does not exist.
     pub(crate) fn refuses<'a, 'b>(
         &mut self,
         rule: impl Into<Rule>,
