@@ -1,147 +1,156 @@
-//! One list of types for variables, objects and elements.
+//! The types of variables, objects and elements: one row per type.
 
 use core::fmt;
 
+use crate::number::code;
 use crate::text::CncStr;
-use crate::variable::VariableType;
 
-/// The type of a value of a variable, an object or an element.
+/// Declares the codes of variables' types and [`DataType`] from one table of types.
 ///
-/// | variables (code), elements | objects | bytes |
-/// |---|---|---|
-/// | BOOLEAN (1) | BOOL | 1 |
-/// | SGN08 (2) | SINT | 1 |
-/// | UNS08 (3) | BYTE | 1 |
-/// | SGN16 (4) | INT | 2 |
-/// | UNS16 (5) | WORD | 2 |
-/// | SGN32 (6) | DINT | 4 |
-/// | UNS32 (7) | DWORD | 4 |
-/// | – | LINT | 8 |
-/// | – | LWORD | 8 |
-/// | REAL32 | REAL | 4 |
-/// | REAL64 (8) | LREAL | 8 |
-/// | STRING (9) | STRING | variable |
-///
-/// That BYTE, WORD, DWORD and LWORD are unsigned is assumed; the manuals have no sizes (GEN-5).
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.1 and 4.3.2.
-///
-/// ```
-/// use ads_cnc::value::DataType;
-/// use ads_cnc::{CncStr, Descriptor, VariableType};
-///
-/// assert_eq!(VariableType::REAL64.data_type(), Some(DataType::Real64));
-/// assert_eq!(Descriptor::new("a", "LREAL")?.data_type(), Some(DataType::Real64));
-/// assert_eq!(DataType::by_name(CncStr::new("REAL64")?), Some(DataType::Real64));
-/// assert_eq!(DataType::by_name(CncStr::new("T_AXIS")?), None);
-/// assert_eq!(DataType::Real64.size(), Some(8));
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-#[non_exhaustive]
-pub enum DataType {
+/// A type that no variable has has its name as text instead of a constant's name.
+macro_rules! data_types {
+    (
+        $(#[$code_doc:meta])*
+        $code_type:ident;
+        $(#[$doc:meta])*
+        $data_type:ident;
+        $(
+            #[doc = $variant_doc:literal]
+            $variant:ident: $($code:ident)? $($name:literal)? = $number:literal, $object:literal, $size:tt;
+        )+
+    ) => {
+        code! {
+            $(#[$code_doc])*
+            $code_type(u32) { $( $( #[doc = $variant_doc] $code = $number; )? )+ }
+        }
+
+        $(#[$doc])*
+        ///
+        /// | name of variables and elements | number | name of objects | bytes |
+        /// |---|---|---|---|
+        $(
+            #[doc = concat!(
+                "| ", $( stringify!($code), )? $( $name, )? " | ", $number, " | ", $object, " | ",
+                stringify!($size), " |"
+            )]
+        )+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+        #[non_exhaustive]
+        pub enum $data_type { $( #[doc = $variant_doc] $variant, )+ }
+
+        impl $data_type {
+            /// All of them, in the order of the table.
+            pub const ALL: [Self; [$( $number ),+].len()] = [$( Self::$variant ),+];
+
+            /// Bytes of one element, if the type has a fixed size.
+            pub const fn size(self) -> Option<u32> {
+                match self { $( Self::$variant => data_types!(@size $size), )+ }
+            }
+
+            /// The type's name for variables and elements; for a type that only objects have, that for objects.
+            pub const fn name(self) -> &'static str {
+                match self { $( Self::$variant => concat!($( stringify!($code) )? $( $name )?), )+ }
+            }
+
+            /// The type's name for objects.
+            pub const fn object_name(self) -> &'static str {
+                match self { $( Self::$variant => $object, )+ }
+            }
+
+            /// The type's number in errors: a variable's code, or a number greater than those.
+            pub(super) const fn number(self) -> u32 {
+                match self { $( Self::$variant => $number, )+ }
+            }
+
+            /// The code of this type of variables; `None` for a type that no variable has.
+            pub const fn var_type(self) -> Option<$code_type> {
+                Some(match self {
+                    $( $( Self::$variant => $code_type::$code, )? )+
+                    _ => return None,
+                })
+            }
+        }
+
+        impl $code_type {
+            /// The type with this code; `None` for a code that is not documented.
+            pub const fn data_type(self) -> Option<$data_type> {
+                Some(match self {
+                    $( $( Self::$code => $data_type::$variant, )? )+
+                    _ => return None,
+                })
+            }
+        }
+    };
+    (@size variable) => { None };
+    (@size $bytes:literal) => { Some($bytes) };
+}
+
+data_types! {
+    /// The code of a variable's type (VAR-5): the numbers 1 to 9 of [`DataType`]'s table.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
+    ///
+    /// ```
+    /// use ads_cnc::VariableType;
+    ///
+    /// assert_eq!(VariableType::REAL64, VariableType(8));
+    /// assert_eq!(VariableType::REAL64.element_size(), Some(8));
+    /// assert_eq!(VariableType::REAL64.to_string(), "REAL64");
+    /// assert_eq!(VariableType(77).name(), None);
+    /// ```
+    VariableType;
+    /// The type of a value of a variable, an object or an element.
+    ///
+    /// That BYTE, WORD, DWORD and LWORD are unsigned is assumed; the manuals have no sizes (GEN-5).
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.1 and 4.3.2.
+    ///
+    /// ```
+    /// use ads_cnc::value::DataType;
+    /// use ads_cnc::{CncStr, Descriptor, VariableType};
+    ///
+    /// assert_eq!(VariableType::REAL64.data_type(), Some(DataType::Real64));
+    /// assert_eq!(Descriptor::new("a", "LREAL")?.data_type(), Some(DataType::Real64));
+    /// assert_eq!(DataType::by_name(CncStr::new("REAL64")?), Some(DataType::Real64));
+    /// assert_eq!(DataType::by_name(CncStr::new("T_AXIS")?), None);
+    /// assert_eq!(DataType::Real64.size(), Some(8));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// The number is a variable's code. Types that no variable has are numbered for errors only; LINT
+    /// and LWORD are types of objects only.
+    DataType;
     /// One byte; 0 is FALSE, any other TRUE.
-    Boolean,
+    Boolean: BOOLEAN = 1, "BOOL", 1;
     /// Signed, one byte.
-    Sgn08,
+    Sgn08: SGN08 = 2, "SINT", 1;
     /// Unsigned, one byte.
-    Uns08,
+    Uns08: UNS08 = 3, "BYTE", 1;
     /// Signed, two bytes.
-    Sgn16,
+    Sgn16: SGN16 = 4, "INT", 2;
     /// Unsigned, two bytes.
-    Uns16,
+    Uns16: UNS16 = 5, "WORD", 2;
     /// Signed, four bytes.
-    Sgn32,
+    Sgn32: SGN32 = 6, "DINT", 4;
     /// Unsigned, four bytes.
-    Uns32,
+    Uns32: UNS32 = 7, "DWORD", 4;
     /// Signed, eight bytes; of objects only.
-    Lint,
+    Lint: "LINT" = 10, "LINT", 8;
     /// Unsigned, eight bytes; of objects only.
-    Lword,
+    Lword: "LWORD" = 11, "LWORD", 8;
     /// IEEE 754 binary32; not of variables.
-    Real32,
+    Real32: "REAL32" = 12, "REAL", 4;
     /// IEEE 754 binary64.
-    Real64,
+    Real64: REAL64 = 8, "LREAL", 8;
     /// CP1252 text.
-    String,
+    String: STRING = 9, "STRING", variable;
 }
 
 impl DataType {
-    /// All of them, in the order of the table.
-    pub const ALL: [Self; 12] = [
-        Self::Boolean,
-        Self::Sgn08,
-        Self::Uns08,
-        Self::Sgn16,
-        Self::Uns16,
-        Self::Sgn32,
-        Self::Uns32,
-        Self::Lint,
-        Self::Lword,
-        Self::Real32,
-        Self::Real64,
-        Self::String,
-    ];
-
-    /// Bytes of one element, if the type has a fixed size.
-    pub const fn size(self) -> Option<u32> {
-        Some(match self {
-            Self::Boolean | Self::Sgn08 | Self::Uns08 => 1,
-            Self::Sgn16 | Self::Uns16 => 2,
-            Self::Sgn32 | Self::Uns32 | Self::Real32 => 4,
-            Self::Lint | Self::Lword | Self::Real64 => 8,
-            Self::String => return None,
-        })
-    }
-
-    /// The type's name for variables and elements; for a type that only objects have, that for objects.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Boolean => "BOOLEAN",
-            Self::Sgn08 => "SGN08",
-            Self::Uns08 => "UNS08",
-            Self::Sgn16 => "SGN16",
-            Self::Uns16 => "UNS16",
-            Self::Sgn32 => "SGN32",
-            Self::Uns32 => "UNS32",
-            Self::Real32 => "REAL32",
-            Self::Real64 => "REAL64",
-            Self::Lint | Self::Lword | Self::String => self.object_name(),
-        }
-    }
-
-    /// The type's name for objects.
-    pub const fn object_name(self) -> &'static str {
-        match self {
-            Self::Boolean => "BOOL",
-            Self::Sgn08 => "SINT",
-            Self::Uns08 => "BYTE",
-            Self::Sgn16 => "INT",
-            Self::Uns16 => "WORD",
-            Self::Sgn32 => "DINT",
-            Self::Uns32 => "DWORD",
-            Self::Lint => "LINT",
-            Self::Lword => "LWORD",
-            Self::Real32 => "REAL",
-            Self::Real64 => "LREAL",
-            Self::String => "STRING",
-        }
-    }
-
     /// The type with this name, of a variable, an object or an element.
     pub fn by_name(name: CncStr<'_>) -> Option<Self> {
         Self::ALL.into_iter().find(|known| name == known.name() || name == known.object_name())
-    }
-
-    /// The type's number in errors: a variable's code, or a number greater than those.
-    pub(super) const fn number(self) -> u32 {
-        match (self.var_type(), self) {
-            (Some(VariableType(code)), _) => code,
-            (None, Self::Lint) => 10,
-            (None, Self::Lword) => 11,
-            (None, _) => 12,
-        }
     }
 
     /// The type of this number in errors.
@@ -157,39 +166,12 @@ impl fmt::Display for DataType {
     }
 }
 
-/// Declares the conversions between the codes of variables' types and the types.
-macro_rules! codes {
-    ($( $code:ident: $type:ident; )+) => {
-        impl DataType {
-            /// The code of this type of variables; `None` for a type that no variable has.
-            pub const fn var_type(self) -> Option<VariableType> {
-                Some(match self {
-                    $( Self::$type => VariableType::$code, )+
-                    _ => return None,
-                })
-            }
+impl VariableType {
+    /// Bytes of one element, if the type has a fixed size.
+    pub const fn element_size(self) -> Option<u32> {
+        match self.data_type() {
+            Some(data_type) => data_type.size(),
+            None => None,
         }
-
-        impl VariableType {
-            /// The type with this code; `None` for a code that is not documented.
-            pub const fn data_type(self) -> Option<DataType> {
-                Some(match self {
-                    $( Self::$code => DataType::$type, )+
-                    _ => return None,
-                })
-            }
-        }
-    };
-}
-
-codes! {
-    BOOLEAN: Boolean;
-    SGN08: Sgn08;
-    UNS08: Uns08;
-    SGN16: Sgn16;
-    UNS16: Uns16;
-    SGN32: Sgn32;
-    UNS32: Uns32;
-    REAL64: Real64;
-    STRING: String;
+    }
 }

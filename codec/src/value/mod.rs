@@ -19,8 +19,7 @@
 //! same number of bytes.
 //!
 //! Errors have the subject `typed-value`. For a wrong index or dimension, the offset is its
-//! position in the list, from 0. Types are numbered as in section 4.3.2; the
-//! types that no variable has are LINT 10, LWORD 11 and REAL32 12.
+//! position in the list, from 0. Types are numbered as in the table of [`DataType`].
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};
@@ -67,7 +66,7 @@
 //!
 //! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.1, 4.3.2 and 4.3.4 … 4.3.7.
 
-mod data_type;
+pub(crate) mod data_type;
 mod describe;
 mod element;
 mod encode;

@@ -32,19 +32,19 @@ pub(super) mod sealed {
 }
 
 macro_rules! items {
-    ($( $item:ty as $size:literal, $data_type:ident; )+) => { $(
+    ($( $item:ty: $data_type:ident; )+) => { $(
         impl Scalar for $item {
             const TYPE: DataType = DataType::$data_type;
         }
 
         impl sealed::Wire for $item {
-            type Wire = [u8; $size];
+            type Wire = [u8; size_of::<$item>()];
 
-            fn from_wire(wire: [u8; $size]) -> Self {
+            fn from_wire(wire: [u8; size_of::<$item>()]) -> Self {
                 Self::from_le_bytes(wire)
             }
 
-            fn to_wire(self) -> [u8; $size] {
+            fn to_wire(self) -> [u8; size_of::<$item>()] {
                 self.to_le_bytes()
             }
         }
@@ -52,17 +52,17 @@ macro_rules! items {
 }
 
 items! {
-    Boolean as 1, Boolean;
-    i8 as 1, Sgn08;
-    u8 as 1, Uns08;
-    i16 as 2, Sgn16;
-    u16 as 2, Uns16;
-    i32 as 4, Sgn32;
-    u32 as 4, Uns32;
-    i64 as 8, Lint;
-    u64 as 8, Lword;
-    f32 as 4, Real32;
-    f64 as 8, Real64;
+    Boolean: Boolean;
+    i8: Sgn08;
+    u8: Uns08;
+    i16: Sgn16;
+    u16: Uns16;
+    i32: Sgn32;
+    u32: Uns32;
+    i64: Lint;
+    u64: Lword;
+    f32: Real32;
+    f64: Real64;
 }
 
 /// Any byte but 0 is TRUE, which is written as 1. [`Boolean`] keeps the byte.

@@ -10,7 +10,8 @@ mod path;
 mod u32_list;
 mod value;
 
-pub use codes::{Synchronisation, Validity, VariableAccess, VariableType};
+pub use crate::value::data_type::VariableType;
+pub use codes::{Synchronisation, Validity, VariableAccess};
 pub use description::{DescriptionByNameRef, DescriptionRef};
 pub use extended::{ExtendedDescription, ExtendedReply};
 pub use handle::{Handle, HandleReadRef, HandleWriteRef};
