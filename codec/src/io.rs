@@ -75,7 +75,7 @@ impl<R: Read> Pull for Source<'_, R> {
 
     fn counted(&mut self, each: usize, max: u32) -> io::Result<()> {
         let before = self.bytes.len();
-        self.exact(4)?;
+        self.exact(size_of::<u32>())?;
         match self.bytes.get(before..).and_then(<[u8]>::first_chunk) {
             Some(count) if u32::from_le_bytes(*count) <= max => {
                 self.exact(to_usize(u32::from_le_bytes(*count)).saturating_mul(each))
@@ -218,13 +218,18 @@ fn longest<'a, T: Decode<'a>>() -> usize {
     to_usize(T::STREAM.layout().max)
 }
 
+/// The bytes of a reply that ends after its result.
+fn result_len() -> usize {
+    to_usize(Stream::ReadReply.layout().offset("length"))
+}
+
 by_hand! {
     AmsHeader: from => from.exact(longest::<Self>());
     DeviceInfoReply: from => from.exact(longest::<Self>());
     Descriptor: from => from.exact(longest::<Self>());
     Descriptors: from => from.rest(ADS_DATA);
-    ReadReply: from => from.exact(4).and_then(|()| from.counted(1, ADS_DATA));
-    ReadWriteReply: from => from.exact(4).and_then(|()| from.counted(1, ADS_DATA));
+    ReadReply: from => from.exact(result_len()).and_then(|()| from.counted(1, ADS_DATA));
+    ReadWriteReply: from => from.exact(result_len()).and_then(|()| from.counted(1, ADS_DATA));
     ExtendedReply: from => from.exact(longest::<Self>());
     ElementLength: from => from.exact(longest::<Self>());
     DynamicValue: from => from.exact(longest::<Self>());

@@ -18,12 +18,15 @@ fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
     }
 }
 
+/// The greatest instance: it has 8 bits of an index group (ADR-9).
+const INSTANCE_MAX: u32 = 0xFF;
+
 /// The name and the range of a number that a constructor takes.
 pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     match field {
-        CHANNEL => Some(("channel", 1, 255)),
-        PLATFORM_AXIS => Some(("platform axis", 1, 255)),
-        SPINDLE => Some(("spindle", 0, 255)),
+        CHANNEL => Some(("channel", 1, INSTANCE_MAX)),
+        PLATFORM_AXIS => Some(("platform axis", 1, INSTANCE_MAX)),
+        SPINDLE => Some(("spindle", 0, INSTANCE_MAX)),
         CHANNEL_AXIS => Some(("channel axis", 1, AXIS_MAX)),
         _ => None,
     }

@@ -5,6 +5,7 @@ use crate::bytes::{Reader, Writer, to_u32};
 use crate::declare::stream;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
+use crate::limits::to_usize;
 use crate::stream::{Decode, Encode};
 
 stream! {
@@ -36,6 +37,13 @@ const fn fields(stream: Stream) -> [Field; 3] {
     [RESULT.in_stream(stream), LENGTH.in_stream(stream), DATA.in_stream(stream)]
 }
 
+const LENGTH_AT: u32 = Stream::ReadReply.layout().offset("length");
+const DATA_AT: u32 = Stream::ReadReply.layout().offset("data");
+
+fn encoded_len(data: Option<&[u8]>) -> usize {
+    data.map_or(to_usize(LENGTH_AT), |data| data.len().saturating_add(to_usize(DATA_AT)))
+}
+
 fn decode(stream: Stream, bytes: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {
     let [result_field, length_field, data_field] = fields(stream);
     let mut input = Reader::new(stream, bytes)?;
@@ -59,11 +67,11 @@ fn encode<'b>(
         // Only an error may have no data.
         if result.is_ok() {
             let [_, length_field, _] = fields(stream);
-            return Err(Error::new(ErrorKind::Truncated, length_field, 4, 4, 0));
+            return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));
         }
-        return Writer::run(stream, 4, buf, |out| out.u32(result.0));
+        return Writer::run(stream, to_usize(LENGTH_AT), buf, |out| out.u32(result.0));
     };
-    Writer::run(stream, data.len().saturating_add(8), buf, |out| {
+    Writer::run(stream, encoded_len(Some(data)), buf, |out| {
         out.u32(result.0);
         out.u32(to_u32(data.len()));
         out.put(data);
@@ -109,7 +117,7 @@ macro_rules! reply_with_data {
 
         impl Encode for $ref<'_> {
             fn encoded_len(&self) -> usize {
-                self.data.map_or(4, |data| data.len().saturating_add(8))
+                encoded_len(self.data)
             }
 
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {

@@ -138,7 +138,7 @@ impl<'a> Decode<'a> for DynamicValue {
 
 impl Encode for DynamicValue {
     fn encoded_len(&self) -> usize {
-        8
+        size_of_val(&self.bits)
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {

@@ -1,6 +1,8 @@
 //! The addresses of the instances of a class.
 
-use crate::address::{ElementAddress, Group, IndexGroup, IndexOffset};
+use crate::address::{
+    Addressing, Attribute, Class, ClassGroup, ElementAddress, Group, IndexGroup, IndexOffset,
+};
 use crate::declare::stream;
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
@@ -13,7 +15,7 @@ stream! {
     /// | class | channel | axis |
     /// |---|---|---|
     /// | position controller | 0 | from 1 to the configured axes |
-    /// | interpolator, decoder, path preparation | from 1 to the configured channels | from 0, the channel itself, to `BAHN_BAVO_AXMAX` |
+    /// | interpolator, decoder, path preparation | from 1 to the configured channels | from 0 (the channel itself) to `BAHN_BAVO_AXMAX` |
     /// | HLD | from 1 to the configured channels, 0 for platform axes (E-30) | none, or from 1 to the configured axes |
     /// | spindle | index of the spindle, from 0 | 0 |
     ///
@@ -58,7 +60,7 @@ stream! {
     /// ```
     ObjectAddress "object-address", "Object address, reply", "SDA-1", max 8;
     struct ObjectAddress {
-        @0 index_group: UNS32 as IndexGroup,   "SDA-2", "index group of the content; 0 if there is none";
+        @0 index_group: UNS32 as IndexGroup,   "SDA-2", "index group of the content; 0 for no such instance";
         @4 index_offset: UNS32 as IndexOffset, "SDA-2", "index offset of the first element";
     }
 }
@@ -71,17 +73,23 @@ impl ObjectAddress {
     /// The instance's first element; `None` if the instance does not exist.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that is not that of a class; the number is shown beside
-    /// that of the CNC's base, 0x120300.
+    /// [`ErrorKind::Mismatch`] for a group that is not that of a class; the error expects that of the
+    /// position controller, 0x120300.
     pub fn first_element(&self) -> Result<Option<ElementAddress>, Error> {
-        const BASE: u32 = 0x12_0300;
+        const EXPECTED: IndexGroup = ClassGroup {
+            addressing: Addressing::Logical,
+            class: Class::PositionController,
+            attribute: Attribute::Content,
+            instance: 0,
+        }
+        .index_group();
         match self.index_group.parts() {
             Some(Group::Class(group)) => Ok(Some(ElementAddress::new(group, self.index_offset))),
             _ if *self == Self::NONE => Ok(None),
             _ => {
                 let found = self.index_group.get();
                 const GROUP: Field = Field::of::<ObjectAddress>("index_group");
-                Err(Error::new(ErrorKind::Mismatch, GROUP, 0, BASE, found))
+                Err(Error::new(ErrorKind::Mismatch, GROUP, 0, EXPECTED.get(), found))
             }
         }
     }
@@ -90,7 +98,7 @@ impl ObjectAddress {
 impl From<ElementAddress> for ObjectAddress {
     fn from(element: ElementAddress) -> Self {
         Self {
-            index_group: element.group(crate::address::Attribute::Content),
+            index_group: element.group(Attribute::Content),
             index_offset: element.index_offset(),
         }
     }
