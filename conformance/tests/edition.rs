@@ -423,3 +423,12 @@ fn kinds_have_no_part_in_other_functions() {
         }
     }
 }
+
+/// No printed edition has these functions, so `Feature::of` needs the versions that do.
+#[test]
+fn functions_documented_online_have_a_feature() {
+    for &function in Function::ALL {
+        let is_online = function.spec().section == "online";
+        assert_eq!(Feature::of(function).is_some(), is_online, "{function:?}");
+    }
+}

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::{AdsError, AmsNetId, FrameRef};
-use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
+use ads_cnc::operation::{Call, Function, Reply, Request, WriteProgramStream};
 use ads_cnc::{Encode, NoData};
 
 use super::clock::Clock;
@@ -188,11 +188,13 @@ impl Cnc {
             Request::DynamicValueByName(op) => running.dynamic_by_name(op),
             Request::DynamicValueByIndex(op) => running.dynamic_by_index(op),
             Request::WriteProgramStream(op) => running.write_program_stream(op),
-            // A function of the table that this CNC does not serve is at no offset of it.
+            // `Request` may get more functions; the assertion below is false then.
             _ => Err(AdsError::INVALID_OFFSET),
         }
     }
 }
+
+const _: () = assert!(Function::ALL.len() == 30, "add the new function to `Cnc::reply`");
 
 impl Responder for Cnc {
     fn answer(&self, call: &Call<'_>) -> ReplyData {
