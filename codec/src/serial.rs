@@ -125,9 +125,10 @@ impl From<Real> for DynamicValue {
 
 impl From<DynamicValue> for Real {
     fn from(value: DynamicValue) -> Self {
-        match value.get().is_finite() {
-            true => Self::Finite(value.get()),
-            false => Self::Other { bits: value.to_bits() },
+        if value.get().is_finite() {
+            Self::Finite(value.get())
+        } else {
+            Self::Other { bits: value.to_bits() }
         }
     }
 }

@@ -109,7 +109,7 @@ macro_rules! streams {
             DynamicNameRequest: $crate::dynamic::DynamicNameRequestRef<'_>, $crate::dynamic::DynamicNameRequest;
             /// Value of a dynamic parameter.
             DynamicValue: $crate::dynamic::DynamicValue;
-            /// Description of a variable that was asked for by its name.
+            /// Description of a variable, requested by its name.
             VariableDescriptionByName: $crate::DescriptionByNameRef<'_>, $crate::DescriptionByName;
             /// NC text in one write to the stream.
             ProgramStream: $crate::streaming::ProgramStreamRef<'_>, $crate::streaming::ProgramStream;

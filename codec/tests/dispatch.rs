@@ -75,7 +75,7 @@ fn one_fault_is_refused_for_what_it_is() {
         ),
         (
             refusal(|call| call.index_group = group(0x12_2401)),
-            DispatchError::Service { takes: Service::Read, asked: Service::ReadWrite },
+            DispatchError::Service { expected: Service::Read, found: Service::ReadWrite },
             0x701,
         ),
         // Object addresses are asked for without a channel in the group (SDA-1).
@@ -101,7 +101,7 @@ fn one_fault_is_refused_for_what_it_is() {
         ),
         (
             refusal(|call| call.service = Service::Write),
-            DispatchError::Service { takes: Service::ReadWrite, asked: Service::Write },
+            DispatchError::Service { expected: Service::ReadWrite, found: Service::Write },
             0x701,
         ),
     ];
@@ -126,7 +126,7 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
             Err(DispatchError::Port(_)) => "no port".to_owned(),
             Err(DispatchError::Group(_)) => "no group".to_owned(),
             Err(DispatchError::Offset(_)) => "no offset".to_owned(),
-            Err(DispatchError::Service { takes, .. }) => format!("takes {takes}"),
+            Err(DispatchError::Service { expected, .. }) => format!("takes {expected}"),
             Err(other) => panic!("{other}"),
         };
         break;

@@ -190,7 +190,7 @@ fn dispatched(call: &Call<'_>) -> Result<Vec<u8>, String> {
         DispatchError::Port(port) => format!("Port {}", port.0),
         DispatchError::Group(group) => format!("Group {}", group.get()),
         DispatchError::Offset(offset) => format!("Offset {}", offset.get()),
-        DispatchError::Service { takes, asked } => format!("Service {takes:?} {asked:?}"),
+        DispatchError::Service { expected, found } => format!("Service {expected:?} {found:?}"),
         DispatchError::Stream(error) => format!("Stream {}", shown(error)),
         other => panic!("{other}"),
     })?;

@@ -119,7 +119,7 @@ fn dynamic_values_keep_their_bits() {
 fn what_dispatch_refuses_is_not_written_again() {
     let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
     let error = Handle::decode(&[]).unwrap_err();
-    let service = DispatchError::Service { takes: Service::Write, asked: Service::Read };
+    let service = DispatchError::Service { expected: Service::Write, found: Service::Read };
     for refusal in [
         DispatchError::Port(port),
         DispatchError::Group(group),

@@ -101,7 +101,7 @@ fn the_axis_interface_begins_at_axis_1() {
     }
     // At axis 0 they count variables.
     for count in [4, 5] {
-        let refusal = DispatchError::Service { takes: Read, asked: ReadWrite };
+        let refusal = DispatchError::Service { expected: Read, found: ReadWrite };
         assert_eq!(call(count).dispatch(), Err(refusal));
     }
 }

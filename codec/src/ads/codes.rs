@@ -122,10 +122,7 @@ impl AdsError {
     /// # Errors
     /// The error itself, unless it is [`NO_ERROR`](Self::NO_ERROR).
     pub const fn into_result(self) -> Result<(), Self> {
-        match self.is_ok() {
-            true => Ok(()),
-            false => Err(self),
-        }
+        if self.is_ok() { Ok(()) } else { Err(self) }
     }
 }
 

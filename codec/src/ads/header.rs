@@ -84,13 +84,13 @@ stream! {
     /// The bytes of [`AmsHeader`].
     AmsHeader "ams-header", "AMS header", "ADS-5", max 32;
     packed HeaderLayout {
-        @0  target_net_id: NETID, "ADS-5", "who receives the frame";
+        @0  target_net_id: NETID, "ADS-5", "NetId of the receiver";
         @6  target_port: UNS16,   "ADS-5", "AMS port of the receiver";
-        @8  source_net_id: NETID, "ADS-5", "who sends the frame";
+        @8  source_net_id: NETID, "ADS-5", "NetId of the sender";
         @14 source_port: UNS16,   "ADS-5", "AMS port of the sender";
         @16 command: UNS16,       "ADS-5", "2 Read, 3 Write, 9 ReadWrite, …";
         @18 state_flags: UNS16,   "ADS-5", "0x0004 request, 0x0005 response";
-        @20 data_length: UNS32,   "ADS-5", "bytes that follow this header";
+        @20 data_length: UNS32,   "ADS-5", "bytes after this header";
         @24 error: UNS32,         "ADS-5", "AMS error number, 0 for none";
         @28 invoke_id: UNS32,     "ADS-5", "pairs a response with its request";
     }

@@ -7,7 +7,7 @@ use crate::layout::{Field, Stream, Subject};
 /// The error for a record at offset `at` that ends after `left` bytes, within its fixed fields.
 #[cold]
 #[inline(never)]
-pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
+pub(crate) fn truncated(stream: Stream, at: u32, left: usize) -> Error {
     let (mut offset, left) = (0_u32, to_u32(left));
     for (field, &size) in (0_u8..).zip(stream.head_sizes()) {
         let (size, found) = (u32::from(size), left.saturating_sub(offset));
@@ -27,7 +27,7 @@ pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
 #[inline(never)]
 pub(super) fn not_all(stream: Stream, size: usize, given: usize) -> Error {
     if given < size {
-        return cut(stream, 0, given);
+        return truncated(stream, 0, given);
     }
     let size = to_u32(size);
     Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))

@@ -4,7 +4,7 @@ mod errors;
 mod reader;
 mod writer;
 
-pub(crate) use errors::cut;
+pub(crate) use errors::truncated;
 pub(crate) use reader::Reader;
 pub(crate) use writer::Writer;
 

@@ -3,7 +3,7 @@
 use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
-use super::errors::{cut, not_all, too_long};
+use super::errors::{not_all, too_long, truncated};
 use super::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
@@ -101,7 +101,7 @@ impl<'a> Reader<'a> {
     #[inline]
     pub(crate) fn head<const N: usize>(&mut self) -> Result<&'a [u8; N], Error> {
         let Some((head, rest)) = self.bytes.split_first_chunk() else {
-            return Err(cut(self.stream, 0, self.bytes.len()));
+            return Err(truncated(self.stream, 0, self.bytes.len()));
         };
         self.bytes = rest;
         self.at = to_u32(N);

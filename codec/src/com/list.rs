@@ -7,7 +7,7 @@ use zerocopy::{FromBytes as _, IntoBytes as _};
 
 use super::DescriptorRef;
 use super::descriptor::DescriptorLayout;
-use crate::bytes::{Reader, Writer, cut, to_u32};
+use crate::bytes::{Reader, Writer, to_u32, truncated};
 use crate::error::Error;
 use crate::layout::Stream;
 use crate::limits::DESCRIPTOR_LEN;
@@ -132,10 +132,10 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
         let count = bytes.len() / DESCRIPTOR_LEN;
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
-            // The last descriptor is cut, or there are no bytes.
+            // The last descriptor is incomplete, or there are no bytes.
             _ => {
                 let whole = count.saturating_mul(DESCRIPTOR_LEN);
-                Err(cut(Self::STREAM, to_u32(whole), bytes.len().saturating_sub(whole)))
+                Err(truncated(Self::STREAM, to_u32(whole), bytes.len().saturating_sub(whole)))
             }
         }
     }

@@ -102,7 +102,7 @@ subjects! {
         RESPONSE_STATE "response_state",
         RESPONSE "response",
     }
-    /// A value whose type another stream tells.
+    /// A value whose type is in another stream.
     TypedValue "typed-value", typed_value {
         TYPE "type",
         SIZE "size",

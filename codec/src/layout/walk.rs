@@ -38,9 +38,10 @@ impl Stream {
     /// # Errors
     /// Those of the stream's decoders.
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
-        let input = match self.layout().ends_itself() {
-            true => Reader::without_limit(self, bytes),
-            false => Reader::new(self, bytes)?,
+        let input = if self.layout().ends_itself() {
+            Reader::without_limit(self, bytes)
+        } else {
+            Reader::new(self, bytes)?
         };
         let mut walk = Walk { input, record: 0, visit };
         loop {

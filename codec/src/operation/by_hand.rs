@@ -78,17 +78,19 @@ impl ReadDescriptors {
 
     pub(super) fn check_length(length: u32) -> Result<u32, Error> {
         let least = to_u32(DESCRIPTOR_LEN);
-        match length < least {
-            true => Err(Error::new(ErrorKind::BufferTooSmall, DESCRIPTORS, 0, least, length)),
-            false => Ok(length),
+        if length < least {
+            Err(Error::new(ErrorKind::BufferTooSmall, DESCRIPTORS, 0, least, length))
+        } else {
+            Ok(length)
         }
     }
 
     pub(super) fn check_reply(&self, reply: &DescriptorsRef<'_>, _: u32) -> Result<(), Error> {
-        let (asked, given) = (self.count(), to_u32(reply.len()));
-        match given > asked {
-            true => Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, asked, given)),
-            false => Ok(()),
+        let (requested, given) = (self.count(), to_u32(reply.len()));
+        if given > requested {
+            Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, requested, given))
+        } else {
+            Ok(())
         }
     }
 }
@@ -124,9 +126,10 @@ fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
 }
 
 fn length(length: u32) -> Result<u32, Error> {
-    match length > ADS_DATA {
-        true => Err(Error::new(ErrorKind::TooLong, CONTENT, 0, ADS_DATA, length)),
-        false => Ok(length),
+    if length > ADS_DATA {
+        Err(Error::new(ErrorKind::TooLong, CONTENT, 0, ADS_DATA, length))
+    } else {
+        Ok(length)
     }
 }
 
@@ -144,9 +147,10 @@ macro_rules! reads_content {
                 length: u32,
             ) -> Result<(), Error> {
                 let given = to_u32(reply.bytes.len());
-                match given > length {
-                    true => Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, given)),
-                    false => Ok(()),
+                if given > length {
+                    Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, given))
+                } else {
+                    Ok(())
                 }
             }
         }

@@ -78,9 +78,9 @@ pub enum DispatchError {
     /// The function takes another service.
     Service {
         /// The service that the function takes.
-        takes: Service,
+        expected: Service,
         /// The service of the request.
-        asked: Service,
+        found: Service,
     },
     /// The data is not a valid request of the function.
     Stream(Error),
@@ -105,7 +105,9 @@ impl fmt::Display for DispatchError {
             Self::Port(port) => write!(f, "no task has port {port}"),
             Self::Group(group) => write!(f, "no function has index group {group}"),
             Self::Offset(offset) => write!(f, "no function has index offset {offset}"),
-            Self::Service { takes, asked } => write!(f, "the function takes {takes}, not {asked}"),
+            Self::Service { expected, found } => {
+                write!(f, "the function takes {expected}, not {found}")
+            }
             Self::Stream(error) => fmt::Display::fmt(error, f),
         }
     }
@@ -138,7 +140,7 @@ impl<'a> Call<'a> {
     /// assert_eq!(request.name.text(), "V.E.vartest");
     ///
     /// let read = Call { service: Service::Read, ..call };
-    /// let error = DispatchError::Service { takes: Service::ReadWrite, asked: Service::Read };
+    /// let error = DispatchError::Service { expected: Service::ReadWrite, found: Service::Read };
     /// assert_eq!(read.dispatch(), Err(error));
     /// ```
     ///
@@ -168,7 +170,7 @@ impl<'a> Call<'a> {
             // A later row may have content with this service at this offset, but not at the offset of
             // a function (SDA-12).
             if !spec.is_content() {
-                return Err(DispatchError::Service { takes: spec.service, asked: self.service });
+                return Err(DispatchError::Service { expected: spec.service, found: self.service });
             }
         }
         Err(error)

@@ -18,8 +18,8 @@ macro_rules! documented {
     (ReadDescriptors $($item:tt)+) => {
         /// Reads descriptors of a list's objects, from one object on.
         ///
-        /// The read length gives their number: 84 bytes each. A length over 84 that is not a multiple of
-        /// it reads one (assumed, COM-3).
+        /// The read length gives their number: 84 bytes each. A length greater than 84 that is not a multiple of
+        /// 84 reads one descriptor (assumed, COM-3).
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -358,7 +358,7 @@ macro_rules! documented {
     (WriteElement $($item:tt)+) => {
         /// Writes the content of an element. It may set the machine in motion.
         ///
-        /// The write flag tells whether the element may be written.
+        /// The write flag: whether the element may be written.
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
         ///

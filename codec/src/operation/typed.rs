@@ -152,7 +152,7 @@ pub trait Operation: sealed::Sealed {
     /// Decodes the data received.
     ///
     /// # Errors
-    /// Those of the reply's stream, and a reply longer than was asked for.
+    /// Those of the reply's stream, and a reply longer than the read length.
     fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
         Self::Reply::decode(data)
     }

@@ -33,9 +33,10 @@ impl<const MAX: u32> Row for List<MAX> {
     #[inline]
     fn check(view: U32List<'_>, field: Field, at: usize) -> Result<(), Error> {
         let count = to_u32(view.len());
-        match count > MAX {
-            true => Err(Error::new(ErrorKind::TooMany, field.before(), to_u32(at), MAX, count)),
-            false => Ok(()),
+        if count > MAX {
+            Err(Error::new(ErrorKind::TooMany, field.before(), to_u32(at), MAX, count))
+        } else {
+            Ok(())
         }
     }
 
@@ -111,11 +112,10 @@ impl<const MIN: u32, const MAX: u32> Row for Rest<MIN, MAX> {
 
     #[inline]
     fn check(view: &[u8], field: Field, at: usize) -> Result<(), Error> {
-        match view.len() < to_usize(MIN) {
-            true => {
-                Err(Error::new(ErrorKind::Truncated, field, to_u32(at), MIN, to_u32(view.len())))
-            }
-            false => Ok(()),
+        if view.len() < to_usize(MIN) {
+            Err(Error::new(ErrorKind::Truncated, field, to_u32(at), MIN, to_u32(view.len())))
+        } else {
+            Ok(())
         }
     }
 

@@ -58,9 +58,10 @@ impl<const MAX: u32, const IS_OPTIONAL: bool> Row for CString<MAX, IS_OPTIONAL> 
         field: Field,
         _: usize,
     ) -> Result<TextRef<'a>, Error> {
-        match IS_OPTIONAL && input.is_empty() {
-            true => Ok(TextRef::with_tail(CncStr::EMPTY, None)),
-            false => input.cstring(field, MAX),
+        if IS_OPTIONAL && input.is_empty() {
+            Ok(TextRef::with_tail(CncStr::EMPTY, None))
+        } else {
+            input.cstring(field, MAX)
         }
     }
 
@@ -71,9 +72,10 @@ impl<const MAX: u32, const IS_OPTIONAL: bool> Row for CString<MAX, IS_OPTIONAL> 
 
     #[inline]
     fn check(view: TextRef<'_>, field: Field, at: usize) -> Result<(), Error> {
-        match IS_OPTIONAL && view.field_len() == 0 {
-            true => Ok(()),
-            false => view.check_cstring(field, to_u32(at), MAX).map(drop),
+        if IS_OPTIONAL && view.field_len() == 0 {
+            Ok(())
+        } else {
+            view.check_cstring(field, to_u32(at), MAX).map(drop)
         }
     }
 

@@ -67,9 +67,10 @@ impl ServiceId {
         }
         let mut id = [0; Self::LEN];
         for ((at, byte), character) in id.iter_mut().enumerate().zip(chars) {
-            let fits = match HYPHENS.contains(&at) {
-                true => character == '-',
-                false => character.is_ascii_hexdigit(),
+            let fits = if HYPHENS.contains(&at) {
+                character == '-'
+            } else {
+                character.is_ascii_hexdigit()
             };
             let Some(ascii) = u8::try_from(character).ok().filter(|_| fits) else {
                 let (at, character) = (to_u32(at), u32::from(character));

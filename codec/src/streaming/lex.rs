@@ -54,15 +54,15 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
 /// of one letter such as X.
 pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     while let [byte, after @ ..] = rest {
-        rest = match sort(*byte) {
-            Sort::Sign => after,
-            Sort::Digit => skip_while(after, is_in_number),
-            Sort::Letter => match after {
+        rest = match char_kind(*byte) {
+            CharKind::Sign => after,
+            CharKind::Digit => skip_while(after, is_in_number),
+            CharKind::Letter => match after {
                 [] => after,
-                [next, ..] if matches!(sort(*next), Sort::Sign | Sort::Digit) => after,
+                [next, ..] if matches!(char_kind(*next), CharKind::Sign | CharKind::Digit) => after,
                 _ => return rest,
             },
-            Sort::Other => return rest,
+            CharKind::Other => return rest,
         };
     }
     rest
@@ -70,7 +70,7 @@ pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
 
 /// A class of bytes, by the words that begin with them.
 #[derive(Clone, Copy)]
-enum Sort {
+enum CharKind {
     /// No word.
     Sign,
     Digit,
@@ -80,14 +80,14 @@ enum Sort {
     Other,
 }
 
-const fn sort(byte: u8) -> Sort {
+const fn char_kind(byte: u8) -> CharKind {
     match byte {
-        b'0'..=b'9' => Sort::Digit,
+        b'0'..=b'9' => CharKind::Digit,
         // A program end; a subroutine.
-        b'M' | b'm' | b'L' | b'l' => Sort::Other,
-        b'A'..=b'Z' | b'a'..=b'z' => Sort::Letter,
-        b'$' | b'"' | b'.' | b'_' | b';' | b'(' => Sort::Other,
-        _ => Sort::Sign,
+        b'M' | b'm' | b'L' | b'l' => CharKind::Other,
+        b'A'..=b'Z' | b'a'..=b'z' => CharKind::Letter,
+        b'$' | b'"' | b'.' | b'_' | b';' | b'(' => CharKind::Other,
+        _ => CharKind::Sign,
     }
 }
 

@@ -33,7 +33,7 @@ pub struct Packets<'a> {
 
 /// The memory that has a packet.
 #[derive(Clone, Copy)]
-pub(super) enum Cut<'a> {
+pub(super) enum PacketBytes<'a> {
     Text(&'a [u8]),
     /// At the front of the buffer.
     Buffer(usize),
@@ -55,9 +55,9 @@ impl<'a> Packets<'a> {
     where
         'a: 'b,
     {
-        match self.cut(buf)? {
-            Cut::Text(packet) => Some(packet),
-            Cut::Buffer(len) => buf.get(..len),
+        match self.next_in(buf)? {
+            PacketBytes::Text(packet) => Some(packet),
+            PacketBytes::Buffer(len) => buf.get(..len),
         }
     }
 
@@ -92,13 +92,13 @@ impl<'a> Packets<'a> {
         Some(packet)
     }
 
-    pub(super) fn cut(&mut self, buf: &mut [u8; STREAM_PACKET_MAX]) -> Option<Cut<'a>> {
+    pub(super) fn next_in(&mut self, buf: &mut [u8; STREAM_PACKET_MAX]) -> Option<PacketBytes<'a>> {
         if let Some(packet) = self.next_borrowed() {
-            return Some(Cut::Text(packet));
+            return Some(PacketBytes::Text(packet));
         }
         let (rest, len) = copy(self.rest, buf);
         self.rest = rest;
-        (len > 0).then_some(Cut::Buffer(len))
+        (len > 0).then_some(PacketBytes::Buffer(len))
     }
 }
 
@@ -152,10 +152,14 @@ mod tests {
         let bytes = [&line[..], &line, &line, b"N1"].concat();
         let mut packets = NcText::new(&bytes).unwrap().packets();
         let mut buf = [0; STREAM_PACKET_MAX];
-        assert!(matches!(packets.cut(&mut buf), Some(Cut::Text(packet)) if packet.len() == 500));
-        assert!(matches!(packets.cut(&mut buf), Some(Cut::Text(packet)) if packet.len() == 500));
-        assert!(matches!(packets.cut(&mut buf), Some(Cut::Buffer(504))));
-        assert!(packets.cut(&mut buf).is_none());
+        assert!(
+            matches!(packets.next_in(&mut buf), Some(PacketBytes::Text(packet)) if packet.len() == 500)
+        );
+        assert!(
+            matches!(packets.next_in(&mut buf), Some(PacketBytes::Text(packet)) if packet.len() == 500)
+        );
+        assert!(matches!(packets.next_in(&mut buf), Some(PacketBytes::Buffer(504))));
+        assert!(packets.next_in(&mut buf).is_none());
 
         // Where the open line would fit but for its end, the packet before it is borrowed.
         for (open, borrowed) in [(490, false), (491, true), (492, true)] {

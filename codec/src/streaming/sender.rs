@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::NcText;
 use super::ends::LF;
-use super::packets::{Cut, Packets};
+use super::packets::{PacketBytes, Packets};
 use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
@@ -119,7 +119,7 @@ pub struct Progress {
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-#[error("acknowledgement of no packet: one that is out expected, none found")]
+#[error("acknowledgement without a packet in flight")]
 pub struct UnexpectedAck;
 
 /// Streams a text: hands out a packet, takes its acknowledgement, goes on.
@@ -152,7 +152,7 @@ pub struct Sender<'a> {
     /// The packets that were not accepted yet.
     packets: Packets<'a>,
     /// The packet in flight or waiting for a retry, and the packets after it.
-    in_flight: Option<(Cut<'a>, Packets<'a>)>,
+    in_flight: Option<(PacketBytes<'a>, Packets<'a>)>,
     state: SenderState,
     sent: Progress,
     busy_count: u32,
@@ -181,8 +181,8 @@ impl<'a> Sender<'a> {
         }
         if self.in_flight.is_none() {
             let mut rest = self.packets.clone();
-            let cut = rest.cut(&mut self.buffer)?;
-            self.in_flight = Some((cut, rest));
+            let packet = rest.next_in(&mut self.buffer)?;
+            self.in_flight = Some((packet, rest));
         }
         self.state = SenderState::InFlight;
         self.packet_in_flight()
@@ -239,8 +239,8 @@ impl<'a> Sender<'a> {
 
     fn packet_in_flight(&self) -> Option<&[u8]> {
         match self.in_flight.as_ref()?.0 {
-            Cut::Text(packet) => Some(packet),
-            Cut::Buffer(len) => self.buffer.get(..len),
+            PacketBytes::Text(packet) => Some(packet),
+            PacketBytes::Buffer(len) => self.buffer.get(..len),
         }
     }
 

@@ -127,9 +127,10 @@ impl<'a> TextRef<'a> {
     /// Only NULs may follow the NUL, if the text has one.
     #[inline]
     fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
-        match tail.iter().all(|&byte| byte == 0) {
-            true => Ok(()),
-            false => Err(not_padded(field, at, self.text.len(), tail)),
+        if tail.iter().all(|&byte| byte == 0) {
+            Ok(())
+        } else {
+            Err(not_padded(field, at, self.text.len(), tail))
         }
     }
 }

@@ -147,9 +147,10 @@ impl<'a> Shape<'a> {
         if to_usize(size) == bytes.len() {
             return Ok(Elements { shape: *self, bytes });
         }
-        match given < size {
-            true => Err(Error::new(ErrorKind::Truncated, VALUE, 0, size, given)),
-            false => Err(Error::new(ErrorKind::Trailing, VALUE, size, size, given)),
+        if given < size {
+            Err(Error::new(ErrorKind::Truncated, VALUE, 0, size, given))
+        } else {
+            Err(Error::new(ErrorKind::Trailing, VALUE, size, size, given))
         }
     }
 
@@ -247,9 +248,10 @@ impl<'a> Shape<'a> {
     }
 
     fn check_text(&self, len: u32, at: u32) -> Result<(), Error> {
-        match len > self.each {
-            true => Err(Error::new(ErrorKind::TooLong, VALUE, at, self.each, len)),
-            false => Ok(()),
+        if len > self.each {
+            Err(Error::new(ErrorKind::TooLong, VALUE, at, self.each, len))
+        } else {
+            Ok(())
         }
     }
 }

@@ -137,7 +137,7 @@ typed_reads! {
 /// assert_eq!(elements.items::<i32>()?.sum::<i32>(), 789);
 /// assert!(elements.items::<f64>().is_err());
 ///
-/// // A number, whatever its type.
+/// // A number of any type.
 /// let first: f64 = elements.get(0)?.try_into()?;
 /// assert_eq!(first, 333.0);
 /// # Ok::<(), ads_cnc::Error>(())
@@ -174,10 +174,7 @@ impl<'a> Elements<'a> {
     }
 
     fn check<T: Scalar>(&self) -> Result<(), Error> {
-        match self.data_type() == T::TYPE {
-            true => Ok(()),
-            false => Err(mismatch(T::TYPE, self.data_type())),
-        }
+        if self.data_type() == T::TYPE { Ok(()) } else { Err(mismatch(T::TYPE, self.data_type())) }
     }
 }
 

@@ -64,9 +64,10 @@ impl<'a> Decode<'a> for ExtendedReply {
     const STREAM: Stream = Stream::VariableExtendedDescription;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        match Reader::new(Self::STREAM, bytes)?.is_empty() {
-            true => Ok(Self(None)),
-            false => ExtendedDescription::decode(bytes).map(|extended| Self(Some(extended))),
+        if Reader::new(Self::STREAM, bytes)?.is_empty() {
+            Ok(Self(None))
+        } else {
+            ExtendedDescription::decode(bytes).map(|extended| Self(Some(extended)))
         }
     }
 }

@@ -91,9 +91,9 @@ fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
             Some(asked) if asked == takes => return Ok(function),
             // No content is where a function is (SDA-12).
             Some(asked) if !spec.is_content() => {
-                return Err(DispatchError::Service { takes, asked });
+                return Err(DispatchError::Service { expected: takes, found: asked });
             }
-            Some(asked) => refusal = DispatchError::Service { takes, asked },
+            Some(asked) => refusal = DispatchError::Service { expected: takes, found: asked },
             None if !spec.is_content() => return Ok(function),
             // Of a content, what is read comes back, and what is written goes in.
             None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
