@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::address::range;
+use crate::content::ContentRef;
 use crate::layout::{Field, Subject, typed_value, variable_path};
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
@@ -87,6 +88,45 @@ impl Error {
         Self { kind, field, offset, expected, found }
     }
 
+    /// An error of content whose layout only the application knows, for its own
+    /// [`Decode`](crate::Decode) and [`Encode`](crate::Encode).
+    ///
+    /// ```
+    /// use ads_cnc::layout::Stream;
+    /// use ads_cnc::value::Reader;
+    /// use ads_cnc::{Decode, Error, ErrorKind};
+    ///
+    /// #[derive(Debug, PartialEq)]
+    /// enum Mode {
+    ///     Manual,
+    ///     Automatic,
+    /// }
+    ///
+    /// impl<'a> Decode<'a> for Mode {
+    ///     const STREAM: Stream = Stream::Content;
+    ///
+    ///     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+    ///         let mut input = Reader::new(bytes);
+    ///         let mode: u16 = input.read()?;
+    ///         input.finish()?;
+    ///         match mode {
+    ///             0 => Ok(Self::Manual),
+    ///             1 => Ok(Self::Automatic),
+    ///             other => Err(Error::of_content(ErrorKind::OutOfRange, 0, 1, other.into())),
+    ///         }
+    ///     }
+    /// }
+    ///
+    /// assert_eq!(Mode::decode(&[1, 0]), Ok(Mode::Automatic));
+    /// assert_eq!(
+    ///     Mode::decode(&[2, 0]).unwrap_err().to_string(),
+    ///     "content: content at offset 0: out of range, expected at most 1, found 2"
+    /// );
+    /// ```
+    pub const fn of_content(kind: ErrorKind, offset: u32, expected: u32, found: u32) -> Self {
+        Self::new(kind, Field::of::<ContentRef<'_>>("content"), offset, expected, found)
+    }
+
     /// The same error in a stream that begins at this offset.
     #[cfg(feature = "binrw")]
     pub(crate) const fn moved(self, by: u32) -> Self {
@@ -154,6 +194,18 @@ impl fmt::Display for Bytes {
     }
 }
 
+/// The name of a type by its number, or the code of a type that is not documented.
+struct TypeNumber(u32);
+
+impl fmt::Display for TypeNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match DataType::by_number(self.0) {
+            Some(data_type) => data_type.fmt(f),
+            None => write!(f, "type {}", self.0),
+        }
+    }
+}
+
 /// Whether the numbers of an error are index groups.
 fn is_group(field: Field) -> bool {
     field.subject() == Subject::IndexGroup
@@ -172,6 +224,10 @@ impl fmt::Display for Error {
             }
             (ErrorKind::Truncated, _) if field == variable_path::INDEX => {
                 return write!(f, "{field} at offset {offset}: no \"]\"");
+            }
+            (ErrorKind::Mismatch, _) if field == typed_value::TYPE => {
+                let [expected, found] = [expected, found].map(TypeNumber);
+                return write!(f, "expected {expected}, found {found}");
             }
             _ => write!(f, "{field} at offset {offset}: ")?,
         }
@@ -199,13 +255,7 @@ impl fmt::Display for Error {
                 let bound = if found < expected { "least" } else { "most" };
                 write!(f, "{kind}, expected at {bound} {expected}, found {found}")
             }
-            ErrorKind::Mismatch => {
-                let types = [expected, found].map(DataType::by_number);
-                if let ([Some(expected), Some(found)], typed_value::TYPE) = (types, field) {
-                    return write!(f, "expected {expected}, found {found}");
-                }
-                write!(f, "expected {expected}, found {found}")
-            }
+            ErrorKind::Mismatch => write!(f, "expected {expected}, found {found}"),
             ErrorKind::Function => write!(f, "{found:#x} is {kind}"),
         }
     }

@@ -97,9 +97,12 @@ macro_rules! from_number {
     )+ };
 }
 
-/// `Display` and `Debug` of a stream that is a single number.
+/// `Display`, `Debug` and the conversions of a stream that is a single number.
 macro_rules! shown {
     ($name:ident) => {
+        $crate::number::shown!(u32: $name);
+    };
+    ($number:ident: $name:ident) => {
         impl core::fmt::Display for $name {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 self.0.fmt(f)
@@ -111,6 +114,8 @@ macro_rules! shown {
                 f.debug_tuple(stringify!($name)).field(&self.0).finish()
             }
         }
+
+        $crate::number::from_number!($number: $name);
     };
 }
 

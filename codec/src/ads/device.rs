@@ -1,7 +1,5 @@
 //! Information about a device: ReadDeviceInfo and ReadState.
 
-use zerocopy::IntoBytes as _;
-
 use super::AdsError;
 use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
@@ -54,6 +52,11 @@ pub struct DeviceInfoReply {
 }
 
 impl DeviceInfoReply {
+    /// The bytes of the stream.
+    pub fn to_bytes(&self) -> [u8; size_of::<InfoLayout>()] {
+        zerocopy::transmute!(self.layout())
+    }
+
     /// The name, which ends at its first NUL or fills its bytes.
     pub fn name(&self) -> CncStr<'_> {
         CncStr::until_nul(&self.name)
@@ -86,7 +89,7 @@ impl Encode for DeviceInfoReply {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
+        Writer::copy(Self::STREAM, &self.to_bytes(), buf)
     }
 }
 

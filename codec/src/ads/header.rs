@@ -121,7 +121,7 @@ impl Encode for AmsHeader {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
+        Writer::copy(Self::STREAM, &self.to_bytes(), buf)
     }
 }
 
@@ -158,6 +158,11 @@ impl AmsHeader {
             error: AdsError::NO_ERROR,
             ..self
         }
+    }
+
+    /// The bytes of the stream.
+    pub fn to_bytes(&self) -> [u8; AMS_HEADER_LEN] {
+        zerocopy::transmute!(self.layout())
     }
 
     pub(super) fn layout(&self) -> HeaderLayout {

@@ -240,6 +240,11 @@ impl Descriptor {
         self
     }
 
+    /// The bytes of the stream.
+    pub const fn to_bytes(&self) -> [u8; DESCRIPTOR_LEN] {
+        zerocopy::transmute!(self.0)
+    }
+
     /// The descriptor, borrowed.
     #[inline]
     pub const fn as_ref(&self) -> DescriptorRef<'_> {

@@ -109,6 +109,11 @@ impl DynamicValue {
         Self { bits }
     }
 
+    /// The bytes of the stream.
+    pub const fn to_bytes(self) -> [u8; 8] {
+        self.bits.to_le_bytes()
+    }
+
     /// The value's bits.
     pub const fn to_bits(self) -> u64 {
         self.bits
@@ -118,6 +123,19 @@ impl DynamicValue {
 impl From<f64> for DynamicValue {
     fn from(value: f64) -> Self {
         Self { bits: value.to_bits() }
+    }
+}
+
+impl From<DynamicValue> for f64 {
+    fn from(value: DynamicValue) -> Self {
+        value.get()
+    }
+}
+
+/// The number.
+impl fmt::Display for DynamicValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.get().fmt(f)
     }
 }
 
@@ -142,6 +160,6 @@ impl Encode for DynamicValue {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, &self.bits.to_le_bytes(), buf)
+        Writer::copy(Self::STREAM, &self.to_bytes(), buf)
     }
 }

@@ -3,19 +3,18 @@
 use core::fmt;
 use core::hash::{Hash, Hasher};
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
-
 use crate::content::ContentRef;
 use crate::error::Error;
-use crate::text::CncStr;
+use crate::text::{CncStr, TextRef};
 #[cfg(feature = "alloc")]
-use crate::text::CncString;
-use crate::value::Boolean;
+use crate::text::{CncString, Text};
+use crate::value::Elements;
+use crate::value::numbers;
 use crate::variable::{ValueRef, VariablePath};
 
 /// The name of a variable or of a parameter: a reference to any `AsRef<str>`, such as `&str` or
-/// `&String`; [`CncStr`], [`VariablePath`] and, with `alloc`, `&CncString`. Nothing is copied.
+/// `&String`; [`CncStr`], [`TextRef`], [`VariablePath`] and, with `alloc`, `&CncString` and `&Text`.
+/// Nothing is copied.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
 ///
@@ -50,6 +49,13 @@ impl<'a> IntoName<'a> for CncStr<'a> {
     }
 }
 
+/// The text, without its end: a name that was read is written with one NUL.
+impl<'a> IntoName<'a> for TextRef<'a> {
+    fn into_name(self) -> Result<CncStr<'a>, Error> {
+        Ok(self.text())
+    }
+}
+
 impl<'a> IntoName<'a> for VariablePath<'a> {
     fn into_name(self) -> Result<CncStr<'a>, Error> {
         Ok(self.text())
@@ -63,10 +69,18 @@ impl<'a> IntoName<'a> for &'a CncString {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<'a> IntoName<'a> for &'a Text {
+    fn into_name(self) -> Result<CncStr<'a>, Error> {
+        Ok(self.text.as_cnc_str())
+    }
+}
+
 /// A value to write: a number, a `bool`, or the bytes of a value.
 ///
-/// A text, or an array of another type than bytes, must first be encoded into a buffer of the caller, by
-/// [`EncodeValue`](crate::value::EncodeValue).
+/// An array or a text is first encoded into a buffer of the caller, by
+/// [`EncodeValue`](crate::value::EncodeValue). Only a slice is taken as the bytes of a value: `&[1, 2]`
+/// would be two bytes, whatever the type of the variable, and does not compile.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
 ///
@@ -116,8 +130,8 @@ impl WriteValue<'_> {
     }
 }
 
-macro_rules! numbers {
-    ($( $number:ty )+) => { $(
+macro_rules! from_numbers {
+    ($( $data_type:ident: $number:ty; )+) => { $(
         impl From<$number> for WriteValue<'_> {
             fn from(number: $number) -> Self {
                 Self::number(number.to_le_bytes())
@@ -126,17 +140,11 @@ macro_rules! numbers {
     )+ };
 }
 
-numbers! { i8 u8 i16 u16 i32 u32 i64 u64 f32 f64 }
+numbers!(from_numbers!);
 
 impl From<bool> for WriteValue<'_> {
     fn from(value: bool) -> Self {
         u8::from(value).into()
-    }
-}
-
-impl From<Boolean> for WriteValue<'_> {
-    fn from(value: Boolean) -> Self {
-        value.0.into()
     }
 }
 
@@ -146,16 +154,10 @@ impl<'a> From<&'a [u8]> for WriteValue<'a> {
     }
 }
 
-impl<'a, const N: usize> From<&'a [u8; N]> for WriteValue<'a> {
-    fn from(bytes: &'a [u8; N]) -> Self {
-        Self(Source::Bytes(bytes))
-    }
-}
-
-#[cfg(feature = "alloc")]
-impl<'a> From<&'a Vec<u8>> for WriteValue<'a> {
-    fn from(bytes: &'a Vec<u8>) -> Self {
-        Self(Source::Bytes(bytes))
+/// The bytes of the elements.
+impl<'a> From<Elements<'a>> for WriteValue<'a> {
+    fn from(elements: Elements<'a>) -> Self {
+        Self(Source::Bytes(elements.as_bytes()))
     }
 }
 

@@ -13,6 +13,8 @@
 //! Dispatch takes the first row that matches the call. The rows of access to content match every offset
 //! of their groups, so they follow the other functions of the group (SDA-12).
 
+use core::fmt;
+
 use super::address::Address;
 use super::docs::documented;
 use super::table::functions;
@@ -111,6 +113,13 @@ functions! {
         by_hand(object: Object) => ContentRef<'r>, sized length;
     WriteObject<'a> "write object content": Write Com Motion, ComContent, AtLeast(0), "COM-5", "2.1.2",
         by_hand(object: Object; content: Value) ContentRef { bytes: content } => NoData;
+}
+
+/// The function's [name](FunctionSpec::name) in reports.
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.spec().name)
+    }
 }
 
 impl Function {

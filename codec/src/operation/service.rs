@@ -65,6 +65,17 @@ pub enum Task {
     Com,
 }
 
+/// As the manual writes it: `GEO`, `SDA`, `COM`.
+impl fmt::Display for Task {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Geo => "GEO",
+            Self::Sda => "SDA",
+            Self::Com => "COM",
+        })
+    }
+}
+
 impl Task {
     /// The task's port.
     pub const fn port(self) -> AmsPort {

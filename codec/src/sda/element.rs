@@ -215,7 +215,7 @@ stream! {
     }
 }
 
-crate::number::shown!(ElementWriteFlag);
+crate::number::shown!(u8: ElementWriteFlag);
 
 impl ElementWriteFlag {
     /// FALSE, as written.

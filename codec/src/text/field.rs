@@ -10,7 +10,8 @@ use crate::layout::Field;
 
 /// A text field with its end: one NUL, a NUL and more bytes, or no NUL at all.
 ///
-/// Only the text counts; the end is kept so that a decoded stream encodes to the same bytes.
+/// The end is kept so that a decoded stream encodes to the same bytes: two fields are equal if text and
+/// end are.
 /// [`TextRef::new`] and the conversion from [`CncStr`] give the canonical end, one NUL.
 ///
 /// ```
@@ -36,7 +37,7 @@ impl<'a> TextRef<'a> {
         Ok(CncStr::new(text)?.into())
     }
 
-    /// Text with another end: the bytes after the NUL, or no NUL.
+    /// A text and the bytes after its NUL; `None` for a text without a NUL.
     #[inline]
     pub const fn with_tail(text: CncStr<'a>, tail: Option<&'a [u8]>) -> Self {
         Self { text, tail }
@@ -135,9 +136,24 @@ impl<'a> TextRef<'a> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl TextRef<'_> {
+    /// Copies the text and its end.
+    pub fn to_owned(&self) -> super::Text {
+        (*self).into()
+    }
+}
+
 impl<'a> From<CncStr<'a>> for TextRef<'a> {
     fn from(text: CncStr<'a>) -> Self {
         Self { text, tail: Some(&[]) }
+    }
+}
+
+/// The text.
+impl fmt::Display for TextRef<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.text, f)
     }
 }
 

@@ -5,98 +5,90 @@ use core::ops::Range;
 
 use zerocopy::FromBytes as _;
 
+use super::scalar::numbers;
 use super::typed::beyond;
-use super::{Boolean, DataType, Scalar, Shape};
+use super::{DataType, EncodeValue as _, Scalar, Shape};
 use crate::bytes::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::typed_value::VALUE;
 use crate::text::TextRef;
 use crate::variable::U32List;
 
-/// One element of a value.
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2; sizes of the types: GEN-5.
-///
-/// ```
-/// use ads_cnc::U32List;
-/// use ads_cnc::value::{Boolean, DataType, Element, Elements};
-///
-/// // two BOOLEANs, as of V.E.Variable_3
-/// let elements = Elements::new(DataType::Boolean, U32List::from(&[2]), &[0, 1])?;
-/// let second = elements.element(U32List::from(&[1]))?;
-/// assert_eq!(second, Element::Boolean(Boolean::TRUE));
-/// assert_eq!((second.data_type(), second.to_string()), (DataType::Boolean, "TRUE".into()));
-/// assert!(bool::try_from(second)?);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Element<'a> {
-    /// One byte; 0 is FALSE, any other TRUE.
-    Boolean(Boolean),
-    /// Signed, one byte.
-    Sgn08(i8),
-    /// Unsigned, one byte.
-    Uns08(u8),
-    /// Signed, two bytes.
-    Sgn16(i16),
-    /// Unsigned, two bytes.
-    Uns16(u16),
-    /// Signed, four bytes.
-    Sgn32(i32),
-    /// Unsigned, four bytes.
-    Uns32(u32),
-    /// Signed, eight bytes; of objects only.
-    Lint(i64),
-    /// Unsigned, eight bytes; of objects only.
-    Lword(u64),
-    /// IEEE 754 binary32; not of variables.
-    Real32(f32),
-    /// IEEE 754 binary64.
-    Real64(f64),
-    /// Text to its first NUL or to the end of its bytes (VAR-22, assumed).
-    String(TextRef<'a>),
+/// Declares [`Element`] for the types of fixed size and STRING.
+macro_rules! element {
+    ($( $variant:ident: $number:ty; )+) => {
+        /// One element of a value.
+        ///
+        /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2; sizes of the types: GEN-5.
+        ///
+        /// ```
+        /// use ads_cnc::U32List;
+        /// use ads_cnc::value::{Boolean, DataType, Element, Elements};
+        ///
+        /// // two BOOLEANs, as of V.E.Variable_3
+        /// let elements = Elements::new(DataType::Boolean, U32List::from(&[2]), &[0, 1])?;
+        /// let second = elements.element(U32List::from(&[1]))?;
+        /// assert_eq!(second, Element::Boolean(Boolean::TRUE));
+        /// assert_eq!((second.data_type(), second.to_string()), (DataType::Boolean, "TRUE".into()));
+        /// assert!(bool::try_from(second)?);
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[non_exhaustive]
+        pub enum Element<'a> {
+            $(
+                #[doc = concat!("Of [`DataType::", stringify!($variant), "`].")]
+                $variant($number),
+            )+
+            /// Text to its first NUL or to the end of its bytes (VAR-22, assumed).
+            String(TextRef<'a>),
+        }
+
+        impl<'a> Element<'a> {
+            /// The element's type.
+            pub const fn data_type(&self) -> DataType {
+                match self {
+                    $( Self::$variant(_) => DataType::$variant, )+
+                    Self::String(_) => DataType::String,
+                }
+            }
+
+            /// The element in all of these bytes.
+            fn read(data_type: DataType, bytes: &'a [u8]) -> Option<Self> {
+                Some(match data_type {
+                    $( DataType::$variant => Self::$variant(read(bytes)?), )+
+                    DataType::String => Self::String(TextRef::split(bytes)),
+                })
+            }
+
+            pub(super) fn len(&self) -> usize {
+                match self {
+                    $( Self::$variant(number) => number.value_len(), )+
+                    Self::String(text) => text.value_len(),
+                }
+            }
+
+            pub(super) fn write<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+                match self {
+                    $( Self::$variant(number) => number.encode_value(buf), )+
+                    Self::String(text) => text.encode_value(buf),
+                }
+            }
+        }
+
+        /// Numbers as numbers, BOOLEAN as TRUE or FALSE, a text without its end.
+        impl fmt::Display for Element<'_> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self {
+                    $( Self::$variant(number) => number.fmt(f), )+
+                    Self::String(text) => text.fmt(f),
+                }
+            }
+        }
+    };
 }
 
-impl Element<'_> {
-    /// The element's type.
-    pub const fn data_type(&self) -> DataType {
-        match self {
-            Self::Boolean(_) => DataType::Boolean,
-            Self::Sgn08(_) => DataType::Sgn08,
-            Self::Uns08(_) => DataType::Uns08,
-            Self::Sgn16(_) => DataType::Sgn16,
-            Self::Uns16(_) => DataType::Uns16,
-            Self::Sgn32(_) => DataType::Sgn32,
-            Self::Uns32(_) => DataType::Uns32,
-            Self::Lint(_) => DataType::Lint,
-            Self::Lword(_) => DataType::Lword,
-            Self::Real32(_) => DataType::Real32,
-            Self::Real64(_) => DataType::Real64,
-            Self::String(_) => DataType::String,
-        }
-    }
-}
-
-/// Numbers as numbers, BOOLEAN as TRUE or FALSE, a text without its end.
-impl fmt::Display for Element<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Boolean(boolean) => f.write_str(if boolean.is_true() { "TRUE" } else { "FALSE" }),
-            Self::Sgn08(number) => number.fmt(f),
-            Self::Uns08(number) => number.fmt(f),
-            Self::Sgn16(number) => number.fmt(f),
-            Self::Uns16(number) => number.fmt(f),
-            Self::Sgn32(number) => number.fmt(f),
-            Self::Uns32(number) => number.fmt(f),
-            Self::Lint(number) => number.fmt(f),
-            Self::Lword(number) => number.fmt(f),
-            Self::Real32(number) => number.fmt(f),
-            Self::Real64(number) => number.fmt(f),
-            Self::String(text) => text.text().fmt(f),
-        }
-    }
-}
+numbers!(element!);
 
 /// The elements of a value, by their indices or in their order: of more than one dimension, the
 /// last index runs fastest (VAR-21, assumed).
@@ -176,20 +168,7 @@ impl<'a> Elements<'a> {
         }
         let each = to_usize(self.shape.element_size());
         let bytes = self.bytes.get(index.checked_mul(each)?..)?.get(..each)?;
-        Some(match self.data_type() {
-            DataType::Boolean => Element::Boolean(read(bytes)?),
-            DataType::Sgn08 => Element::Sgn08(read(bytes)?),
-            DataType::Uns08 => Element::Uns08(read(bytes)?),
-            DataType::Sgn16 => Element::Sgn16(read(bytes)?),
-            DataType::Uns16 => Element::Uns16(read(bytes)?),
-            DataType::Sgn32 => Element::Sgn32(read(bytes)?),
-            DataType::Uns32 => Element::Uns32(read(bytes)?),
-            DataType::Lint => Element::Lint(read(bytes)?),
-            DataType::Lword => Element::Lword(read(bytes)?),
-            DataType::Real32 => Element::Real32(read(bytes)?),
-            DataType::Real64 => Element::Real64(read(bytes)?),
-            DataType::String => Element::String(TextRef::split(bytes)),
-        })
+        Element::read(self.data_type(), bytes)
     }
 
     /// The element with these indices.

@@ -119,26 +119,6 @@ macro_rules! encode_value {
     )+ };
 }
 
-/// Evaluates the expression with the value of any element.
-macro_rules! each {
-    ($element:ident, $value:ident => $do:expr) => {
-        match $element {
-            Element::Boolean($value) => $do,
-            Element::Sgn08($value) => $do,
-            Element::Uns08($value) => $do,
-            Element::Sgn16($value) => $do,
-            Element::Uns16($value) => $do,
-            Element::Sgn32($value) => $do,
-            Element::Uns32($value) => $do,
-            Element::Lint($value) => $do,
-            Element::Lword($value) => $do,
-            Element::Real32($value) => $do,
-            Element::Real64($value) => $do,
-            Element::String($value) => $do,
-        }
-    };
-}
-
 encode_value! {
     /// One number or BOOLEAN.
     @T T, |item| T::TYPE, 1, size_of::<T::Wire>(),
@@ -163,6 +143,6 @@ encode_value! {
     |buf| fill(elements.value_len(), buf, |out| out.put(elements.as_bytes()));
     /// The number or the text.
     Element<'_>, |element| Element::data_type(element), 1,
-    each!(element, value => value.value_len()),
-    |buf| each!(element, value => value.encode_value(buf));
+    element.len(),
+    |buf| element.write(buf);
 }

@@ -79,5 +79,6 @@ pub use data_type::DataType;
 pub use element::{Element, ElementIter, Elements};
 pub use encode::EncodeValue;
 pub use reader::Reader;
+pub(crate) use scalar::numbers;
 pub use scalar::{Boolean, Scalar};
 pub use shape::Shape;

@@ -31,8 +31,30 @@ pub(super) mod sealed {
     }
 }
 
+/// Calls a macro with each type of fixed size: the variant of [`DataType`] and of
+/// [`Element`](super::Element), and the Rust type.
+macro_rules! numbers {
+    ($macro:ident!) => {
+        $macro! {
+            Boolean: $crate::value::Boolean;
+            Sgn08: i8;
+            Uns08: u8;
+            Sgn16: i16;
+            Uns16: u16;
+            Sgn32: i32;
+            Uns32: u32;
+            Lint: i64;
+            Lword: u64;
+            Real32: f32;
+            Real64: f64;
+        }
+    };
+}
+
+pub(crate) use numbers;
+
 macro_rules! items {
-    ($( $item:ty: $data_type:ident; )+) => { $(
+    ($( $data_type:ident: $item:ty; )+) => { $(
         impl Scalar for $item {
             const TYPE: DataType = DataType::$data_type;
         }
@@ -51,19 +73,7 @@ macro_rules! items {
     )+ };
 }
 
-items! {
-    Boolean: Boolean;
-    i8: Sgn08;
-    u8: Uns08;
-    i16: Sgn16;
-    u16: Uns16;
-    i32: Sgn32;
-    u32: Uns32;
-    i64: Lint;
-    u64: Lword;
-    f32: Real32;
-    f64: Real64;
-}
+numbers!(items!);
 
 /// Any byte but 0 is TRUE, which is written as 1. [`Boolean`] keeps the byte.
 impl Scalar for bool {
@@ -115,7 +125,7 @@ impl Boolean {
         Self(byte)
     }
 
-    const fn to_le_bytes(self) -> [u8; 1] {
+    pub(crate) const fn to_le_bytes(self) -> [u8; 1] {
         [self.0]
     }
 }
@@ -129,6 +139,13 @@ impl From<bool> for Boolean {
 impl From<Boolean> for bool {
     fn from(boolean: Boolean) -> Self {
         boolean.is_true()
+    }
+}
+
+/// TRUE or FALSE.
+impl fmt::Display for Boolean {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.is_true() { "TRUE" } else { "FALSE" })
     }
 }
 

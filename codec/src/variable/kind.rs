@@ -1,6 +1,7 @@
 //! Requests of the number of variables of a kind and of one description (VAR-1 … VAR-3).
 
 use core::fmt;
+use core::hash::{Hash, Hasher};
 
 use crate::declare::stream;
 use crate::error::Error;
@@ -15,7 +16,7 @@ use crate::text::{CncStr, TextRef};
 /// | on the channel interface | V.E, V.G, V.A, V.CYC | those, and V.P, V.L, V.S from V2.11.2077, V2.11.2847, V3.1.3081.07, V3.1.3115 and V4.18.0 on |
 /// | by name only, without a handle (0x46, 0x47, 0x49) | V.CYC | V.CYC, V.P, V.L, V.S |
 ///
-/// VAR-18, VAR-19
+/// Requirements: VAR-18, VAR-19.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.1 and 4.3.1.
 ///
@@ -26,7 +27,7 @@ use crate::text::{CncStr, TextRef};
 /// assert!(Kind::ALL.text().is_empty());
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy)]
 pub struct Kind<'a>(TextRef<'a>);
 
 impl<'a> Kind<'a> {
@@ -73,6 +74,21 @@ impl<'a> Kind<'a> {
     /// The text with its end.
     pub const fn field(&self) -> TextRef<'a> {
         self.0
+    }
+}
+
+/// Of the text: NULs after it are no part of the kind (E-34).
+impl PartialEq for Kind<'_> {
+    fn eq(&self, other: &Kind<'_>) -> bool {
+        self.text() == other.text()
+    }
+}
+
+impl Eq for Kind<'_> {}
+
+impl Hash for Kind<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.text().hash(state);
     }
 }
 

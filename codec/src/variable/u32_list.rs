@@ -80,9 +80,9 @@ impl<'a> U32List<'a> {
         U32Iter(self.0)
     }
 
-    /// Copies the numbers into a vector of exactly their number.
+    /// Copies the numbers.
     #[cfg(feature = "alloc")]
-    pub(crate) fn to_vec(self) -> alloc::vec::Vec<u32> {
+    pub fn to_vec(self) -> alloc::vec::Vec<u32> {
         match self.0 {
             Source::Wire(numbers) => numbers.iter().map(|number| number.get()).collect(),
             Source::Memory(numbers) => numbers.to_vec(),
