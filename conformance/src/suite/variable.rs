@@ -12,9 +12,10 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::kit::{KINDS, Probe, VARIABLES_MAX, name_of};
+use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, applicable, assumed};
+use crate::objects::KINDS;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -5,11 +5,12 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, axis_address, dynamic_among_variables,
-    each_of_access, handle_of, same, write_check,
+    NOTHING_WRITABLE, Probe, WriteCheck, axis_address, dynamic_among_variables, each_of_access,
+    handle_of, same, write_check,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -4,11 +4,10 @@
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
-use super::kit::{
-    NOTHING_WRITABLE, Probe, ValueAddress, WritableElement, WriteCheck, elements_with_flag,
-};
+use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -23,20 +22,19 @@ pub(super) const CASES: &[Row] = &[
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (logical, what) = (object.address(), object.name.to_string());
-        if !object.writable || probe.is_blank(&object) || logical.read().is_err() {
+        let (logical, what) = (&object.address, object.name.to_string());
+        if !object.is_writable() || probe.is_blank(&object) || logical.read().is_err() {
             continue;
         }
-        let Some(by_rank) = probe.object_by_rank(&object) else { continue };
-        let address = by_rank.address();
+        let Some(address) = probe.address_by_rank(&object) else { continue };
         if address.read().is_err()
-            || !probe.may_write(&logical, &what)?
+            || !probe.may_write(logical, &what)?
             || !probe.may_write(&address, &what)?
         {
             continue;
         }
         // What is not taken by number either is judged elsewhere.
-        let Some(value) = probe.filled_value_at(&logical)? else {
+        let Some(value) = probe.filled_value_at(logical)? else {
             continue;
         };
         if probe.try_ask(logical.write(&value)?)?.is_none() {
@@ -48,7 +46,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         let write_check =
             WriteCheck { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
         probe.try_write(&write_check, &address, |probe, _, _| {
-            let (read, number) = (probe.value_at(&address)?, probe.value_at(&logical)?);
+            let (read, number) = (probe.value_at(&address)?, probe.value_at(logical)?);
             let same = number == read || probe.value_at(&address)? != read;
             let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
             probe.check("ADR-12", same, expected, || Hex(number.unwrap_or_default()));
@@ -78,7 +76,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
             continue;
         };
         any = true;
-        let twin = ValueAddress::Element { element, length: *length };
+        let twin = ValueAddress::of_element(element, *length);
         let write_check = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
         probe.try_write(&write_check, address, |probe, _, new| {
             let (before, read) = (probe.value_at(address)?, probe.value_at(&twin)?);

@@ -4,9 +4,10 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Probe, ValueAddress, each_of_access, handle_of, same, write_check};
+use super::kit::{Probe, each_of_access, handle_of, same, write_check};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

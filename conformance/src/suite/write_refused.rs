@@ -6,11 +6,12 @@ use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableT
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Probe, RawCall, ValueAddress, WritableNumber, WriteCheck, another, each_of_access, handle_of,
-    is_sendable, require_taken, writable_numbers, write_check,
+    Probe, RawCall, WritableNumber, WriteCheck, another, each_of_access, handle_of, is_sendable,
+    require_taken, writable_numbers, write_check,
 };
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -5,11 +5,12 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Probe, ValueAddress, another, axis_address, each_of_access, is_of_service, is_sendable,
-    is_taken, require_taken,
+    Probe, another, axis_address, each_of_access, is_of_service, is_sendable, is_taken,
+    require_taken,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed, online};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -3,9 +3,10 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Probe, ValueAddress, WriteCheck, each_of_access, write_value};
+use super::kit::{Probe, WriteCheck, each_of_access, write_value};
 use super::{Row, case};
 use crate::judge::{Needs, Step, online};
+use crate::objects::ValueAddress;
 use crate::values::until_nul;
 
 #[rustfmt::skip]

@@ -16,8 +16,9 @@ use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, Var
 
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
+use crate::objects::decode_element_count;
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, Steady, between, name_of, number_of};
+use crate::suite::kit::{Probe, Steady, between, name_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -213,7 +214,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step<bool>
             let Some(first) = first else { continue };
             let Ok(count) = CountElements::new(first) else { continue };
             let data = maybe(probe, count)?;
-            let count = data.as_deref().and_then(number_of);
+            let count = data.as_deref().and_then(decode_element_count);
             any = true;
             let expected = "a number of elements where the object address says";
             probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));

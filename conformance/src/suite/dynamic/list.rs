@@ -13,8 +13,9 @@ use ads_cnc_vectors::Hex;
 
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Evidence, Step, Stop, assumed};
+use crate::objects::KINDS;
 use crate::profile::Claim;
-use crate::suite::kit::{KINDS, PendingCheck, Probe, steadily};
+use crate::suite::kit::{PendingCheck, Probe, steadily};
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {

@@ -12,7 +12,8 @@ use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
 use crate::judge::{Needs, Rule, Step, Stop, applicable, assumed};
-use crate::suite::kit::{Probe, ValueAddress, WriteCheck, heard, service_channels};
+use crate::objects::ValueAddress;
+use crate::suite::kit::{Probe, WriteCheck, heard, service_channels};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 
