@@ -3,16 +3,19 @@
 use std::collections::BTreeSet;
 
 use ads_cnc::ObjectCount;
-use ads_cnc::address::{Channel, PlatformAxis};
+use ads_cnc::address::{Channel, IndexGroup, IndexOffset, PlatformAxis};
 use ads_cnc::operation::{CountObjects, ObjectList};
 
-use super::super::{List, Object};
+use super::super::List;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
 use crate::session::Trouble;
 
+type Addresses = BTreeSet<(IndexGroup, IndexOffset)>;
+
 impl Walk<'_> {
     pub(super) fn com(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
-        let platform = self.list(ObjectList::PLATFORM, &[])?.unwrap_or_default();
+        let none = BTreeSet::new();
+        let platform = self.list(ObjectList::PLATFORM, &none)?.unwrap_or_default();
         for &channel in channels {
             // The first channel lists the platform's objects once more (COM-4).
             if self.is_selected(List::Channel(channel.number())) {
@@ -20,38 +23,39 @@ impl Walk<'_> {
             }
         }
         for axis in (1..=NUMBER_MAX).map_while(|index| PlatformAxis::new(index).ok()) {
-            if self.list(axis.into(), &[])?.is_none() {
+            if self.list(axis.into(), &none)?.is_none() {
                 break;
             }
         }
         Ok(())
     }
 
-    /// Lists the objects of a list but for those at the addresses of `known`; all of them. None if
-    /// the target has no such list.
+    /// Lists the objects of a list but for those at known addresses; the addresses of all. None if the
+    /// target has no such list.
     fn list(
         &mut self,
         objects: ObjectList,
-        known: &[Object],
-    ) -> Result<Option<Vec<Object>>, Trouble> {
+        known: &Addresses,
+    ) -> Result<Option<Addresses>, Trouble> {
         let Some(count) = self.count_objects(objects)? else { return Ok(None) };
         let list = List::from(objects);
         let is_selected = self.enter(list);
         // That of the platform is asked for what it shares with the first channel's, too.
         if !is_selected && list != List::Platform {
-            return Ok(Some(Vec::new()));
+            return Ok(Some(Addresses::new()));
         }
         let all = self.objects_of(objects, count.min(OBJECTS_MAX), RANGE)?;
         if u32::try_from(all.len()) != Ok(count) {
             self.note(list, format_args!("{} of {count} objects were described", all.len()));
         }
-        let known: BTreeSet<_> = known.iter().map(|object| object.address.content()).collect();
-        for object in all.iter().filter(|_| is_selected) {
-            if !known.contains(&object.address.content()) && self.is_named(&object.name) {
-                self.found(object.clone())?;
+        let addresses = all.iter().filter_map(|object| object.address.content()).collect();
+        for object in all.into_iter().filter(|_| is_selected) {
+            let is_known = object.address.content().is_some_and(|at| known.contains(&at));
+            if !is_known && self.is_named(&object.name) {
+                self.found(object)?;
             }
         }
-        Ok(Some(all))
+        Ok(Some(addresses))
     }
 
     /// How many objects a list has; None if it has none.
