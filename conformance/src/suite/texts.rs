@@ -5,7 +5,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, same};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed};
+use crate::judge::{IfThere as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
@@ -42,7 +42,6 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
 }
 
 fn written(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for (address, what) in texts(probe)? {
         if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
@@ -50,7 +49,6 @@ fn written(probe: &mut Probe<'_>) -> Step {
         let Some(before) = probe.value_at(&address)?.filter(|value| value.len() > 1) else {
             continue;
         };
-        any = true;
         let rules = [Rule::from("GEN-3")];
         let write_check = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
         probe.changing(
@@ -65,7 +63,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
             },
         )?;
     }
-    applicable(any, "no text may be written")
+    probe.finish("no text may be written")
 }
 
 /// Writes all characters, as many as fit each time.

@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, applicable};
+use crate::judge::{Needs, Rule, Step};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
@@ -20,7 +20,6 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for object in probe.objects()? {
         let (logical, what) = (&object.address, object.name.to_string());
         if !object.is_writable() || probe.is_blank(&object) || logical.read().is_err() {
@@ -40,7 +39,6 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         if probe.try_ask(logical.write(&value)?)?.is_none() {
             continue;
         }
-        any = true;
         let rules = [Rule::from("ADR-12")];
         let is_text = object.is_text();
         let write_check =
@@ -53,13 +51,12 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
             Ok(())
         })?;
     }
-    applicable(any, NOTHING_WRITABLE)
+    probe.finish(NOTHING_WRITABLE)
 }
 
 fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     let all = probe.instances()?;
-    let mut any = false;
     for one in elements_with_flag(probe, true)? {
         let WritableElement { instance, element, address, what, is_text } = &one;
         let other = match instance.channel {
@@ -75,7 +72,6 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let (Some(element), ValueAddress::Element { length, .. }) = (twin, address) else {
             continue;
         };
-        any = true;
         let twin = ValueAddress::of_element(element, *length);
         let write_check = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
         probe.try_write(&write_check, address, |probe, _, new| {
@@ -87,21 +83,19 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
             Ok(())
         })?;
     }
-    applicable(any, "no axis of the HLD may be written")
+    probe.finish("no axis of the HLD may be written")
 }
 
 /// The interface reads and writes them; which of them may be written the CNC knows.
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let mut any = false;
     for channel in probe.channels()? {
         for name in cnc.written_by_name_only(channel.number()) {
-            any = true;
             let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
             let address = ValueAddress::Name { channel, name };
             let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&write_check, &address, |_, _, _| Ok(()))?;
         }
     }
-    applicable(any, "there is no V.CYC that may be written")
+    probe.finish("there is no V.CYC that may be written")
 }

@@ -22,17 +22,16 @@ pub(crate) fn is_of_service(variable: &Description) -> bool {
 pub(crate) fn each_of_access(
     probe: &mut Probe<'_>,
     access: VariableAccess,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step<bool>,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
 ) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             if variable.access == access && !is_of_service(&variable) {
-                any |= judge(probe, channel, &variable)?;
+                judge(probe, channel, &variable)?;
             }
         }
     }
-    applicable(any, NOTHING_WRITABLE)
+    probe.finish(NOTHING_WRITABLE)
 }
 
 pub(crate) fn write_check<'t>(

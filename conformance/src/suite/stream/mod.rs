@@ -13,7 +13,7 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, applicable};
+use crate::judge::{Needs, Step, Stop};
 use crate::objects::List;
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
@@ -70,7 +70,6 @@ const NAME: &str = "mc_program_stream_w";
 /// The object is looked for in the lists of channels, by what is stated of it: its name, and where
 /// it is. That it is listed at all is not.
 fn object(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for object in probe.objects()? {
         let List::Channel(number) = object.list else { continue };
         let Some((group, offset)) = object.address.content() else { continue };
@@ -80,14 +79,13 @@ fn object(probe: &mut Probe<'_>) -> Step {
         if !here && !named {
             continue;
         }
-        any = true;
         let found = || format!("{} at {group}, {offset}", object.name);
         let expected =
             || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
         probe.check("STM-1", here && named, expected, found);
         probe.check("STM-1", object.is_writable(), "write access", "none");
     }
-    applicable(any, &format!("no list names {NAME}"))
+    probe.finish(&format!("no list names {NAME}"))
 }
 
 /// How long a device may take before it has read what it holds.
