@@ -35,7 +35,7 @@ const CONTENT_MAX: u32 = 0x1_0000;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
 pub(super) struct Browse {
-    /// Variables by their descriptions (V.E, V.G, V.A) and parameters (P, V.L, V.P, V.S); V.CYC has no
+    /// Variables by their descriptions (V.G, V.E, V.A) and parameters (P, V.L, V.P, V.S); V.CYC has no
     /// list
     #[arg(long)]
     variables: bool,
@@ -205,9 +205,9 @@ fn read_all(
             contents.push(Err(String::clone(why)));
             continue;
         }
-        let size = object.ty.size.unwrap_or(0);
+        let size = object.size();
         let content = match size {
-            0..=CONTENT_MAX => object.place.read(session, size),
+            0..=CONTENT_MAX => session.read(&object.address),
             _ => Err(Trouble::Unable(format!("{size} bytes; get reads them"))),
         };
         contents.push(match content {

@@ -72,7 +72,7 @@ impl Get {
     fn run(&self) -> Result<Exit, Trouble> {
         let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let mut object = find(&mut session, &self.name.question())?;
-        let bytes = object.place.read(&mut session, object.ty.size.unwrap_or(0))?;
+        let bytes = session.read(&object.address)?;
         object.ty = object.ty.fitted(u32::try_from(bytes.len()).unwrap_or(u32::MAX));
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = if self.json {

@@ -100,7 +100,7 @@ pub(super) fn headline(object: &Object) -> String {
     parts.extend(unit.filter(|unit| !unit.is_empty() && unit != "-"));
     parts.push(object.access.to_string());
     parts.push(object.list.to_string());
-    parts.extend(object.place.address().map(|(group, offset)| format!("{group} {offset}")));
+    parts.extend(object.address.content().map(|(group, offset)| format!("{group} {offset}")));
     parts.extend(object.handle.map(|handle| format!("handle {:#x}", handle.0)));
     parts.retain(|part| !part.is_empty());
     let name = crate::values::printable(&object.name.to_string());

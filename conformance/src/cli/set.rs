@@ -18,7 +18,7 @@ use super::name::{NameArgs, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, simulator_gate};
 use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
-use crate::objects::{Access, Object, Place};
+use crate::objects::{Access, Object, ValueAddress};
 use crate::session::{Session, Trouble};
 use crate::values::{Type, parse, plain};
 
@@ -80,7 +80,7 @@ impl Set {
         let alone = by_name_alone(&question)?;
         if let Some(object) = &alone {
             check(object)?;
-            self.target.ask_gate(|session| object.place.check(session))?;
+            self.target.ask_gate(|session| session.check_write(&object.address))?;
         }
         let mut session = self.open(alone.as_ref())?;
         if let Some(object) = &alone {
@@ -88,8 +88,8 @@ impl Set {
         }
         let object = find(&mut session, &question)?;
         check(&object)?;
-        let size = object.ty.size.unwrap_or(0);
-        let old = match object.place.read(&mut session, size) {
+        let size = object.size();
+        let old = match session.read(&object.address) {
             Ok(old) => Some(old),
             // What cannot be read may be written all the same.
             Err(Trouble::Ads { .. }) => None,
@@ -101,18 +101,18 @@ impl Set {
             None => object.ty.clone(),
         };
         let mut bytes = parse(&ty, &self.value).map_err(|why| Trouble::Usage(why.to_string()))?;
-        if object.place.address().is_some() {
+        if object.address.content().is_some() {
             // A content has one size, whatever the text in it.
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
         }
         if session.is_simulated() && !self.target.has_file() {
-            session = session.behind(simulator_gate(object.place.entry()))?;
+            session = session.behind(simulator_gate(object.entry()))?;
         }
-        object.place.write(&mut session, &bytes)?;
+        session.write(&object.address, &bytes)?;
         if session.is_dry() {
             return Ok(Exit::Success);
         }
-        let new = match object.place.read(&mut session, size) {
+        let new = match session.read(&object.address) {
             Ok(new) => Some(new),
             Err(Trouble::Ads { .. }) => None,
             Err(trouble) => return Err(trouble),
@@ -131,11 +131,11 @@ impl Set {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
-        let checked = object.place.check(session);
+        let checked = session.check_write(&object.address);
         if checked.is_err() && session.is_dry() {
             // Shows it as well; the value only if its type is given.
             let value = parse(&object.ty, &self.value).unwrap_or_default();
-            return object.place.write(session, &value);
+            return session.write(&object.address, &value);
         }
         checked
     }
@@ -145,7 +145,7 @@ impl Set {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
             Some(object) if simulated && self.target.is_dry() => {
-                Session::dry_simulated(simulator_gate(object.place.entry()))
+                Session::dry_simulated(simulator_gate(object.entry()))
             }
             _ => Ok(self.model.open(&self.target)?.with_deadline(self.deadline.begin())),
         }
@@ -174,7 +174,7 @@ impl Set {
 /// Whether it may be written at all, as far as the CNC says.
 fn check(object: &Object) -> Result<(), Trouble> {
     let name = &object.name;
-    if matches!(object.place, Place::Parameter { kind: DynamicKind::P, .. }) {
+    if matches!(object.address, ValueAddress::Parameter { kind: DynamicKind::P, .. }) {
         let why = format!("{name} is a P parameter, and no documented function writes those");
         return Err(Trouble::Unable(why));
     }

@@ -44,7 +44,7 @@ pub struct Lookup {
 /// let mut value = |name: &str| {
 ///     let lookup = Lookup::new(name, Channel::new(1).unwrap());
 ///     let object = find(&mut session, &lookup)?;
-///     let bytes = object.place.read(&mut session, object.ty.size.unwrap_or(0))?;
+///     let bytes = session.read(&object.address)?;
 ///     Ok::<_, ads_cnc_conformance::session::Trouble>(plain(&object.ty, &bytes).unwrap())
 /// };
 /// assert_eq!(value("V.E.Testvar")?, "123,234,345,456,567");
@@ -70,10 +70,8 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
 /// # Errors
 /// A name that has no form on the wire.
 pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, Trouble> {
-    match variable::is_named(&lookup.name) || lookup.axis.is_some() {
-        true => variable::unasked(lookup).map(Some),
-        false => Ok(None),
-    }
+    let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
+    is_variable.then(|| variable::unasked(lookup)).transpose()
 }
 
 impl Lookup {

@@ -27,7 +27,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
         return Err(Trouble::Enough(format!("{name} was not found for certain: {why}")));
     }
     found.objects.retain(|object| {
-        let at = object.place.address().map(|(_, offset)| offset.get());
+        let at = object.address.content().map(|(_, offset)| offset.get());
         object.name == wanted && (offset.is_none() || *offset == at)
     });
     match (found.objects.pop(), found.objects.as_slice()) {
@@ -51,8 +51,8 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
 fn several(name: &str, all: &[&Object]) -> String {
     let mut why = format!("{} have the name {name}; say which:", all.len());
     for object in all.iter().take(SHOWN) {
-        let Object { list, place, .. } = object;
-        let offset = place.address().map(|(_, offset)| offset.to_string()).unwrap_or_default();
+        let Object { list, address, .. } = object;
+        let offset = address.content().map(|(_, offset)| offset.to_string()).unwrap_or_default();
         let alone = all.iter().filter(|other| other.list == *list).count() == 1;
         let offset = if alone { String::new() } else { format!(" --offset {offset}") };
         why.push_str(&format!("\n  --of \"{list}\"{offset}"));

@@ -7,7 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
 
 use super::Lookup;
-use crate::objects::{Access, List, Object, Place, parameter};
+use crate::objects::{Access, List, Object, ValueAddress};
 use crate::session::{Session, Trouble};
 use crate::values::Type;
 
@@ -35,7 +35,7 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
     let text: CncString = name.parse().map_err(Trouble::Unsendable)?;
     let hint = |ty: &Option<DataType>| ty.map_or(Type::UNKNOWN, Type::hinted);
     match (kind_of_parameter(name), axis) {
-        (Some(kind), None) => Ok(parameter(*channel, kind, text)),
+        (Some(kind), None) => Ok(Object::of_parameter(*channel, kind, text)),
         _ => {
             let path = VariablePath::new(name).map_err(|error| {
                 Trouble::Usage(format!("{name} is not the name of a variable: {error}"))
@@ -51,9 +51,14 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
                 channel: channel.number(),
                 axis: axis.map(ChannelAxis::index),
             };
+            let (channel, name) = (*channel, text.clone());
+            let address = match *axis {
+                Some(axis) => ValueAddress::Axis { channel, axis, name },
+                None => ValueAddress::Name { channel, name },
+            };
             Ok(Object {
                 list,
-                place: Place::Variable { channel: *channel, axis: *axis, name: text.clone() },
+                address,
                 name: text,
                 ty: hint(ty),
                 unit: None,
@@ -67,31 +72,30 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
 /// The variable with its type: by its name if the CNC describes that, else by index.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     let object = unasked(lookup)?;
-    let Place::Variable { channel, axis, name } = &object.place else { return Ok(object) };
-    if lookup.ty.is_some() {
+    if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
         return Ok(object);
     }
-    let path = VariablePath::from_text(name.as_cnc_str()).map_err(Trouble::Unsendable)?;
+    let (channel, axis) = (lookup.channel, lookup.axis);
+    let path = VariablePath::from_text(object.name.as_cnc_str()).map_err(Trouble::Unsendable)?;
     let told = match axis {
-        None => described(session, *channel, &path)?,
+        None => described(session, channel, &path)?,
         Some(_) => None,
     };
     let told = match told {
         Some(told) => Some(told),
         None => {
             // What is not there need not be looked for.
-            object.place.read(session, 0)?;
-            listed(session, *channel, &path, axis.is_some())?
+            session.read(&object.address)?;
+            listed(session, channel, &path, axis.is_some())?
         }
     };
     let Some(DescribedVariable { ty, access, handle }) = told else { return Ok(object) };
     let indices = path.elements();
-    let ty = match indices.is_empty() {
-        true => ty,
-        false => {
-            let odd = |why| Trouble::Usage(format!("{}: {why}", path.text()));
-            ty.element(indices).map_err(odd)?
-        }
+    let ty = if indices.is_empty() {
+        ty
+    } else {
+        let odd = |why| Trouble::Usage(format!("{}: {why}", path.text()));
+        ty.element(indices).map_err(odd)?
     };
     Ok(Object { ty, access, handle, ..object })
 }
@@ -161,10 +165,11 @@ fn listed(
 
 fn is_it(variable: &DescriptionRef<'_>, wanted: CncStr<'_>, of_axis: bool) -> bool {
     let name = variable.name.text();
-    match of_axis {
-        false => name == wanted,
-        true => VariablePath::from_text(name)
+    if of_axis {
+        VariablePath::from_text(name)
             .and_then(|path| path.without_axis())
-            .is_ok_and(|name| name.as_cnc_str() == wanted),
+            .is_ok_and(|name| name.as_cnc_str() == wanted)
+    } else {
+        name == wanted
     }
 }

@@ -16,7 +16,7 @@ use crate::explain::class_name;
 /// let decoder = List::Class { class: Class::Decoder, channel: Some(1), axis: Some(2) };
 /// assert_eq!(decoder.to_string(), "decoder channel 1 axis 2");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum List {
     /// COM: the platform.
     Platform,

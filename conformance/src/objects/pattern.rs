@@ -1,4 +1,4 @@
-//! Which names are meant.
+//! Patterns for names.
 
 /// A pattern for names. Case does not matter.
 ///
@@ -6,12 +6,12 @@
 /// use ads_cnc_conformance::objects::Pattern;
 ///
 /// let part = Pattern::part("single_block");
-/// assert!(part.fits("mc_active_single_block_r") && !part.fits("mc_program_stream_w"));
+/// assert!(part.matches("mc_active_single_block_r") && !part.matches("mc_program_stream_w"));
 /// // A star stands for any characters, a question mark for one; then it is the whole name.
-/// assert!(Pattern::part("v.g.np[?].*").fits("V.G.NP[0].V"));
-/// assert!(!Pattern::part("single?block*").fits("mc_active_single_block_r"));
-/// assert!(Pattern::whole("COM channel 1").fits("COM channel 1"));
-/// assert!(!Pattern::whole("COM channel 1").fits("COM channel 12"));
+/// assert!(Pattern::part("v.g.np[?].*").matches("V.G.NP[0].V"));
+/// assert!(!Pattern::part("single?block*").matches("mc_active_single_block_r"));
+/// assert!(Pattern::whole("COM channel 1").matches("COM channel 1"));
+/// assert!(!Pattern::whole("COM channel 1").matches("COM channel 12"));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Pattern {
@@ -21,9 +21,10 @@ pub struct Pattern {
 impl Pattern {
     /// A part of the name; the whole name if it has a star or a question mark.
     pub fn part(text: &str) -> Self {
-        match text.contains(['*', '?']) {
-            true => Self::whole(text),
-            false => Self::whole(&format!("*{text}*")),
+        if text.contains(['*', '?']) {
+            Self::whole(text)
+        } else {
+            Self::whole(&format!("*{text}*"))
         }
     }
 
@@ -31,11 +32,11 @@ impl Pattern {
         Self { wanted: folded(text).collect() }
     }
 
-    /// Whether a name is meant.
-    pub fn fits(&self, name: &str) -> bool {
+    /// Whether a name matches.
+    pub fn matches(&self, name: &str) -> bool {
         let name: Vec<char> = folded(name).collect();
         let (mut pattern, mut rest) = (self.wanted.as_slice(), name.as_slice());
-        // Where to go on if it does not fit: behind the last star, one character further.
+        // Where to go on if it does not match: after the last star, one character further.
         let mut back: Option<(&[char], &[char])> = None;
         loop {
             match (pattern.split_first(), rest.split_first()) {
@@ -71,7 +72,7 @@ mod tests {
 
     #[test]
     fn stars_take_as_much_as_they_have_to() {
-        for (pattern, name, fits) in [
+        for (pattern, name, matches) in [
             ("*", "", true),
             ("?", "", false),
             ("a*b*c", "axxbyybzzc", true),
@@ -81,7 +82,7 @@ mod tests {
             ("a**?", "a", false),
             ("L?NGE*", "länge", true),
         ] {
-            assert_eq!(Pattern::whole(pattern).fits(name), fits, "{pattern} {name}");
+            assert_eq!(Pattern::whole(pattern).matches(name), matches, "{pattern} {name}");
         }
     }
 }

@@ -64,7 +64,7 @@ pub struct ObjectReport {
 impl From<&Object> for ObjectReport {
     fn from(object: &Object) -> Self {
         let text = |text: String| Some(text).filter(|text| !text.is_empty());
-        let address = object.place.address();
+        let address = object.address.content();
         Self {
             list: object.list.to_string(),
             name: object.name.to_string(),
@@ -73,7 +73,7 @@ impl From<&Object> for ObjectReport {
             size: object.ty.size,
             unit: object.unit.as_ref().map(ToString::to_string),
             access: text(object.access.to_string()),
-            port: object.place.port().map(|port| port.0),
+            port: address.map(|_| object.address.task().port().0),
             group: address.map(|(group, _)| group.get()),
             offset: address.map(|(_, offset)| offset.get()),
             handle: object.handle.map(|handle| handle.0),

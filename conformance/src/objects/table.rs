@@ -42,13 +42,13 @@ const OBJECT: &[Column] = &[
     Column {
         head: "group",
         cell: |object| {
-            object.place.address().map_or_else(String::new, |(group, _)| group.to_string())
+            object.address.content().map_or_else(String::new, |(group, _)| group.to_string())
         },
     },
     Column {
         head: "offset",
         cell: |object| {
-            object.place.address().map_or_else(String::new, |(_, offset)| offset.to_string())
+            object.address.content().map_or_else(String::new, |(_, offset)| offset.to_string())
         },
     },
 ];
@@ -101,13 +101,11 @@ pub fn csv(
 }
 
 fn quoted(cell: &str) -> String {
-    let cell = match is_formula(cell) {
-        true => format!("'{cell}"),
-        false => cell.to_owned(),
-    };
-    match cell.contains([',', '"', '\r', '\n']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell,
+    let cell = if is_formula(cell) { format!("'{cell}") } else { cell.to_owned() };
+    if cell.contains([',', '"', '\r', '\n']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell
     }
 }
 

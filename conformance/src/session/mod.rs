@@ -11,7 +11,7 @@ use std::time::Duration;
 use ads_cnc::ads::{DeviceInfoReply, DeviceStateReply};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{
-    Call, CountObjects, CountVariables, Function, ObjectList, Operation, Task,
+    Call, CountObjects, CountVariables, Function, ObjectList, Operation, Request, Task,
 };
 use ads_cnc::{Kind, address::Channel};
 
@@ -49,7 +49,6 @@ pub struct Session {
     // Before the server, which waits for its connections when it is dropped.
     client: Client,
     simulated: Option<Server>,
-    request: Vec<u8>,
     reply: Vec<u8>,
     answered: bool,
     deadline: Option<Deadline>,
@@ -149,14 +148,7 @@ impl Session {
     }
 
     fn over(client: Client, simulated: Option<Server>) -> Self {
-        Self {
-            client,
-            simulated,
-            request: Vec::new(),
-            reply: Vec::new(),
-            answered: false,
-            deadline: None,
-        }
+        Self { client, simulated, reply: Vec::new(), answered: false, deadline: None }
     }
 
     /// With a capture of all that is sent and received from now on.
@@ -176,28 +168,35 @@ impl Session {
     /// # Errors
     /// What came instead, or why nothing was sent.
     pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, Trouble> {
-        self.call_at(O::FUNCTION.spec().task, operation)
+        let mut data = vec![0; operation.encoded_len()];
+        let call = operation.call(&mut data).map_err(Trouble::Unsendable)?;
+        self.reply = self.exchange(O::FUNCTION, &call)?;
+        operation.decode_reply(&self.reply).map_err(Trouble::Reply)
     }
 
-    /// [`call`](Self::call), at this task: SDA and GEO share the functions of classes.
+    /// Sends a request to a task, and returns the data of the reply as received: SDA and GEO share the
+    /// functions of classes.
     ///
     /// # Errors
     /// Those of [`call`](Self::call).
-    pub fn call_at<'s, O: Operation>(
-        &'s mut self,
+    pub fn request<'r>(
+        &mut self,
         task: Task,
-        operation: &O,
-    ) -> Result<O::Reply<'s>, Trouble> {
+        request: impl Into<Request<'r>>,
+    ) -> Result<Vec<u8>, Trouble> {
+        let request = request.into();
+        let mut data = vec![0; request.encoded_len()];
+        self.exchange(request.function(), &encode(task, &request, &mut data)?)
+    }
+
+    fn exchange(&mut self, function: Function, call: &Call<'_>) -> Result<Vec<u8>, Trouble> {
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
             return Err(Trouble::Enough(deadline.to_string()));
         }
-        let spec = O::FUNCTION.spec();
-        let call = call(task, operation, &mut self.request)?;
-        let exchange = self.client.call(&call);
+        let exchange = self.client.call(call);
         if self.client.is_dry() {
             show(&exchange);
         }
-        self.reply.clear();
         match exchange.outcome {
             Ok((answer, _)) => {
                 self.answered = true;
@@ -205,15 +204,14 @@ impl Session {
                     return Err(Trouble::ams(self.client.target(), call.port, answer.ams_error));
                 }
                 if !answer.result.is_ok() {
-                    return Err(Trouble::Ads { function: O::FUNCTION, error: answer.result });
+                    return Err(Trouble::Ads { function, error: answer.result });
                 }
-                self.reply = answer.data.unwrap_or_default();
+                Ok(answer.data.unwrap_or_default())
             }
             // Nothing is waited for.
-            Err(Fault::NotSent) if spec.reply.is_none() => {}
-            Err(fault) => return Err(Trouble::fault(&self.client, fault, self.answered)),
+            Err(Fault::NotSent) if function.spec().reply.is_none() => Ok(Vec::new()),
+            Err(fault) => Err(Trouble::fault(&self.client, fault, self.answered)),
         }
-        operation.decode_reply(&self.reply).map_err(Trouble::Reply)
     }
 
     /// Asks one query that the profile claims. A device that answers none has nothing to be judged
@@ -302,17 +300,10 @@ impl Session {
     ///
     /// # Errors
     /// [`Trouble::Refused`], [`Trouble::Unsendable`].
-    pub fn check<O: Operation>(&self, operation: &O) -> Result<(), Trouble> {
-        self.check_at(O::FUNCTION.spec().task, operation)
-    }
-
-    /// [`check`](Self::check), at this task.
-    ///
-    /// # Errors
-    /// Those of [`check`](Self::check).
-    pub fn check_at<O: Operation>(&self, task: Task, operation: &O) -> Result<(), Trouble> {
-        let mut request = Vec::new();
-        let checked = self.client.check(&call(task, operation, &mut request)?);
+    pub fn check<'r>(&self, task: Task, request: impl Into<Request<'r>>) -> Result<(), Trouble> {
+        let request = request.into();
+        let mut data = vec![0; request.encoded_len()];
+        let checked = self.client.check(&encode(task, &request, &mut data)?);
         checked.map_err(|fault| Trouble::fault(&self.client, fault, self.answered))
     }
 
@@ -336,23 +327,9 @@ impl Session {
     }
 }
 
-/// The call of an operation, its data in `request`.
-fn call<'r, O: Operation>(
-    task: Task,
-    operation: &O,
-    request: &'r mut Vec<u8>,
-) -> Result<Call<'r>, Trouble> {
-    let spec = O::FUNCTION.spec();
-    request.clear();
-    request.resize(operation.encoded_len(), 0);
-    Ok(Call {
-        port: task.port(),
-        service: spec.service,
-        index_group: operation.index_group(),
-        index_offset: operation.index_offset(),
-        read_length: operation.read_length(),
-        data: operation.encode(request).map_err(Trouble::Unsendable)?,
-    })
+fn encode<'d>(task: Task, request: &Request<'_>, data: &'d mut [u8]) -> Result<Call<'d>, Trouble> {
+    let call = request.encode(data).map_err(Trouble::Unsendable)?;
+    Ok(Call { port: task.port(), ..call })
 }
 
 /// What would have been sent.

@@ -8,10 +8,11 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{KINDS, Probe, RawCall};
+use super::kit::{Probe, RawCall};
 use super::{Row, case};
 use crate::exchange::Exchange;
 use crate::judge::{Needs, OrStop as _, Record, Step, Stop, assumed, online};
+use crate::objects::KINDS;
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]

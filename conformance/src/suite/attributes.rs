@@ -8,7 +8,7 @@ use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
 use super::{Row, case};
-use crate::judge::{Needs, Step, applicable};
+use crate::judge::{Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -81,11 +81,9 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
 fn within(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let addresses = Addresses::new(probe)?;
-    let mut any = false;
     let all = cnc.held();
     for held in &all {
         let Some(element) = addresses.element(held)? else { continue };
-        any = true;
         let at = format!("{} ({:?})", held.name, held.holder);
         let own: [(Request<'static>, String, &str); 3] = [
             (ReadElementName::new(element).into(), held.name.to_string(), "name"),
@@ -113,5 +111,5 @@ fn within(probe: &mut Probe<'_>) -> Step {
             (format!("a length of {}", held.value.len()), format!("{length:?} for {at}"));
         probe.check("ADR-6", length == Some(held.value.len()), expected, found);
     }
-    applicable(any, "the CNC has no element")
+    probe.finish("the CNC has no element")
 }

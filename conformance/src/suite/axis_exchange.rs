@@ -1,11 +1,12 @@
 //! Cases of axes that change their place.
 
-use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
-use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement, Request};
+use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class};
+use ads_cnc::operation::{AxisHandleByName, ReadElement, Request};
 
 use super::kit::{OF_PLACES, Probe};
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop};
+use crate::objects::List;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -17,7 +18,7 @@ pub(super) const CASES: &[Row] = &[
 type Content = Option<Vec<u8>>;
 
 /// A content that is the same when it is read again.
-fn still(probe: &mut Probe<'_>, read: impl Into<Request<'static>>) -> Step<Content> {
+fn still<'r>(probe: &mut Probe<'_>, read: impl Into<Request<'r>>) -> Step<Content> {
     let read = read.into();
     let first = probe.ask("ADR-13", read)?;
     Ok(Some(first.clone()).filter(|_| probe.try_ask(read).is_ok_and(|now| now == Some(first))))
@@ -56,11 +57,13 @@ fn contents(
 
 /// The contents of the objects of a list at an axis, by the stride that the CNC in this process
 /// has; of all of them without an axis.
-fn objects(probe: &mut Probe<'_>, list: ObjectList, axis: Option<u32>) -> Step<Vec<Content>> {
+fn objects(probe: &mut Probe<'_>, list: List, axis: Option<u32>) -> Step<Vec<Content>> {
     let mut all = Vec::new();
-    for object in probe.objects()?.iter().filter(|object| object.list == list) {
-        let at = object.offset.axis_and_element(AxisStride::X10000).map_or(0, |(axis, _)| axis);
-        let Some(read) = object.read().filter(|_| axis.is_none_or(|axis| axis == at)) else {
+    for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
+        let offset = object.address.content().map(|(_, offset)| offset);
+        let split = offset.and_then(|offset| offset.axis_and_element(AxisStride::X10000).ok());
+        let at = split.map_or(0, |(axis, _)| axis);
+        let (true, Ok(read)) = (axis.is_none_or(|axis| axis == at), object.address.read()) else {
             continue;
         };
         all.push(still(probe, read)?);
@@ -81,7 +84,7 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
     }
     let places = |probe: &mut Probe<'_>, place| -> Step<Vec<Content>> {
         let mut all = contents(probe, &OF_PLACES, 1, place)?;
-        let list = ObjectList::from(probe.channel_of(1)?);
+        let list = probe.list_of(1)?;
         all.extend(objects(probe, list, Some(place))?);
         Ok(all)
     };
@@ -89,8 +92,8 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         let mut all = contents(probe, &OF_PLATFORM, 0, 2)?;
         all.extend(contents(probe, &OF_PLATFORM, 0, 3)?);
         all.extend(contents(probe, &[Class::Hld], 1, 3)?);
-        for place in [2, 3] {
-            let list = ObjectList::from(PlatformAxis::new(place)?);
+        for place in [2, 3_u8] {
+            let list = List::Axis(place);
             all.extend(objects(probe, list, None)?);
         }
         Ok(all)

@@ -14,7 +14,7 @@ use super::kit::{
     name_of,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, applicable, assumed};
+use crate::judge::{Needs, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,12 +29,10 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn places(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
         let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
         for name in axis_names(&described) {
-            any = true;
             let places = answering_places(probe, channel, name)?;
             let own: Vec<&Description> =
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
@@ -54,7 +52,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    applicable(any, "the target describes no axis variable")
+    probe.finish("the target describes no axis variable")
 }
 
 /// The value with the axis's name behind it is that of one of the places.

@@ -76,9 +76,10 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
     let is_com = |group| matches!(IndexGroup::new(group).parts(), Some(Group::Com(_)));
     for object in probe.objects().if_known()?.unwrap_or_default() {
         let name = object.name.to_string();
-        in_order(probe, &format!("the group of {name}"), object.group.get(), is_com);
+        let Some((group, _)) = object.address.content() else { continue };
+        in_order(probe, &format!("the group of {name}"), group.get(), is_com);
         let size = format!("the size of {name}");
-        in_order(probe, &size, object.size, |size| size <= 0x00FF_FFFF);
+        in_order(probe, &size, object.size(), |size| size <= 0x00FF_FFFF);
     }
     for channel in probe.channels()? {
         for one in probe.variables(channel).if_known()?.unwrap_or_default() {

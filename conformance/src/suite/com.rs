@@ -8,7 +8,7 @@ use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
 use super::{Row, case};
-use crate::judge::{Checks, IfThere as _, Needs, Step, applicable, assumed, online};
+use crate::judge::{Checks, IfThere as _, Needs, Step, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -117,13 +117,11 @@ pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: Descrip
 }
 
 fn in_sequence(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for list in lists(probe)? {
         let Some(number) = known_object_count(probe, list).if_applicable()? else { continue };
         sequence(probe, list, number)?;
-        any = true;
     }
-    applicable(any, "no list has an object")
+    probe.finish("no list has an object")
 }
 
 fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {

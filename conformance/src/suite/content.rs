@@ -7,9 +7,10 @@ use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObj
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{OBJECTS_MAX, Object, Probe, RawCall, Steady};
+use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
 use super::{Row, case};
 use crate::judge::{IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
+use crate::objects::Object;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -30,24 +31,24 @@ pub(super) const CASES: &[Row] = &[
 fn content(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let rules = ["COM-5", "COM-2"];
-        let read = match ReadObject::new(object.group, object.offset, object.size) {
+        let size = object.size();
+        let read = match object.address.read() {
             Ok(read) => read,
             Err(error) => {
                 // Of the program stream no read is documented.
                 let stream = error.kind() == ErrorKind::Function;
-                let place = format!("{}, {}", object.group, object.offset);
                 let found =
-                    || format!("{} bytes of {} at {place}: {error}", object.size, object.name);
+                    || format!("{size} bytes of {} at {}: {error}", object.name, at(&object));
                 probe.check(rules, stream, "a content that can be read", found);
                 continue;
             }
         };
         let content = probe.ask(rules, read)?;
         let found = || format!("{} bytes of {}", content.len(), object.name);
-        let sized = u32::try_from(content.len()) == Ok(object.size);
-        let expected = || format!("the {} bytes of its descriptor", object.size);
+        let sized = u32::try_from(content.len()) == Ok(size);
+        let expected = || format!("the {size} bytes of its descriptor");
         probe.check(rules, sized, expected, found);
-        if object.type_name.as_cnc_str() == "BOOL" {
+        if object.ty.name == "BOOL" {
             let bit = matches!(*content, [0 | 1]);
             let found = || format!("{content:?} of {}", object.name);
             probe.check(assumed("GEN-5"), bit, "a BOOL of 0 or 1", found);
@@ -58,27 +59,32 @@ fn content(probe: &mut Probe<'_>) -> Step {
 
 /// More room than it takes may be refused, but is not to be filled.
 fn room(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for object in probe.objects()? {
-        if object.read().is_none() {
+        let Some((group, offset)) = object.address.content() else { continue };
+        if object.address.read().is_err() {
             continue;
         }
         for more in [1, 7, 64] {
-            let size = object.size.saturating_add(more);
-            let Ok(read) = ReadObject::new(object.group, object.offset, size) else { continue };
+            let size = object.size().saturating_add(more);
+            let Ok(read) = ReadObject::new(group, offset, size) else { continue };
             let Some(content) = probe.try_ask(read)? else { continue };
-            any = true;
-            let expected = || format!("the {} bytes of {}", object.size, object.name);
+            let expected = || format!("the {} bytes of {}", object.size(), object.name);
             let found = || format!("{} bytes in a room of {size}", content.len());
-            let sized = u32::try_from(content.len()) == Ok(object.size);
+            let sized = u32::try_from(content.len()) == Ok(object.size());
             probe.check(["COM-2", "COM-5"], sized, expected, found);
         }
     }
-    applicable(any, "no content is read with more room")
+    probe.finish("no content is read with more room")
+}
+
+/// Where an object says to be.
+fn at(object: &Object) -> String {
+    let content = object.address.content();
+    content.map(|(group, offset)| format!("{group}, {offset}")).unwrap_or_default()
 }
 
 fn is_of_channel(object: &Object) -> bool {
-    let com = object.group.parts();
+    let com = object.address.content().and_then(|(group, _)| group.parts());
     matches!(com, Some(Group::Com(ComGroup { table: ComTable::Channel, instance: 1.., .. })))
 }
 
@@ -86,8 +92,8 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     let mut any = false;
     for object in probe.objects()?.into_iter().filter(is_of_channel) {
-        let by_rank = probe.object_by_rank(&object).and_then(|other| other.read());
-        let (Some(one), Some(other)) = (object.read(), by_rank) else { continue };
+        let Some(by_rank) = probe.address_by_rank(&object) else { continue };
+        let (Ok(one), Ok(other)) = (object.address.read(), by_rank.read()) else { continue };
         any = true;
         steady.same(probe, ["ADR-1", "ADR-12"], &object.name, one, other)?;
     }
@@ -98,9 +104,8 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
 fn places(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();
     for object in probe.objects()? {
-        let place = (object.list, object.group, object.offset);
-        let found = || format!("{} at {}, {} again", object.name, object.group, object.offset);
-        let own = seen.insert(place);
+        let found = || format!("{} at {} again", object.name, at(&object));
+        let own = seen.insert((object.list, object.address.content()));
         probe.check(["COM-2", "COM-5"], own, "a place of its own", found);
     }
     Ok(())
@@ -108,7 +113,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
 
 fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
-    let read = all.iter().filter(|one| one.size > 1).find_map(Object::read);
+    let read = all.iter().filter(|one| one.size() > 1).find_map(|one| one.address.read().ok());
     let good = RawCall::new(read.or_not_applicable("no object has two bytes")?)?;
     for read_length in [0, good.read_length.saturating_sub(1)] {
         let what = format!("a read length of {read_length} for {} bytes", good.read_length);

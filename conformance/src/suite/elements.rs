@@ -11,11 +11,11 @@ use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
 use super::kit::{
-    Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, number_of,
-    type_and_length,
+    Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, type_and_length,
 };
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, assumed};
+use crate::objects::decode_element_count;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -57,7 +57,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         probe.pass("ADR-6");
         let found = || format!("{} bytes for the number of {instance}", data.len());
         probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", found);
-        let told = number_of(&data);
+        let told = decode_element_count(&data);
         probe.check("SDA-4", told.is_some(), "a number", found);
         let same = told == Some(instance.told);
         let found = || format!("{told:?} elements of {instance}");

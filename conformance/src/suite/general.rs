@@ -13,7 +13,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed, online};
+use crate::judge::{IfThere as _, Needs, Rule, Step, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -58,20 +58,18 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let of_com: Request<'_> = CountObjects::new(channel).into();
     let of_sda: Request<'_> = CountVariables::new(channel, Kind::V_E).into();
-    let mut any = false;
     for (request, ports) in [(of_com, &[AmsPort::SDA, AmsPort::GEO][..]), (of_sda, &[AmsPort::COM])]
     {
         if !probe.may(request)? {
             continue;
         }
-        any = true;
         let good = RawCall::new(request)?;
         for &port in ports {
             let what = format!("{} at port {}", request.function().spec().name, port.0);
             probe.refuses("GEN-4", &what, good.with(|call| call.port = port), &good)?;
         }
     }
-    applicable(any, "neither COM nor SDA is claimed")
+    probe.finish("neither COM nor SDA is claimed")
 }
 
 /// BOOLEAN's size is printed, those of the others follow from help pages.
@@ -99,7 +97,6 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
 }
 
 fn numbering(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
         Ok(probe.address_of(class, channel, 0).if_applicable()?.flatten())
     };
@@ -108,20 +105,18 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
     if let Some(there) =
         find(probe, Class::Decoder, first)?.filter(|one| *one != ObjectAddress::NONE)
     {
-        any = true;
         let zero = find(probe, Class::Decoder, 0)?;
         let none = zero.is_none_or(|zero| zero == ObjectAddress::NONE);
         let found = || format!("{zero:?}, that of channel {first} being {there:?}");
         probe.check("GEN-6", none, "no decoder of a channel 0", found);
     }
     if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
-        any = true;
         let zero = find(probe, Class::Spindle, 0)?;
         let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
         let found = || format!("{zero:?}");
         probe.check(["GEN-6", "ADR-2"], there, "a first spindle with the index 0", found);
     }
-    applicable(any, "the target names no instance")
+    probe.finish("the target names no instance")
 }
 
 fn no_channel_0(probe: &mut Probe<'_>) -> Step {
@@ -154,14 +149,12 @@ fn is_utf_8(text: &[u8]) -> bool {
 }
 
 fn names_found(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             let name = variable.name.text.as_bytes();
             if !is_telling(name) {
                 continue;
             }
-            any = true;
             let by_name = HandleByName { channel, name: name_of(&variable) };
             let found = probe.try_ask(by_name)?.is_some();
             let expected = || format!("a handle of {}", variable.name.text);
@@ -171,7 +164,7 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             probe.check(assumed("GEN-3"), !is_utf_8(name), "one byte a character", text);
         }
     }
-    applicable(any, "no name has a character beyond ASCII")
+    probe.finish("no name has a character beyond ASCII")
 }
 
 /// The same text but for characters beyond ASCII. Another text altogether is no matter of

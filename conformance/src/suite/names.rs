@@ -5,7 +5,7 @@ use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
 use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step, Stop, applicable, assumed};
+use crate::judge::{Needs, OrStop as _, Step, Stop, assumed};
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -82,13 +82,11 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
 }
 
 fn texts(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
                 continue;
             }
-            any = true;
             let value = probe.try_ask(ReadByName { channel, name: name_of(&variable) })?;
             let Some(value) = value else { continue };
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);
@@ -101,5 +99,5 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             probe.check(assumed("VAR-22"), readable, "characters up to the first NUL", found);
         }
     }
-    applicable(any, "no variable is a STRING")
+    probe.finish("no variable is a STRING")
 }

@@ -5,7 +5,7 @@ use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
 use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
 use super::{Row, case};
-use crate::judge::{Needs, Step, applicable};
+use crate::judge::{Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -36,13 +36,11 @@ fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
 const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
 
 fn packed(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for list in probe.lists()? {
         let Ok(Some(number)) = Counted::Objects(list).number(probe) else { continue };
         for first in 1..=number.min(OBJECTS_MAX) {
             let one = ReadDescriptors::new(list, first, 1)?;
             let Some(bytes) = probe.try_ask(one)? else { break };
-            any = true;
             descriptor_is_packed(probe, &bytes);
         }
     }
@@ -53,12 +51,11 @@ fn packed(probe: &mut Probe<'_>) -> Step {
             for index in 0..number.min(VARIABLES_MAX) {
                 let describe = DescribeByIndex::new(channel, index, kind);
                 let Some(bytes) = probe.try_ask(describe)? else { break };
-                any = true;
                 description_is_packed(probe, &bytes, name);
             }
         }
     }
-    applicable(any, "nothing is described")
+    probe.finish("nothing is described")
 }
 
 fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {

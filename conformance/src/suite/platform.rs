@@ -9,10 +9,11 @@ use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 
 use super::kit::{
-    OBJECTS_MAX, Object, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
+    OBJECTS_MAX, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, applicable, assumed};
+use crate::objects::{List, Object};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -92,21 +93,23 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = ObjectList::from(probe.channel_of(1)?);
-    let of = |list| all.iter().filter(move |one| one.list == list);
+    let of = |list| all.iter().filter(move |one| one.list == List::from(list));
     let mut steady = Steady::default();
     let mut any = false;
     for object in of(ObjectList::PLATFORM) {
-        let Some(one) = object.read() else { continue };
+        let (Ok(one), Some((_, offset))) = (object.address.read(), object.address.content()) else {
+            continue;
+        };
         any = true;
         let what = object.name.to_string();
-        let same = |one: &&Object| one.name == object.name && one.size == object.size;
-        if let Some(other) = of(first).find(same).and_then(Object::read) {
+        let same = |one: &&Object| one.name == object.name && one.size() == object.size();
+        if let Some(other) = of(first).find(same).and_then(|other| other.address.read().ok()) {
             steady.same(probe, "COM-4", &what, one, other)?;
         }
         // And at its own offset in the groups of both.
         for list in [ObjectList::PLATFORM, first] {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
-            let there = ReadObject::new(group, object.offset, object.size)?;
+            let there = ReadObject::new(group, offset, object.size())?;
             let answered = probe.try_ask(there)?.is_some();
             let expected = || format!("{what} in group {group}");
             probe.check(["COM-4", "ADR-3"], answered, expected, "an error");
@@ -129,10 +132,10 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
     for (what, group, offset) in PRINTED {
         let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         let objects = probe.objects()?;
-        let named = objects.iter().find(|one| (one.group, one.offset) == (group, offset));
+        let named = objects.iter().find(|one| one.address.content() == Some((group, offset)));
         // One of another form of the address has its content here too.
         let read = |size| ReadObject::new(group, offset, size);
-        let described = named.and_then(|object| read(object.size).ok());
+        let described = named.and_then(|object| read(object.size()).ok());
         let read = described.map_or_else(|| read(8), Ok)?;
         let exchange = probe.send(read)?;
         let answered = exchange.success();

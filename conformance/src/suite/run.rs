@@ -106,9 +106,10 @@ mod tests {
     use crate::gate::{Allowed, Gate};
     use crate::judge::Step;
     use crate::net;
+    use crate::objects::ValueAddress;
     use crate::profile::Profile;
     use crate::simulator::{Cnc, NET_ID, Server};
-    use crate::suite::kit::{ValueAddress, WriteCheck};
+    use crate::suite::kit::WriteCheck;
 
     const NAME: &str = "V.E.vartest";
 

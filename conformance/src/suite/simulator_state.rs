@@ -1,11 +1,10 @@
 //! Cases that hold what is read and written over ADS against what the CNC has within: every
 //! content another value, so that none passes for another.
 
-use ads_cnc::address::{ComGroup, ComTable};
-
-use super::kit::{self, Addresses, JudgedAddress, Object, Probe, ValueAddress, is_permuted};
+use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
+use crate::objects::{List, Object, ValueAddress};
 use crate::simulator::{Held, Holder};
 use crate::text::hex::spaced;
 
@@ -173,11 +172,11 @@ fn write(
 }
 
 /// Whether a list is that of what holds an object; of the platform's, channel 1 has them too.
-fn is_list_of(holder: Holder, parts: ComGroup) -> bool {
-    match (holder, parts.table) {
-        (Holder::Platform, ComTable::Channel) => parts.instance == 0,
-        (Holder::Channel(channel) | Holder::ChannelAxis { channel, .. }, ComTable::Channel) => {
-            parts.instance == channel
+fn is_list_of(holder: Holder, list: List) -> bool {
+    match (holder, list) {
+        (Holder::Platform, List::Platform) => true,
+        (Holder::Channel(channel) | Holder::ChannelAxis { channel, .. }, List::Channel(number)) => {
+            channel == number
         }
         _ => false,
     }
@@ -189,7 +188,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
     let objects = addresses.objects();
     let all = cnc.held();
     for held in &all {
-        let mine = |object: &&Object| is_list_of(held.holder, object.list.parts());
+        let mine = |object: &&Object| is_list_of(held.holder, object.list);
         // What instances there are is judged elsewhere.
         if let Some(count) = addresses.count(held) {
             let expected = || format!("element {} of {:?}", held.element, held.holder);
@@ -202,10 +201,9 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         }
         let places = addresses.of(held)?;
         let at = |object: &&Object| {
+            let content = object.address.content();
             places.iter().any(|(place, _)| {
-                let (group, offset) = (object.group, object.offset);
-                matches!(place, ValueAddress::Object { group: one, offset: other, .. }
-                    if (*one, *other) == (group, offset))
+                matches!(place, ValueAddress::Object { .. }) && place.content() == content
             })
         };
         let listed = objects.iter().filter(mine).find(at);
@@ -217,9 +215,9 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
             "it is not",
         );
         let Some(object) = listed else { continue };
-        let sized = u32::try_from(held.value.len()) == Ok(object.size);
+        let sized = u32::try_from(held.value.len()) == Ok(object.size());
         let expected = || format!("{} bytes of {what}", held.value.len());
-        probe.check("COM-2", sized, expected, || format!("{} bytes", object.size));
+        probe.check("COM-2", sized, expected, || format!("{} bytes", object.size()));
         // It may have another name there, but not another's, nor half of its own.
         let taken = all.iter().any(|one| one.name == object.name);
         let cut = held.name.as_bytes().starts_with(object.name.as_bytes());

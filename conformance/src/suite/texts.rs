@@ -3,9 +3,10 @@
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Probe, ValueAddress, WriteCheck, same};
+use super::kit::{Probe, WriteCheck, same};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed};
+use crate::judge::{IfThere as _, Needs, Rule, Step, assumed};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -20,8 +21,8 @@ const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
     for object in probe.objects().if_applicable()?.unwrap_or_default() {
-        if object.is_text() && object.writable {
-            all.push((object.address(), object.name.to_string()));
+        if object.is_text() && object.is_writable() {
+            all.push((object.address, object.name.to_string()));
         }
     }
     for channel in probe.channels()? {
@@ -41,7 +42,6 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
 }
 
 fn written(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for (address, what) in texts(probe)? {
         if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
@@ -49,7 +49,6 @@ fn written(probe: &mut Probe<'_>) -> Step {
         let Some(before) = probe.value_at(&address)?.filter(|value| value.len() > 1) else {
             continue;
         };
-        any = true;
         let rules = [Rule::from("GEN-3")];
         let write_check = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
         probe.changing(
@@ -64,7 +63,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
             },
         )?;
     }
-    applicable(any, "no text may be written")
+    probe.finish("no text may be written")
 }
 
 /// Writes all characters, as many as fit each time.

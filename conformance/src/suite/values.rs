@@ -11,7 +11,7 @@ use super::kit::{
 };
 use super::{Row, case};
 use crate::explain::{Values, type_by_name};
-use crate::judge::{Evidence, Needs, Rule, Step, applicable};
+use crate::judge::{Evidence, Needs, Rule, Step};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
@@ -172,10 +172,8 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
 }
 
 fn string_size(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     each_variable(probe, |probe, _, variable| {
         if variable.var_type == VariableType::STRING {
-            any = true;
             let texts = element_count(&variable.dimensions);
             let one = variable.size.checked_div(texts).unwrap_or(0);
             let found = || format!("{one} bytes for each text of {}", variable.name.text);
@@ -183,5 +181,5 @@ fn string_size(probe: &mut Probe<'_>) -> Step {
         }
         Ok(())
     })?;
-    applicable(any, "no variable is a STRING")
+    probe.finish("no variable is a STRING")
 }

@@ -12,9 +12,10 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::kit::{KINDS, Probe, VARIABLES_MAX, name_of};
+use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
-use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, applicable, assumed};
+use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, assumed};
+use crate::objects::KINDS;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -215,7 +216,6 @@ fn structures(name: &str) -> Vec<&str> {
 }
 
 fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         let variables = probe.variables(channel)?;
         let names: HashSet<String> =
@@ -231,7 +231,6 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
                 if names.contains(structure) || !tried.insert(structure.to_owned()) {
                     continue;
                 }
-                any = true;
                 let what = format!("the structure {structure}");
                 let (name, good) = (TextRef::new(structure)?, name_of(leaf));
                 let handle = |name| HandleByName { channel, name };
@@ -241,7 +240,7 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    applicable(any, "no variable is part of a structure")
+    probe.finish("no variable is part of a structure")
 }
 
 fn padded_name(probe: &mut Probe<'_>) -> Step {

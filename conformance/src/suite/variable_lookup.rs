@@ -10,7 +10,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step, applicable};
+use crate::judge::{Needs, OrStop as _, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -126,16 +126,14 @@ fn apart(
 
 /// The five of the Service Interface.
 fn known_types(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             let name = variable.name.text.to_string();
             let Some(of_service) = ServiceVariable::by_name(&name) else { continue };
-            any = true;
             let expected = || format!("the type {:?} of {name}", of_service.var_type());
             let found = || format!("{:?}", variable.var_type);
             probe.check("VAR-5", variable.var_type == of_service.var_type(), expected, found);
         }
     }
-    applicable(any, "no variable has a type that is documented")
+    probe.finish("no variable has a type that is documented")
 }

@@ -5,11 +5,12 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, axis_address, dynamic_among_variables,
-    each_of_access, handle_of, same, write_check,
+    NOTHING_WRITABLE, Probe, WriteCheck, axis_address, dynamic_among_variables, each_of_access,
+    handle_of, same, write_check,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, applicable, assumed};
+use crate::judge::{Needs, Rule, Step, assumed};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -33,11 +34,11 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
         let address = ValueAddress::of_handle(channel, handle);
         let name = variable.name.text.to_string();
         if !probe.may_write(&address, &name)? {
-            return Ok(false);
+            return Ok(());
         }
         let rules = ["VAR-12", "VAR-17", "VAR-6", "VAR-10"].map(Rule::from);
         probe.try_write(&write_check(variable, &name, &rules), &address, |_, _, _| Ok(()))?;
-        Ok(true)
+        Ok(())
     })
 }
 
@@ -46,7 +47,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
         let address = ValueAddress::Name { channel, name: variable.name.text.clone() };
         let name = variable.name.text.to_string();
         if !probe.may_write(&address, &name)? {
-            return Ok(false);
+            return Ok(());
         }
         let handle = variable.handle;
         let by_handle = ValueAddress::of_handle(channel, handle);
@@ -63,7 +64,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             probe.check("VAR-14", kept, expected, || Hex(read));
             Ok(())
         })?;
-        Ok(true)
+        Ok(())
     })
 }
 
@@ -74,13 +75,13 @@ fn each_of_axes(
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &ValueAddress, &str) -> Step,
 ) -> Step {
     each_of_access(probe, access, |probe, channel, variable| {
-        let Some(at) = axis_address(probe, channel, variable)? else { return Ok(false) };
+        let Some(at) = axis_address(probe, channel, variable)? else { return Ok(()) };
         let what = format!("{} on the axis interface", variable.name.text);
         if !probe.may_write(&at, &what)? {
-            return Ok(false);
+            return Ok(());
         }
         judge(probe, channel, variable, &at, &what)?;
-        Ok(true)
+        Ok(())
     })
 }
 
@@ -107,12 +108,10 @@ fn axis_read_only(probe: &mut Probe<'_>) -> Step {
 /// Writes what has no handle. That it may be written is not said, but for "with restrictions".
 fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) -> Step {
     let channel = probe.channel()?;
-    let mut any = false;
     for name in names {
         let what = name.to_string();
         let address = ValueAddress::Name { channel, name };
         if probe.may_write(&address, &what)? {
-            any = true;
             let rules = [assumed(rule)];
             let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&write_check, &address, |probe, _, new| {
@@ -124,7 +123,7 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
             })?;
         }
     }
-    applicable(any, NOTHING_WRITABLE)
+    probe.finish(NOTHING_WRITABLE)
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {

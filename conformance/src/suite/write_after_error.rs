@@ -1,16 +1,15 @@
 //! Cases of writes that were refused: nothing of them is there, and the next one is done.
 
-use ads_cnc::address::ComTable;
 use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, OF_PLACES, Probe, ValueAddress, WritableNumber, another, is_sendable,
-    writable_numbers,
+    NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, another, is_sendable, writable_numbers,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
+use crate::objects::{List, ValueAddress};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -65,9 +64,9 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (address, name) = (object.address(), object.name.to_string());
-        let is_text = object.is_text();
-        let is_tried = object.writable && !is_text && !probe.is_blank(&object);
+        let name = object.name.to_string();
+        let is_tried = object.is_writable() && !object.is_text() && !probe.is_blank(&object);
+        let address = object.address;
         if !is_tried || address.read().is_err() || !probe.may_write(&address, &name)? {
             continue;
         }
@@ -121,19 +120,19 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
                 && let Some(length) = probe.length_of(element)?
             {
                 let what = format!("element {} of {instance}", element.index_offset());
-                all.push((ValueAddress::Element { element, length }, what));
+                all.push((ValueAddress::of_element(element, length), what));
             }
         }
     }
     for object in probe.objects()? {
-        let is_of_channel =
-            object.list.parts().table == ComTable::Channel && object.group.get() & 0xFF00 == 0x0100;
-        let number = may_be_a_number(&object.type_name.to_string());
-        if object.writable && is_of_channel && !number && probe.is_blank(&object) {
-            all.push((object.address(), object.name.to_string()));
+        let content = object.address.content();
+        let is_of_channel = !matches!(object.list, List::Axis(_))
+            && content.is_some_and(|(group, _)| group.get() & 0xFF00 == 0x0100);
+        let number = may_be_a_number(&object.ty.name);
+        if object.is_writable() && is_of_channel && !number && probe.is_blank(&object) {
+            all.push((object.address, object.name.to_string()));
         }
     }
-    let mut any = false;
     for (address, what) in all {
         if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
@@ -141,7 +140,6 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         let Some(blank) = probe.filled_value_at(&address)? else {
             continue;
         };
-        any = true;
         let other = another(&blank, false);
         probe.send(address.write(&other)?)?;
         let evidence = probe.evidence();
@@ -154,5 +152,5 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
             probe.send(address.write(&blank)?)?;
         }
     }
-    applicable(any, "no place is known to be empty")
+    probe.finish("no place is known to be empty")
 }

@@ -4,11 +4,10 @@
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
-use super::kit::{
-    NOTHING_WRITABLE, Probe, ValueAddress, WritableElement, WriteCheck, elements_with_flag,
-};
+use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, applicable};
+use crate::judge::{Needs, Rule, Step};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -21,47 +20,43 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for object in probe.objects()? {
-        let (logical, what) = (object.address(), object.name.to_string());
-        if !object.writable || probe.is_blank(&object) || logical.read().is_err() {
+        let (logical, what) = (&object.address, object.name.to_string());
+        if !object.is_writable() || probe.is_blank(&object) || logical.read().is_err() {
             continue;
         }
-        let Some(by_rank) = probe.object_by_rank(&object) else { continue };
-        let address = by_rank.address();
+        let Some(address) = probe.address_by_rank(&object) else { continue };
         if address.read().is_err()
-            || !probe.may_write(&logical, &what)?
+            || !probe.may_write(logical, &what)?
             || !probe.may_write(&address, &what)?
         {
             continue;
         }
         // What is not taken by number either is judged elsewhere.
-        let Some(value) = probe.filled_value_at(&logical)? else {
+        let Some(value) = probe.filled_value_at(logical)? else {
             continue;
         };
         if probe.try_ask(logical.write(&value)?)?.is_none() {
             continue;
         }
-        any = true;
         let rules = [Rule::from("ADR-12")];
         let is_text = object.is_text();
         let write_check =
             WriteCheck { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
         probe.try_write(&write_check, &address, |probe, _, _| {
-            let (read, number) = (probe.value_at(&address)?, probe.value_at(&logical)?);
+            let (read, number) = (probe.value_at(&address)?, probe.value_at(logical)?);
             let same = number == read || probe.value_at(&address)? != read;
             let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
             probe.check("ADR-12", same, expected, || Hex(number.unwrap_or_default()));
             Ok(())
         })?;
     }
-    applicable(any, NOTHING_WRITABLE)
+    probe.finish(NOTHING_WRITABLE)
 }
 
 fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     let all = probe.instances()?;
-    let mut any = false;
     for one in elements_with_flag(probe, true)? {
         let WritableElement { instance, element, address, what, is_text } = &one;
         let other = match instance.channel {
@@ -77,8 +72,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let (Some(element), ValueAddress::Element { length, .. }) = (twin, address) else {
             continue;
         };
-        any = true;
-        let twin = ValueAddress::Element { element, length: *length };
+        let twin = ValueAddress::of_element(element, *length);
         let write_check = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
         probe.try_write(&write_check, address, |probe, _, new| {
             let (before, read) = (probe.value_at(address)?, probe.value_at(&twin)?);
@@ -89,21 +83,19 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
             Ok(())
         })?;
     }
-    applicable(any, "no axis of the HLD may be written")
+    probe.finish("no axis of the HLD may be written")
 }
 
 /// The interface reads and writes them; which of them may be written the CNC knows.
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let mut any = false;
     for channel in probe.channels()? {
         for name in cnc.written_by_name_only(channel.number()) {
-            any = true;
             let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
             let address = ValueAddress::Name { channel, name };
             let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&write_check, &address, |_, _, _| Ok(()))?;
         }
     }
-    applicable(any, "there is no V.CYC that may be written")
+    probe.finish("there is no V.CYC that may be written")
 }

@@ -5,11 +5,11 @@ use ads_cnc::operation::{CountElements, Service};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, Object, Probe, RawCall, ValueAddress, WritableElement, WriteCheck,
-    elements_with_flag,
+    NOTHING_WRITABLE, Probe, RawCall, WritableElement, WriteCheck, elements_with_flag,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
+use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -31,11 +31,10 @@ pub(super) const CASES: &[Row] = &[
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
-        let address = object.address();
-        if object.writable == is_writable
+        if object.is_writable() == is_writable
             && !probe.is_blank(&object)
-            && address.read().is_ok()
-            && probe.may_write(&address, &object.name.to_string())?
+            && object.address.read().is_ok()
+            && probe.may_write(&object.address, &object.name.to_string())?
         {
             all.push(object);
         }
@@ -50,20 +49,20 @@ fn objects(probe: &mut Probe<'_>) -> Step {
         let is_text = object.is_text();
         let rules = ["COM-5", "COM-2"].map(Rule::from);
         let write_check = WriteCheck { what: &what, rules: &rules, is_text, name: None };
-        probe.try_write(&write_check, &object.address(), |_, _, _| Ok(()))?;
+        probe.try_write(&write_check, &object.address, |_, _, _| Ok(()))?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn read_only_objects(probe: &mut Probe<'_>) -> Step {
     let known = writable(probe, true)?.into_iter().find(|one| !one.is_text());
-    let known = known.as_ref().map(Object::address);
+    let known = known.map(|object| object.address);
     let all = writable(probe, false)?;
     for object in &all {
         let what = object.name.to_string();
         let rules = ["COM-2".into()];
         let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&write_check, &object.address(), known.as_ref())?;
+        probe.write_refused(&write_check, &object.address, known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
@@ -133,7 +132,7 @@ fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
         if probe.length_of(element)? != Some(length) {
             continue;
         }
-        let address = ValueAddress::Element { element, length };
+        let address = ValueAddress::of_element(element, length);
         if let Some(before) = probe.value_at(&address)? {
             all.push((rule, what, address, before));
         }

@@ -4,9 +4,10 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Probe, ValueAddress, each_of_access, handle_of, same, write_check};
+use super::kit::{Probe, each_of_access, handle_of, same, write_check};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -48,7 +49,6 @@ fn elements(
     place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<ValueAddress>>,
 ) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
-        let mut any = false;
         let whole = ValueAddress::of_handle(channel, variable.handle);
         let arrays =
             if variable.dimensions.is_empty() { Vec::new() } else { ends(&variable.dimensions) };
@@ -59,7 +59,6 @@ fn elements(
             if !probe.may_write(&place, &variable.name.text.to_string())? {
                 continue;
             }
-            any = true;
             let before = probe.value_at(&whole)?.unwrap_or_default();
             let rules = rules(variable);
             let write_check = write_check(variable, &name, &rules);
@@ -84,7 +83,7 @@ fn elements(
                 Ok(())
             })?;
         }
-        Ok(any)
+        Ok(())
     })
 }
 

@@ -5,9 +5,10 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Probe, ValueAddress, axis_address, element_count, is_of_service, write_value};
+use super::kit::{Probe, axis_address, element_count, is_of_service, write_value};
 use super::{Row, case};
 use crate::judge::{Evidence, Needs, Rule, Step, Stop};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

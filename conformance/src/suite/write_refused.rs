@@ -6,11 +6,12 @@ use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableT
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Probe, RawCall, ValueAddress, WritableNumber, WriteCheck, another, each_of_access, handle_of,
-    is_sendable, require_taken, writable_numbers, write_check,
+    Probe, RawCall, WritableNumber, WriteCheck, another, each_of_access, handle_of, is_sendable,
+    require_taken, writable_numbers, write_check,
 };
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -39,18 +40,16 @@ fn each_read_only(
     each_of_access(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
         let name = variable.name.text.to_string();
         let handle = handle_of(probe, channel, variable)?;
-        let mut any = false;
         for address in [
             ValueAddress::Name { channel, name: variable.name.text.clone() },
             ValueAddress::of_handle(channel, handle),
         ] {
             if probe.may_write(&address, &name)? {
-                any = true;
                 let rules = [Rule::from("VAR-6")];
                 judge(probe, &write_check(variable, &name, &rules), &address)?;
             }
         }
-        Ok(any)
+        Ok(())
     })
 }
 
@@ -167,18 +166,18 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
     let mut tried = 0_usize;
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let Description { handle, dimensions, var_type, name, .. } = variable;
-        let &[count] = dimensions.as_slice() else { return Ok(false) };
+        let &[count] = dimensions.as_slice() else { return Ok(()) };
         let by_name = |index: u32| format!("{}[{index}]", name.text).parse::<CncString>();
         let first = ValueAddress::Handle { channel, handle: *handle, indices: vec![0] };
         if *var_type == VariableType::STRING
             || tried >= ARRAYS_MAX
             || !probe.may_write(&first, &name.text.to_string())?
         {
-            return Ok(false);
+            return Ok(());
         }
         tried = tried.saturating_add(1);
         let whole = ValueAddress::of_handle(channel, *handle);
-        let Some(value) = probe.value_at(&first)? else { return Ok(false) };
+        let Some(value) = probe.value_at(&first)? else { return Ok(()) };
         let other = another(&value, false);
         let good = first.write(&value)?;
         let named = by_name(0)?;
@@ -193,7 +192,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
             let good = good_by_name.write(&value)?;
             refused(probe, &["VAR-13"], &what, (bad, good), &whole)?;
         }
-        Ok(true)
+        Ok(())
     })
 }
 

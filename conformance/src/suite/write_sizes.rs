@@ -5,11 +5,12 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Probe, ValueAddress, another, axis_address, each_of_access, is_of_service, is_sendable,
-    is_taken, require_taken,
+    Probe, another, axis_address, each_of_access, is_of_service, is_sendable, is_taken,
+    require_taken,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed, online};
+use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -54,19 +55,15 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
         let is_of_axis = variable.name.text.as_bytes().starts_with(b"V.A.");
         let sort = (variable.var_type, variable.dimensions.len(), is_of_axis);
         if is_of_service(variable) || tried.contains(&sort) || variable.dimensions.len() > 1 {
-            return Ok(false);
+            return Ok(());
         }
-        let mut any = false;
         for way in ways(probe, channel, variable)? {
             if probe.may_write(&way.address, &variable.name.text.to_string())? {
-                any = true;
+                tried.push(sort);
                 of_way(probe, channel, variable, &way)?;
             }
         }
-        if any {
-            tried.push(sort);
-        }
-        Ok(any)
+        Ok(())
     })
 }
 

@@ -3,9 +3,10 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Probe, ValueAddress, WriteCheck, each_of_access, write_value};
+use super::kit::{Probe, WriteCheck, each_of_access, write_value};
 use super::{Row, case};
 use crate::judge::{Needs, Step, online};
+use crate::objects::ValueAddress;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -18,9 +19,8 @@ fn texts(probe: &mut Probe<'_>) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let name = variable.name.text.clone();
         if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
-            return Ok(false);
+            return Ok(());
         }
-        let mut any = false;
         for (id, address) in [
             ("VAR-13", ValueAddress::Name { channel, name: name.clone() }),
             ("VAR-12", ValueAddress::of_handle(channel, variable.handle)),
@@ -31,7 +31,6 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             let Some(before) = probe.filled_value_at(&address)? else {
                 continue;
             };
-            any = true;
             let what = name.to_string();
             let write_check =
                 WriteCheck { what: &what, rules: &[], is_text: true, name: Some(&name) };
@@ -50,7 +49,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                 },
             )?;
         }
-        Ok(any)
+        Ok(())
     })
 }
 

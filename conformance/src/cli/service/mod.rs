@@ -16,7 +16,7 @@ use std::time::Duration;
 
 use ads_cnc::CncStr;
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{ReadByName, WriteByName};
+use ads_cnc::operation::{ReadByName, Task, WriteByName};
 use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
@@ -172,7 +172,9 @@ impl Service {
         let check = |session: &Session| {
             use ServiceVariable::{RequestState, Response, ResponseState};
             let mut writes = [Response, RequestState, ResponseState].into_iter();
-            writes.try_for_each(|variable| session.check(&write(channel, variable, &[0; 4])?))
+            writes.try_for_each(|variable| {
+                session.check(Task::Sda, write(channel, variable, &[0; 4])?)
+            })
         };
         self.target.ask_gate(check)?;
         let interrupt = Interrupt::catch().map_err(|error| Trouble::uncaught(&error))?;

@@ -17,7 +17,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ads_cnc::operation::WriteProgramStream;
+use ads_cnc::operation::{Task, WriteProgramStream};
 use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
@@ -149,7 +149,7 @@ impl Stream {
         let mut first = Sender::new(text);
         let write =
             WriteProgramStream::new(self.channel.channel, first.packet().unwrap_or_default());
-        self.target.ask_gate(|session| session.check(&write))?;
+        self.target.ask_gate(|session| session.check(Task::Com, write))?;
         let interrupt = Interrupt::catch().map_err(|error| Trouble::uncaught(&error))?;
         let mut session = self.open()?;
         let mut sending = Sending {

@@ -3,12 +3,13 @@
 use ads_cnc::CncString;
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{
-    CountElements, FindInstance, ReadElementLength, ReadElementName, ReadElementType,
-    ReadElementUnit, ReadElementWriteFlag, Task,
+    FindInstance, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit,
+    ReadElementWriteFlag, Task,
 };
+use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag, ObjectAddress};
 
-use super::super::{Access, List, Object, Place};
-use super::{NUMBER_MAX, Unanswered, Walk};
+use super::super::{Access, List, Object, ValueAddress};
+use super::{CLASSES, Walk, Walker as _};
 use crate::session::Trouble;
 use crate::values::Type;
 
@@ -26,16 +27,6 @@ pub(super) struct Attributes {
     unit: Option<CncString>,
     access: Access,
 }
-
-/// In this order they are listed.
-const CLASSES: [Class; 6] = [
-    Class::PositionController,
-    Class::Interpolator,
-    Class::Decoder,
-    Class::PathPreparation,
-    Class::Hld,
-    Class::Spindle,
-];
 
 impl Walk<'_> {
     /// Which of SDA and GEO has a class no manual says: GEO is asked for what SDA does not have.
@@ -66,74 +57,20 @@ impl Walk<'_> {
     }
 
     fn class(&mut self, class: Class, channels: &[Channel]) -> Result<(), Trouble> {
-        match class {
-            Class::PositionController => self.platform_axes(class, None),
-            Class::Hld => {
-                for &channel in channels {
-                    self.instance(class, Some(channel), 0)?;
-                }
-                self.platform_axes(class, channels.first().copied())
-            }
-            Class::Spindle => {
-                for index in 0..=NUMBER_MAX {
-                    let query = FindInstance::new(class, index, 0);
-                    if !self.found_instance(&query, class, u8::try_from(index).ok(), None)? {
-                        break;
-                    }
-                }
-                Ok(())
-            }
-            Class::Interpolator | Class::Decoder | Class::PathPreparation => {
-                for &channel in channels {
-                    if self.instance(class, Some(channel), 0)? {
-                        self.axes(class, Some(channel))?;
-                    }
-                }
-                Ok(())
-            }
-        }
+        self.instances_of(class, channels, false, &mut |walk, channel, axis| {
+            walk.instance(class, channel, axis)
+        })
     }
 
-    /// Axes of the platform, or those that a channel has of it.
-    fn platform_axes(&mut self, class: Class, or: Option<Channel>) -> Result<(), Trouble> {
-        match (self.axes(class, None)?, or) {
-            (0, Some(channel)) => self.axes(class, Some(channel)).map(drop),
-            _ => Ok(()),
-        }
-    }
-
-    /// How many there are.
-    fn axes(&mut self, class: Class, channel: Option<Channel>) -> Result<u32, Trouble> {
-        for axis in 1..=NUMBER_MAX {
-            if !self.instance(class, channel, axis)? {
-                return Ok(axis.saturating_sub(1));
-            }
-        }
-        Ok(NUMBER_MAX)
-    }
-
-    fn instance(
-        &mut self,
-        class: Class,
-        channel: Option<Channel>,
-        axis: u32,
-    ) -> Result<bool, Trouble> {
-        let number = channel.map(Channel::number);
-        let query = FindInstance::new(class, number.map_or(0, u32::from), axis);
+    /// Whether the target has an instance; lists its elements.
+    fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, Trouble> {
+        let query = FindInstance::new(class, channel, axis);
+        let is_of_channel = class == Class::Spindle || channel > 0;
+        let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);
         let axis = u8::try_from(axis).ok().filter(|&axis| axis > 0);
-        self.found_instance(&query, class, number, axis)
-    }
-
-    /// Whether there is such an instance; its elements.
-    fn found_instance(
-        &mut self,
-        query: &FindInstance,
-        class: Class,
-        channel: Option<u8>,
-        axis: Option<u8>,
-    ) -> Result<bool, Trouble> {
         let list = List::Class { class, channel, axis };
-        let first = match self.ask_task(query)?.map(|found| (found, found.first_element())) {
+        let found: Option<ObjectAddress> = self.decoded(query)?;
+        let first = match found.map(|found| (found, found.first_element())) {
             Some((_, Ok(first))) => first,
             Some((found, Err(_))) => {
                 let (group, offset) = (found.index_group, found.index_offset);
@@ -143,7 +80,7 @@ impl Walk<'_> {
             None => None,
         };
         let Some(first) = first else { return Ok(false) };
-        // Who says the same place of every axis would have no end of them.
+        // A target that gives one address for every axis would have no last one.
         if self.instances.contains(&first) {
             self.note(list, "said to be where another instance is, and taken for none");
             return Ok(false);
@@ -161,75 +98,70 @@ impl Walk<'_> {
         class: Class,
         first: ElementAddress,
     ) -> Result<(), Trouble> {
-        // An instance may be said to begin where a function is.
-        let count = match CountElements::new(first) {
-            Ok(count) => self.ask_task(&count)?.map(|count| count.0),
-            Err(_) => None,
-        };
-        let Some(count) = count else {
+        let Some(count) = self.count_elements(first)? else {
             self.note(list, "the number of its elements was refused");
             return Ok(());
         };
-        let mut tally = Unanswered::new(count);
-        for place in 1..=count.min(ELEMENTS_MAX) {
-            let Ok(element) = first.nth(place) else { break };
-            let name = self.ask_task(&ReadElementName::new(element))?;
-            let Some(name) = name.map(|name| CncString::from(name.text.text())) else {
-                if tally.refused(place.saturating_sub(1)) {
-                    break;
-                }
-                continue;
-            };
-            tally.answered();
-            if self.is_named(&name) {
-                let of_axis = matches!(list, List::Class { axis: Some(_), .. });
-                let one = self.attributes(class, of_axis, element, place, name)?;
-                self.found(Object {
-                    list,
-                    name: one.name,
-                    place: Place::Element { element, task: self.task },
-                    ty: one.ty,
-                    unit: one.unit,
-                    access: one.access,
-                    handle: None,
-                })?;
+        let most = count.min(ELEMENTS_MAX);
+        let answered = self.each(1..=most, |walk, number| {
+            let Ok(element) = first.nth(number) else { return Ok(false) };
+            let name: Option<ElementText> = walk.decoded(ReadElementName::new(element))?;
+            let Some(name) = name.map(|name| name.text.text) else { return Ok(false) };
+            if walk.is_named(&name) {
+                let object = walk.element(list, class, element, number, name)?;
+                walk.found(object)?;
             }
-        }
-        tally.note(list, self);
+            Ok(true)
+        })?;
+        self.note_rejected(list, most, answered);
         Ok(())
+    }
+
+    fn element(
+        &mut self,
+        list: List,
+        class: Class,
+        element: ElementAddress,
+        number: u32,
+        name: CncString,
+    ) -> Result<Object, Trouble> {
+        let key = (class, matches!(list, List::Class { axis: Some(_), .. }), number);
+        let alike = self.alike.get(&key).map(Vec::as_slice).unwrap_or_default();
+        let known = alike.iter().find(|known| known.name == name && !self.options.exact);
+        let attributes = match known {
+            Some(known) => known.clone(),
+            None => {
+                let read = self.attributes(element, name)?;
+                let alike = self.alike.entry(key).or_default();
+                // Of instances that are not alike not all can be known.
+                if alike.len() < ALIKE_MAX {
+                    alike.push(read.clone());
+                }
+                read
+            }
+        };
+        let Attributes { name, ty, unit, access } = attributes;
+        let length = ty.size.unwrap_or(0);
+        let address = ValueAddress::Element { element, length, task: self.task };
+        Ok(Object { list, name, address, ty, unit, access, handle: None })
     }
 
     fn attributes(
         &mut self,
-        class: Class,
-        of_axis: bool,
-        address: ElementAddress,
-        element: u32,
+        element: ElementAddress,
         name: CncString,
     ) -> Result<Attributes, Trouble> {
-        let key = (class, of_axis, element);
-        let alike = self.alike.get(&key).map(Vec::as_slice).unwrap_or_default();
-        let known = alike.iter().find(|known| known.name == name);
-        if let Some(known) = known.filter(|_| !self.options.exact) {
-            return Ok(known.clone());
-        }
-        let ty = self.ask_task(&ReadElementType::new(address))?;
-        let type_name = ty.map(|ty| CncString::from(ty.text.text())).unwrap_or_default();
-        let length = self.ask_task(&ReadElementLength::new(address))?.map(|length| length.get());
+        let ty: Option<ElementText> = self.decoded(ReadElementType::new(element))?;
+        let type_name = ty.map(|ty| ty.text.text).unwrap_or_default();
+        let length: Option<ElementLength> = self.decoded(ReadElementLength::new(element))?;
         let ty = match length {
-            Some(length) => Type::of_content(type_name.as_cnc_str(), length),
+            Some(length) => Type::of_content(type_name.as_cnc_str(), length.get()),
             None => Type { size: None, ..Type::of_content(type_name.as_cnc_str(), 0) },
         };
-        let unit = self.ask_task(&ReadElementUnit::new(address))?;
-        let unit = unit.map(|unit| CncString::from(unit.text.text()));
-        let flag = self.ask_task(&ReadElementWriteFlag::new(address))?;
+        let unit: Option<ElementText> = self.decoded(ReadElementUnit::new(element))?;
+        let unit = unit.map(|unit| unit.text.text);
+        let flag: Option<ElementWriteFlag> = self.decoded(ReadElementWriteFlag::new(element))?;
         let access = flag.map_or(Access::Unknown, |flag| Access::of_flag(flag.is_writable()));
-        let known = Attributes { name, ty, unit, access };
-        let alike = self.alike.entry(key).or_default();
-        // Of instances that are not alike not all can be known.
-        if alike.len() < ALIKE_MAX {
-            alike.push(known.clone());
-        }
-        Ok(known)
+        Ok(Attributes { name, ty, unit, access })
     }
 }

@@ -3,17 +3,18 @@
 mod com;
 mod elements;
 mod variables;
-
-pub(crate) use variables::parameter;
+mod walker;
 
 use std::collections::HashMap;
 
 use ads_cnc::address::{Channel, Class, ElementAddress};
-use ads_cnc::operation::{CountObjects, FindInstance, ObjectList, Operation, Task};
+use ads_cnc::operation::{FindInstance, Request, Task};
+use ads_cnc::sda::ObjectAddress;
 
 use super::{List, Object, Pattern};
 use crate::session::{Session, Trouble};
 use elements::Attributes;
+pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
 
 /// The most numbers in a row that are not there before no more are asked for.
 pub const GAP: u32 = 8;
@@ -95,9 +96,19 @@ pub fn walk(
     watch: &mut dyn FnMut(WalkProgress),
 ) -> Result<WalkResult, Trouble> {
     let found = WalkResult::default();
-    let (instances, alike, task) = (Vec::new(), HashMap::new(), Task::Sda);
-    let mut walk =
-        Walk { session, options, watch, found, names: 0, instances, alike, task, geo: Ok(()) };
+    let (list, instances, alike, task) = (None, Vec::new(), HashMap::new(), Task::Sda);
+    let mut walk = Walk {
+        session,
+        options,
+        watch,
+        found,
+        list,
+        names: 0,
+        instances,
+        alike,
+        task,
+        geo: Ok(()),
+    };
     match walk.all() {
         Ok(()) => {}
         Err(Trouble::Enough(why)) => {
@@ -114,11 +125,13 @@ struct Walk<'w> {
     options: &'w Options,
     watch: &'w mut dyn FnMut(WalkProgress),
     found: WalkResult,
+    /// The list that is being read.
+    list: Option<List>,
     /// Bytes of all names and units so far.
     names: usize,
     /// The first elements of the instances found.
     instances: Vec<ElementAddress>,
-    /// Which of SDA and GEO is asked for elements.
+    /// The task that requests to classes go to: SDA or GEO.
     task: Task,
     /// Why GEO is not asked.
     geo: Result<(), Trouble>,
@@ -137,45 +150,6 @@ impl Walk<'_> {
         self.elements(&channels)
     }
 
-    /// Counts a request, if there may be one more.
-    fn count(&mut self) -> Result<(), Trouble> {
-        if self.found.requests >= REQUESTS_MAX {
-            return Err(Trouble::Enough(format!("{REQUESTS_MAX} requests were sent")));
-        }
-        self.found.requests = self.found.requests.saturating_add(1);
-        Ok(())
-    }
-
-    /// The reply; none if the CNC refuses, or answers what cannot be read.
-    fn ask<O: Operation>(&mut self, operation: &O) -> Result<Option<O::Reply<'_>>, Trouble> {
-        self.count()?;
-        match self.session.call(operation) {
-            Ok(reply) => Ok(Some(reply)),
-            Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
-            Err(trouble) => Err(trouble),
-        }
-    }
-
-    /// [`ask`](Self::ask) of the task that elements are looked for at.
-    fn ask_task<O: Operation>(&mut self, operation: &O) -> Result<Option<O::Reply<'_>>, Trouble> {
-        if self.task == Task::Geo && self.geo.is_err() {
-            return Ok(None);
-        }
-        self.count()?;
-        match self.session.call_at(self.task, operation) {
-            Ok(reply) => Ok(Some(reply)),
-            Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
-            // Not every CNC need have it.
-            Err(trouble @ (Trouble::Ams { .. } | Trouble::NoAnswer(_)))
-                if self.task == Task::Geo =>
-            {
-                self.geo = Err(trouble);
-                Ok(None)
-            }
-            Err(trouble) => Err(trouble),
-        }
-    }
-
     fn note(&mut self, list: List, what: impl std::fmt::Display) {
         match self.found.notes.len() {
             0..NOTES_MAX => self.found.notes.push(format!("{list}: {what}")),
@@ -184,35 +158,30 @@ impl Walk<'_> {
         }
     }
 
-    /// Notes that there is more in a list than is asked for.
-    fn note_rest(&mut self, list: List, count: u32) {
-        if count > OBJECTS_MAX {
-            self.note(list, format_args!("of {count} the first {OBJECTS_MAX} were asked for"));
-            self.found.is_cut = true;
+    /// Notes how many of a list have no reply.
+    fn note_rejected(&mut self, list: List, count: u32, answered: u32) {
+        let rejected = count.saturating_sub(answered);
+        if rejected > 0 {
+            self.note(list, format_args!("{rejected} of {count} were refused"));
         }
     }
 
-    fn is_meant(&self, list: List) -> bool {
-        self.options.lists.as_ref().is_none_or(|lists| lists.fits(&list.to_string()))
+    fn is_selected(&self, list: List) -> bool {
+        self.options.lists.as_ref().is_none_or(|lists| lists.matches(&list.to_string()))
     }
 
-    /// Whether a list is meant; tells that it is there.
+    /// Whether a list is selected, and is read from now on.
     fn enter(&mut self, list: List) -> bool {
-        let meant = self.is_meant(list);
-        if meant {
+        let is_selected = self.is_selected(list);
+        if is_selected {
             self.found.lists = self.found.lists.saturating_add(1);
-            self.tell(list);
+            self.list = Some(list);
         }
-        meant
-    }
-
-    fn tell(&mut self, list: List) {
-        let (objects, requests) = (self.found.objects.len(), self.found.requests);
-        (self.watch)(WalkProgress { list, objects, requests });
+        is_selected
     }
 
     fn is_named(&self, name: impl std::fmt::Display) -> bool {
-        self.options.names.as_ref().is_none_or(|names| names.fits(&name.to_string()))
+        self.options.names.as_ref().is_none_or(|names| names.matches(&name.to_string()))
     }
 
     fn found(&mut self, object: Object) -> Result<(), Trouble> {
@@ -226,9 +195,7 @@ impl Walk<'_> {
             let why = format!("their names have more than {} MiB", NAMES_MAX >> 20);
             return Err(Trouble::Enough(why));
         }
-        let list = object.list;
         self.found.objects.push(object);
-        self.tell(list);
         Ok(())
     }
 
@@ -239,7 +206,7 @@ impl Walk<'_> {
         }
         let mut ranks = 0_usize;
         for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
-            if self.count_objects(rank.into())?.is_none() {
+            if self.count_objects(rank)?.is_none() {
                 break;
             }
             ranks = ranks.saturating_add(1);
@@ -250,8 +217,8 @@ impl Walk<'_> {
                 break;
             }
             let is_there = match ranks {
-                0 => self.is_instance(&decoder_of(number))?,
-                _ => self.count_objects(number.into())?.is_some(),
+                0 => self.is_instance(decoder_of(number))?,
+                _ => self.count_objects(number)?.is_some(),
             };
             gap = if is_there { 0 } else { gap.saturating_add(1) };
             found.extend(is_there.then_some(number));
@@ -266,9 +233,7 @@ impl Walk<'_> {
             if found.contains(&channel) {
                 continue;
             }
-            if self.count_objects(channel.into())?.is_some()
-                || self.is_instance(&decoder_of(channel))?
-            {
+            if self.count_objects(channel)?.is_some() || self.is_instance(decoder_of(channel))? {
                 found.push(channel);
             } else {
                 let number = channel.number();
@@ -278,55 +243,43 @@ impl Walk<'_> {
         Ok(found)
     }
 
-    /// How many objects a list has; a list of none is none.
-    fn count_objects(&mut self, list: ObjectList) -> Result<Option<u32>, Trouble> {
-        let count = self.ask(&CountObjects::new(list))?;
-        Ok(count.map(|count| count.0).filter(|&count| count > 0))
-    }
-
-    fn is_instance(&mut self, query: &FindInstance) -> Result<bool, Trouble> {
-        let found = self.ask(query)?;
+    fn is_instance(&mut self, query: FindInstance) -> Result<bool, Trouble> {
+        let found: Option<ObjectAddress> = self.decoded(query)?;
         Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
+    }
+}
+
+impl Walker for Walk<'_> {
+    type Error = Trouble;
+
+    fn request<'r>(&mut self, request: impl Into<Request<'r>>) -> Result<Option<Vec<u8>>, Trouble> {
+        let (request, is_geo) = (request.into(), self.task == Task::Geo);
+        if is_geo && self.geo.is_err() {
+            return Ok(None);
+        }
+        if self.found.requests >= REQUESTS_MAX {
+            return Err(Trouble::Enough(format!("{REQUESTS_MAX} requests were sent")));
+        }
+        self.found.requests = self.found.requests.saturating_add(1);
+        if let Some(list) = self.list {
+            let (objects, requests) = (self.found.objects.len(), self.found.requests);
+            (self.watch)(WalkProgress { list, objects, requests });
+        }
+        let task = if is_geo { Task::Geo } else { request.function().spec().task };
+        match self.session.request(task, request) {
+            Ok(data) => Ok(Some(data)),
+            Err(Trouble::Ads { .. }) => Ok(None),
+            // Not every CNC need have it.
+            Err(trouble @ (Trouble::Ams { .. } | Trouble::NoAnswer(_))) if is_geo => {
+                self.geo = Err(trouble);
+                Ok(None)
+            }
+            Err(trouble) => Err(trouble),
+        }
     }
 }
 
 /// A channel that has no objects still decodes.
 fn decoder_of(channel: Channel) -> FindInstance {
     FindInstance::new(Class::Decoder, channel.number().into(), 0)
-}
-
-/// How many did not answer. Parameters come and go while they are asked for.
-struct Unanswered {
-    count: u32,
-    refused: u32,
-    in_a_row: u32,
-}
-
-impl Unanswered {
-    const fn new(count: u32) -> Self {
-        Self { count, refused: 0, in_a_row: 0 }
-    }
-
-    fn answered(&mut self) {
-        self.in_a_row = 0;
-    }
-
-    /// Takes down that the one behind so many was refused; whether to ask no more.
-    fn refused(&mut self, before: u32) -> bool {
-        self.refused = self.refused.saturating_add(1);
-        self.in_a_row = self.in_a_row.saturating_add(1);
-        let enough = self.in_a_row >= GAP;
-        if enough {
-            let left = self.count.saturating_sub(before).saturating_sub(1);
-            self.refused = self.refused.saturating_add(left);
-        }
-        enough
-    }
-
-    fn note(&self, list: List, walk: &mut Walk<'_>) {
-        let Self { count, refused, .. } = *self;
-        if refused > 0 {
-            walk.note(list, format_args!("{refused} of {count} were refused"));
-        }
-    }
 }

@@ -1,126 +1,77 @@
 //! Variables by their descriptions, and dynamic parameters.
 
 use ads_cnc::address::Channel;
-use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
 use ads_cnc::operation::{CountDynamic, CountVariables, DescribeByIndex, DynamicNameByIndex};
-use ads_cnc::value::DataType;
-use ads_cnc::{CncString, DescriptionRef, Kind};
+use ads_cnc::{Description, VariableCount};
 
-use super::super::{Access, List, Object, Place};
-use super::{OBJECTS_MAX, Unanswered, Walk};
+use super::super::{List, Object};
+use super::{KINDS, OBJECTS_MAX, Walk, Walker as _};
 use crate::session::Trouble;
-use crate::values::Type;
-
-/// Kinds whose variables are described by index.
-const KINDS: [(&str, Kind<'static>); 3] =
-    [("V.E", Kind::V_E), ("V.G", Kind::V_G), ("V.A", Kind::V_A)];
 
 impl Walk<'_> {
     pub(super) fn variables(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
         for &channel in channels {
+            let number = channel.number();
             for (name, kind) in KINDS {
-                let channel_number = channel.number();
-                let list = List::Variables { kind: name, channel: channel_number, axis: None };
-                self.of_kind(list, channel, kind)?;
+                let list = List::Variables { kind: name, channel: number, axis: None };
+                if !self.enter(list) {
+                    continue;
+                }
+                let count: Option<VariableCount> =
+                    self.decoded(CountVariables::new(channel, kind))?;
+                self.by_index(list, count.map(|count| count.0), 0, |walk, index| {
+                    let variable: Option<Description> =
+                        walk.decoded(DescribeByIndex::new(channel, index, kind))?;
+                    Ok(variable.map(|variable| Object::of_description(list, channel, variable)))
+                })?;
             }
             for kind in DynamicKind::ALL {
-                let list = List::Parameters { kind, channel: channel.number() };
-                self.parameters(list, channel, kind)?;
+                let list = List::Parameters { kind, channel: number };
+                if !self.enter(list) {
+                    continue;
+                }
+                let count: Option<DynamicCount> = self.decoded(CountDynamic::new(channel, kind))?;
+                self.by_index(list, count.map(|count| count.0), 1, |walk, index| {
+                    let request = DynamicNameByIndex::new(channel, kind, index);
+                    let name: Option<DynamicName> =
+                        walk.decoded(request.map_err(Trouble::Unsendable)?)?;
+                    Ok(name.map(|name| Object::of_parameter(channel, kind, name.name.text)))
+                })?;
             }
         }
         Ok(())
     }
 
-    fn of_kind(
+    /// Lists what has an index in a list, from `first` on.
+    fn by_index(
         &mut self,
         list: List,
-        channel: Channel,
-        kind: Kind<'static>,
+        count: Option<u32>,
+        first: u32,
+        mut object: impl FnMut(&mut Self, u32) -> Result<Option<Object>, Trouble>,
     ) -> Result<(), Trouble> {
-        if !self.enter(list) {
-            return Ok(());
-        }
-        let Some(count) = self.ask(&CountVariables::new(channel, kind))?.map(|count| count.0)
-        else {
+        let Some(count) = count else {
             self.note(list, "their number was refused");
             return Ok(());
         };
-        let mut tally = Unanswered::new(count);
-        for index in 0..count.min(OBJECTS_MAX) {
-            let variable = self.ask(&DescribeByIndex::new(channel, index, kind))?;
-            let Some(object) = variable.map(|variable| row(list, channel, &variable)) else {
-                if tally.refused(index) {
-                    break;
-                }
-                continue;
-            };
-            tally.answered();
-            if self.is_named(&object.name) {
-                self.found(object)?;
+        let most = count.min(OBJECTS_MAX);
+        let answered = self.each((first..).take(count_of(most)), |walk, index| {
+            let Some(object) = object(walk, index)? else { return Ok(false) };
+            if walk.is_named(&object.name) {
+                walk.found(object)?;
             }
+            Ok(true)
+        })?;
+        self.note_rejected(list, most, answered);
+        if count > most {
+            self.note(list, format_args!("of {count} the first {most} were asked for"));
+            self.found.is_cut = true;
         }
-        tally.note(list, self);
-        self.note_rest(list, count);
-        Ok(())
-    }
-
-    fn parameters(
-        &mut self,
-        list: List,
-        channel: Channel,
-        kind: DynamicKind,
-    ) -> Result<(), Trouble> {
-        if !self.enter(list) {
-            return Ok(());
-        }
-        let Some(count) = self.ask(&CountDynamic::new(channel, kind))?.map(|count| count.0) else {
-            self.note(list, "their number was refused");
-            return Ok(());
-        };
-        let mut tally = Unanswered::new(count);
-        for index in 1..=count.min(OBJECTS_MAX) {
-            let op = DynamicNameByIndex::new(channel, kind, index).map_err(Trouble::Unsendable)?;
-            let name = self.ask(&op)?.map(|reply| CncString::from(reply.name.text()));
-            let Some(name) = name else {
-                if tally.refused(index.saturating_sub(1)) {
-                    break;
-                }
-                continue;
-            };
-            tally.answered();
-            if self.is_named(&name) {
-                self.found(parameter(channel, kind, name))?;
-            }
-        }
-        tally.note(list, self);
-        self.note_rest(list, count);
         Ok(())
     }
 }
 
-fn row(list: List, channel: Channel, variable: &DescriptionRef<'_>) -> Object {
-    let name = CncString::from(variable.name.text());
-    Object {
-        list,
-        place: Place::Variable { channel, axis: None, name: name.clone() },
-        name,
-        ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
-        unit: None,
-        access: Access::of_variable(variable.access),
-        handle: Some(variable.handle),
-    }
-}
-
-/// A dynamic parameter: one number. No function of its own writes it; V.L, V.P and V.S some CNCs
-/// have among the variables too (VAR-18).
-pub(crate) fn parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Object {
-    Object {
-        list: List::Parameters { kind, channel: channel.number() },
-        place: Place::Parameter { channel, kind, name: name.clone() },
-        name,
-        ty: Type::known(DataType::Real64, Vec::new()),
-        unit: None,
-        access: if kind == DynamicKind::P { Access::Read } else { Access::Unknown },
-        handle: None,
-    }
+fn count_of(count: u32) -> usize {
+    usize::try_from(count).unwrap_or(usize::MAX)
 }

@@ -21,7 +21,7 @@ use crate::edition::Edition;
 use crate::faults::{Faulty, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::{Needs, Outcome, Selection, Verdict};
-use crate::objects::{self, Access, Options};
+use crate::objects::{self, Object, Options};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
@@ -186,9 +186,9 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> 
     for variables in [false, true] {
         let options = Options { variables, exact: true, ..Options::default() };
         let found = objects::walk(&mut session, &options, &mut |_| {})?;
-        let writable = found.objects.iter().filter(|one| one.access == Access::ReadWrite);
+        let writable = found.objects.iter().filter(|one| one.is_writable());
         let writable = writable.filter(|one| !profile.leaves(&one.name.to_string()));
-        entries.extend(writable.map(|one| one.place.entry()));
+        entries.extend(writable.map(Object::entry));
     }
     let parse = |name: &str| name.parse().map_err(|_| Trouble::Internal(name.to_owned()));
     for channel in profile.channels.iter().filter_map(|&number| Channel::new(number).ok()) {

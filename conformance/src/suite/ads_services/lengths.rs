@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 use ads_cnc::{Kind, VariableType};
 
 use super::maybe;
-use crate::judge::{Step, applicable};
+use crate::judge::Step;
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall, name_of};
 use crate::wire_service::clause;
@@ -18,10 +18,8 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 2] =
         [CountVariables::new(channel, Kind::V_G).into(), CountObjects::new(channel).into()];
-    let mut any = false;
     for request in requests {
         let Some(whole) = maybe(probe, request)? else { continue };
-        any = true;
         for piece in [37, 6, 1] {
             probe.target.client.set_piece(Some(piece));
             let exchange = probe.send(request);
@@ -32,7 +30,7 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
             probe.check("ADS-5", same, expected, &exchange);
         }
     }
-    applicable(any, "nothing to be asked is claimed")
+    probe.finish("nothing to be asked is claimed")
 }
 
 /// Whether a reply's length follows from what is documented, or a text ends where it ends.

@@ -15,9 +15,10 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
 use super::{Row, case};
-use crate::judge::{Needs, Step, applicable};
+use crate::judge::{Needs, Step};
+use crate::objects::decode_element_count;
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, Steady, between, name_of, number_of};
+use crate::suite::kit::{Probe, Steady, compare, name_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -156,24 +157,26 @@ fn same_by_handle(
 /// Numbers that a Read gives, and what is there by a ReadWrite.
 fn services_agree(probe: &mut Probe<'_>) -> Step {
     let rules = ["ADS-1", "ADS-3"];
-    let mut any = false;
+    let mut steady = Steady::default();
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            any |= names_agree(probe, rules, channel, kind)?;
+            names_agree(probe, &mut steady, rules, channel, kind)?;
         }
     }
-    any |= elements_agree(probe, rules)?;
-    applicable(any, "nothing is asked by both services")
+    elements_agree(probe, rules)?;
+    steady.finish()?;
+    probe.finish("nothing is asked by both services")
 }
 
 /// How many parameters a Read says that there are, and which names a ReadWrite has. A program may
 /// make or delete one meanwhile.
 fn names_agree(
     probe: &mut Probe<'_>,
+    steady: &mut Steady,
     rules: [&'static str; 2],
     channel: Channel,
     kind: DynamicKind,
-) -> Step<bool> {
+) -> Step {
     let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
         let data = maybe(probe, CountDynamic::new(channel, kind))?;
         Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
@@ -182,29 +185,31 @@ fn names_agree(
         let name = maybe(probe, DynamicNameByIndex::new(channel, kind, index)?)?;
         Ok(name.is_some_and(|name| name.first().is_some_and(|&first| first != 0)))
     };
-    for _ in 0..3 {
-        let found = between(probe, count, |probe, &count| {
+    let compared = compare(
+        probe,
+        count,
+        |probe, &count| {
             let last = count == 0 || has(probe, count)?;
             let beyond = count.checked_add(1);
             let beyond = beyond.map(|beyond| has(probe, beyond)).transpose()?;
-            Ok((count, last, beyond.unwrap_or_default()))
-        })?;
-        if let Some((count, last, beyond)) = found {
-            let expected = || format!("a name of index {count}, if it is not 0, and no other");
-            let found = || format!("one: {last}, another behind it: {beyond}");
-            probe.check(rules, last && !beyond, expected, found);
-            return Ok(true);
-        }
-    }
-    Ok(false)
+            Ok(Some((last, beyond.unwrap_or_default())))
+        },
+        |_, &(last, beyond)| last && !beyond,
+    )?;
+    let what = format!("the number of {kind:?} of channel {}", channel.number());
+    steady.judge(probe, rules, &what, compared, |probe, rules, (count, (last, beyond), _)| {
+        let expected = || format!("a name of index {count}, if it is not 0, and no other");
+        let found = || format!("one: {last}, another after it: {beyond}");
+        probe.check(rules, false, expected, found);
+    });
+    Ok(())
 }
 
 /// Where a ReadWrite says that the elements of an instance are, a Read finds them.
-fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step<bool> {
-    let mut any = false;
+fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step {
     let functions = [Function::FindInstance, Function::ReadElementLength];
     if functions.iter().any(|one| probe.claims(*one) != Claim::Yes) {
-        return Ok(false);
+        return Ok(());
     }
     for channel in probe.channels()? {
         for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation, Class::Hld] {
@@ -213,8 +218,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step<bool>
             let Some(first) = first else { continue };
             let Ok(count) = CountElements::new(first) else { continue };
             let data = maybe(probe, count)?;
-            let count = data.as_deref().and_then(number_of);
-            any = true;
+            let count = data.as_deref().and_then(decode_element_count);
             let expected = "a number of elements where the object address says";
             probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));
             for place in 1..=count.unwrap_or_default().min(SOME) {
@@ -228,5 +232,5 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step<bool>
             }
         }
     }
-    Ok(any)
+    Ok(())
 }

@@ -4,7 +4,8 @@ use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use crate::judge::{Rule, Step, applicable};
-use crate::suite::kit::{NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, is_of_service};
+use crate::objects::ValueAddress;
+use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service};
 
 /// So many of each kind are tried.
 const SOME: usize = 3;
@@ -38,22 +39,21 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
 fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     let Ok(objects) = probe.objects() else { return Ok(false) };
     let mut tried = 0_usize;
-    for object in objects.iter().filter(|one| one.writable && !one.is_text()) {
-        let (group, offset, size) = (object.group, object.offset, object.size);
-        let address = ValueAddress::Object { group, offset, size };
+    for object in objects.iter().filter(|one| one.is_writable() && !one.is_text()) {
+        let address = &object.address;
         let name = object.name.to_string();
         // At a place without an axis nothing is written: its content is blank.
-        let of_axis = offset.get() >= 0x1000;
+        let of_axis = address.content().is_some_and(|(_, offset)| offset.get() >= 0x1000);
         let filled = match address.read() {
             Ok(read) if !probe.is_blank(object) && probe.may(read)? => {
-                probe.value_at(&address)?.is_some_and(|was| !of_axis || any(&was))
+                probe.value_at(address)?.is_some_and(|was| !of_axis || any(&was))
             }
             _ => false,
         };
-        if tried >= SOME || !filled || !probe.may_write(&address, &name)? {
+        if tried >= SOME || !filled || !probe.may_write(address, &name)? {
             continue;
         }
-        at(probe, &address, &name, false, None)?;
+        at(probe, address, &name, false, None)?;
         tried = tried.saturating_add(1);
     }
     Ok(tried > 0)

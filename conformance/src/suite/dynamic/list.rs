@@ -13,8 +13,9 @@ use ads_cnc_vectors::Hex;
 
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Evidence, Step, Stop, assumed};
+use crate::objects::KINDS;
 use crate::profile::Claim;
-use crate::suite::kit::{KINDS, PendingCheck, Probe, steadily};
+use crate::suite::kit::{PendingCheck, Probe, between, steadily};
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
@@ -129,24 +130,9 @@ fn settled(
 ) -> Step<Option<ParameterList>> {
     let mut doubtful: Option<ParameterList> = None;
     for _ in 0..TRIES {
-        let count = number(probe, channel, kind)?;
-        let names = ahead(probe, channel, kind, count)?;
-        let beyond = ask_name(probe, channel, kind, count.saturating_add(1))?;
-        let back = backwards(probe, channel, kind, &names)?;
-        let mut swayed = None;
-        if !same(&names, &back) {
-            let once_more = ahead(probe, channel, kind, count)?;
-            let and_back = backwards(probe, channel, kind, &names)?;
-            if !same(&names, &once_more) || !same(&back, &and_back) {
-                continue;
-            }
-            let mut pairs = names.iter().zip(back);
-            swayed = pairs.find(|(one, other)| one.data != other.data).map(|(_, other)| other);
-        }
-        if number(probe, channel, kind)? != count {
-            continue;
-        }
-        let list = ParameterList { count, names, beyond, swayed };
+        let count = |probe: &mut Probe<'_>| number(probe, channel, kind).map(Some);
+        let list = between(probe, count, |probe, &count| listed(probe, channel, kind, count))?;
+        let Some(list) = list.flatten() else { continue };
         // What is wrong has to be so once more.
         if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
             return Ok(Some(list));
@@ -154,6 +140,29 @@ fn settled(
         doubtful = Some(list);
     }
     Ok(None)
+}
+
+/// The list of a kind with `count` parameters; none if its names changed meanwhile.
+fn listed(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    count: u32,
+) -> Step<Option<ParameterList>> {
+    let names = ahead(probe, channel, kind, count)?;
+    let beyond = ask_name(probe, channel, kind, count.saturating_add(1))?;
+    let back = backwards(probe, channel, kind, &names)?;
+    let mut swayed = None;
+    if !same(&names, &back) {
+        let once_more = ahead(probe, channel, kind, count)?;
+        let and_back = backwards(probe, channel, kind, &names)?;
+        if !same(&names, &once_more) || !same(&back, &and_back) {
+            return Ok(None);
+        }
+        let mut pairs = names.iter().zip(back);
+        swayed = pairs.find(|(one, other)| one.data != other.data).map(|(_, other)| other);
+    }
+    Ok(Some(ParameterList { count, names, beyond, swayed }))
 }
 
 pub(super) fn names(probe: &mut Probe<'_>) -> Step {

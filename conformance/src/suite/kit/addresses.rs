@@ -6,8 +6,9 @@ use ads_cnc::address::{
 };
 
 use crate::judge::{IfThere as _, Rule, Step, assumed};
+use crate::objects::{Object, ValueAddress};
 use crate::simulator::{Held, Holder};
-use crate::suite::kit::{Instance, Object, Probe, ValueAddress};
+use crate::suite::kit::{Instance, Probe};
 
 /// What a target says itself of where things are, where no manual does.
 pub(crate) struct Addresses {
@@ -40,7 +41,7 @@ fn element(
 ) -> Step<ValueAddress> {
     let length = u32::try_from(held.value.len())?;
     let group = ClassGroup { addressing, class, attribute: Attribute::Content, instance };
-    Ok(ValueAddress::Element { element: ElementAddress::new(group, offset), length })
+    Ok(ValueAddress::of_element(ElementAddress::new(group, offset), length))
 }
 
 impl Addresses {
@@ -91,7 +92,7 @@ impl Addresses {
                 let group = com(Logical, ComTable::Channel, channel);
                 // Both strides are printed: the descriptor tells which it is.
                 let described = |offset: &IndexOffset| {
-                    let here = |one: &&Object| (one.group, one.offset) == (group, *offset);
+                    let here = |one: &&Object| one.address.content() == Some((group, *offset));
                     self.objects.iter().find(here).is_some_and(|one| one.name == held.name)
                 };
                 let described = offsets.into_iter().flatten().find(described);

@@ -6,7 +6,8 @@ use ads_cnc::operation::AxisHandleByName;
 use ads_cnc::{CncString, Description, Handle, Kind, VariablePath};
 
 use crate::judge::Step;
-use crate::suite::kit::{Probe, ValueAddress};
+use crate::objects::ValueAddress;
+use crate::suite::kit::Probe;
 
 /// The most places of a channel that are looked at.
 pub(crate) const PLACES_MAX: u32 = 64;

@@ -2,34 +2,28 @@
 
 mod variables;
 
+use ads_cnc::ObjectCount;
 use ads_cnc::address::{
-    Addressing, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable, ElementAddress, Group,
-    PlatformAxis,
+    Addressing, Channel, Class, ClassGroup, ComGroup, ComTable, ElementAddress, Group, PlatformAxis,
 };
-use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{
-    CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors,
-    ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag,
-    ReadObject, Request,
+    CountObjects, FindInstance, Function, ObjectList, ReadElementLength, ReadElementName,
+    ReadElementType, ReadElementUnit, ReadElementWriteFlag, Request,
 };
-use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
-use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
+use ads_cnc::sda::{ElementLength, ObjectAddress};
 
-pub(crate) use variables::{KINDS, VARIABLES_MAX, name_of};
+pub(crate) use variables::{VARIABLES_MAX, name_of};
 
 use crate::explain::class_name;
 use crate::judge::{OrStop as _, Step, Stop};
+use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, ValueAddress};
+use crate::suite::kit::Probe;
 
 /// The most objects of a list that are looked at, and elements of an instance.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// The most axes and spindles that are looked for.
 pub(crate) const INSTANCES_MAX: u32 = 255;
-
-/// How many in a row may be unreadable before no more are looked for: a number that a target gives
-/// may be any.
-const GAPS_MAX: u32 = 8;
 
 /// Classes with an instance for each channel, and one for each place of it.
 pub(crate) const OF_PLACES: [Class; 3] =
@@ -40,42 +34,6 @@ pub(crate) const OF_PLACES: [Class; 3] =
 pub(crate) struct Inventory {
     objects: Option<Vec<Object>>,
     instances: Option<Vec<Instance>>,
-}
-
-/// An object of the COM task.
-#[derive(Clone, Debug)]
-pub(crate) struct Object {
-    pub(crate) list: ObjectList,
-    pub(crate) name: CncString,
-    pub(crate) type_name: CncString,
-    pub(crate) size: u32,
-    pub(crate) writable: bool,
-    pub(crate) group: ads_cnc::address::IndexGroup,
-    pub(crate) offset: ads_cnc::address::IndexOffset,
-}
-
-impl Object {
-    /// The read of its content; none of the program stream, of which no read is documented.
-    pub(crate) fn read(&self) -> Option<ReadObject> {
-        ReadObject::new(self.group, self.offset, self.size).ok()
-    }
-
-    pub(crate) const fn address(&self) -> ValueAddress {
-        ValueAddress::Object { group: self.group, offset: self.offset, size: self.size }
-    }
-
-    pub(crate) fn is_text(&self) -> bool {
-        self.type_name.as_cnc_str() == "STRING"
-    }
-
-    /// Whether it is of the axis at this place: the objects of a channel's axes have a stride that
-    /// only their descriptors tell.
-    pub(crate) fn is_at(&self, place: u32) -> bool {
-        let strides = [AxisStride::X1000, AxisStride::X10000];
-        let mut split =
-            strides.iter().filter_map(|&stride| self.offset.axis_and_element(stride).ok());
-        split.any(|(axis, element)| axis == place && element > 0)
-    }
 }
 
 /// An instance of a class, by what it was asked for.
@@ -129,10 +87,12 @@ impl std::fmt::Display for Instance {
     }
 }
 
-/// A number of elements. Its width nobody says: a narrower one is read as that of a length is.
-pub(crate) fn number_of(data: &[u8]) -> Option<u32> {
-    let count = ElementCount::decode(data).map(|count| count.0);
-    count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
+impl Walker for Probe<'_> {
+    type Error = Stop;
+
+    fn request<'r>(&mut self, request: impl Into<Request<'r>>) -> Step<Option<Vec<u8>>> {
+        self.try_ask(request)
+    }
 }
 
 impl Probe<'_> {
@@ -148,25 +108,30 @@ impl Probe<'_> {
         (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
     }
 
-    /// The same object in the group that addresses its channel by rank; `None` unless its group is
-    /// logical. The numbers of the platform and its axes are the same in both.
-    pub(crate) fn object_by_rank(&self, object: &Object) -> Option<Object> {
-        let Some(Group::Com(com)) = object.group.parts() else { return None };
+    /// The address of an object in the group that addresses its channel by rank; `None` unless its
+    /// group is logical. The numbers of the platform and its axes are the same in both.
+    pub(crate) fn address_by_rank(&self, object: &Object) -> Option<ValueAddress> {
+        let (group, offset) = object.address.content()?;
+        let Some(Group::Com(com)) = group.parts() else { return None };
         let instance = match (com.table, com.instance) {
             (ComTable::Channel, 1..) => self.rank_of(com.instance.into())?,
             (_, instance) => instance,
         };
         let by_rank = ComGroup { addressing: Addressing::Index, instance, ..com };
-        (com.addressing == Addressing::Logical)
-            .then(|| Object { group: by_rank.index_group(), ..object.clone() })
+        let (group, size) = (by_rank.index_group(), object.size());
+        (com.addressing == Addressing::Logical).then_some(ValueAddress::Object {
+            group,
+            offset,
+            size,
+        })
     }
 
     /// Whether an object belongs to an axis index to which, by the profile, the channel assigns no axis: a
     /// value written to it is not kept.
     pub(crate) fn is_blank(&self, object: &Object) -> bool {
-        let channel = u32::from(object.list.parts().instance);
+        let List::Channel(number) = object.list else { return false };
         let empty = self.target.profile.empty_places.iter();
-        empty.filter(|at| at.0 == channel).any(|at| object.is_at(at.1))
+        empty.filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
     }
 
     /// The length of an element, as it says itself.
@@ -191,30 +156,7 @@ impl Probe<'_> {
             for list in self.lists()? {
                 let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
                 let count = count.map_or(0, |count| count.0.min(OBJECTS_MAX));
-                let mut gaps = 0_u32;
-                for first in 1..=count {
-                    let one = ReadDescriptors::new(list, first, 1)?;
-                    let data = self.try_ask(one)?.filter(|data| data.len() == DESCRIPTOR_LEN);
-                    let data = data.unwrap_or_default();
-                    let object = DescriptorsRef::decode(&data).ok();
-                    let Some(object) = object.as_ref().and_then(|list| list.get(0)) else {
-                        gaps = gaps.saturating_add(1);
-                        if gaps >= GAPS_MAX {
-                            break;
-                        }
-                        continue;
-                    };
-                    gaps = 0;
-                    all.push(Object {
-                        list,
-                        name: object.name().into(),
-                        type_name: object.type_name().into(),
-                        size: object.size(),
-                        writable: object.write_access().0 != 0,
-                        group: object.index_group(),
-                        offset: object.index_offset(),
-                    });
-                }
+                all.extend(self.objects_of(list, count, 1)?);
             }
             self.target.inventory.objects = Some(all);
         }
@@ -235,36 +177,16 @@ impl Probe<'_> {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
         }
         if self.target.inventory.instances.is_none() {
-            let mut all = Vec::new();
-            let channels: Vec<u32> =
-                self.channels()?.into_iter().map(|channel| channel.number().into()).collect();
-            self.collect(Class::PositionController, 0, 1, &mut all)?;
-            for &channel in &channels {
-                for class in OF_PLACES {
-                    self.collect(class, channel, 0, &mut all)?;
-                }
-                self.collect(Class::Hld, channel, 0, &mut all)?;
-            }
-            self.collect(Class::Hld, 0, 1, &mut all)?;
-            for index in 0..INSTANCES_MAX {
-                if !self.found(Class::Spindle, index, 0, &mut all)? {
-                    break;
-                }
+            let (mut all, channels) = (Vec::new(), self.channels()?);
+            for class in CLASSES {
+                self.instances_of(class, &channels, true, &mut |probe, channel, axis| {
+                    probe.found(class, channel, axis, &mut all)
+                })?;
             }
             self.target.inventory.instances = Some(all);
         }
         let all = self.target.inventory.instances.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")
-    }
-
-    /// The axes of a channel from this one on, up to the first that is not there.
-    fn collect(&mut self, class: Class, channel: u32, first: u32, all: &mut Vec<Instance>) -> Step {
-        for axis in first..=INSTANCES_MAX {
-            if !self.found(class, channel, axis, all)? {
-                break;
-            }
-        }
-        Ok(())
     }
 
     fn found(
@@ -276,15 +198,11 @@ impl Probe<'_> {
     ) -> Step<bool> {
         let Some(address) = self.address_of(class, channel, axis)? else { return Ok(false) };
         let Ok(Some(first)) = address.first_element() else { return Ok(false) };
-        // Who says the same place of every axis would have no end of them.
+        // A target that gives one address for every axis would have no last one.
         if all.iter().any(|known| known.class == class && known.first == first) {
             return Ok(false);
         }
-        let count = match CountElements::new(first) {
-            Ok(count) => self.try_ask(count)?,
-            Err(_) => None,
-        };
-        let told = count.and_then(|data| number_of(&data)).unwrap_or_default();
+        let told = self.count_elements(first)?.unwrap_or_default();
         let reached = self.reach(first, told.min(OBJECTS_MAX))?;
         // One less than it says, and there it ends: the first is counted.
         let is_itself = told > 0
@@ -301,17 +219,14 @@ impl Probe<'_> {
         if self.is_named(first, count)? {
             return Ok(count);
         }
-        let (mut reached, mut gaps) = (0, 0_u32);
-        for place in 1..count {
-            if self.is_named(first, place)? {
-                (reached, gaps) = (place, 0);
-            } else {
-                gaps = gaps.saturating_add(1);
+        let mut reached = 0;
+        self.each(1..count, |probe, number| {
+            let is_named = probe.is_named(first, number)?;
+            if is_named {
+                reached = number;
             }
-            if gaps >= GAPS_MAX {
-                break;
-            }
-        }
+            Ok(is_named)
+        })?;
         Ok(reached)
     }
 
@@ -330,6 +245,11 @@ impl Probe<'_> {
         axis: u32,
     ) -> Step<Option<ObjectAddress>> {
         self.try_read(FindInstance::new(class, channel, axis))
+    }
+
+    /// The list of the objects of a channel.
+    pub(crate) fn list_of(&self, number: u32) -> Step<List> {
+        Ok(List::Channel(self.channel_of(number)?.number()))
     }
 
     /// The channel with this number.

@@ -16,8 +16,8 @@ mod service_channels;
 mod steady;
 mod stream_write;
 mod target_state;
+mod try_write;
 mod undo;
-mod value_address;
 mod writable;
 
 pub(crate) use addresses::{Addresses, JudgedAddress, is_permuted};
@@ -30,8 +30,8 @@ pub(crate) use dynamic_variables::dynamic_among_variables;
 pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use element_type::type_and_length;
 pub(crate) use inventory::{
-    INSTANCES_MAX, Instance, Inventory, KINDS, OBJECTS_MAX, OF_PLACES, Object, VARIABLES_MAX,
-    attribute_reads, element_by_rank, name_of, number_of,
+    INSTANCES_MAX, Instance, Inventory, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads,
+    element_by_rank, name_of,
 };
 pub(crate) use layout::{
     brackets, element_count, element_name, element_size, order, part, places_tried,
@@ -46,10 +46,8 @@ pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{HELD_MAX, StreamWrite, send, send_until_taken};
 pub use target_state::TargetState;
+pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, another, is_sendable, same};
 pub use undo::Changes;
-pub(crate) use value_address::{
-    NOTHING_WRITABLE, ValueAddress, WriteCheck, another, is_sendable, same,
-};
 pub(crate) use writable::{
     WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,
     is_taken, require_taken, writable_numbers, write_check, write_value,

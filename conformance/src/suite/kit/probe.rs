@@ -16,6 +16,7 @@ use crate::exchange::{Exchange, Fault, Violation};
 use crate::gate::Reason;
 use crate::judge::{
     Checks, Describe, Evidence, Judgement, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict,
+    applicable,
 };
 use crate::process::interrupt;
 use crate::profile::Claim;
@@ -98,6 +99,11 @@ impl<'s> Probe<'s> {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
             (_, step) => step,
         }
+    }
+
+    /// Ends a case that has gone through all it could try: not applicable unless it judged anything.
+    pub(crate) fn finish(&self, why: &str) -> Step {
+        applicable(self.record.checks > 0, why)
     }
 
     /// The CNC itself, to do to it from within what nobody can ask for.

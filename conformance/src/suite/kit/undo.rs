@@ -18,7 +18,8 @@ use ads_cnc_vectors::Hex;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Entry;
 use crate::judge::{LeftChanged, Step, Stop};
-use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, ValueAddress, WriteCheck, same};
+use crate::objects::ValueAddress;
+use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, WriteCheck, same};
 use crate::text::{Moment, escape};
 
 /// How often a value is written back.

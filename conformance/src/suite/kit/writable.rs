@@ -10,9 +10,8 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, Description, Handle, U32List, VariableAccess, VariableType};
 
 use crate::judge::{Rule, Step, Stop, applicable};
-use crate::suite::kit::{
-    Instance, NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, is_sendable, name_of,
-};
+use crate::objects::ValueAddress;
+use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, is_sendable, name_of};
 
 /// What writing a variable of the Service Interface leads to has cases of its own.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
@@ -23,17 +22,16 @@ pub(crate) fn is_of_service(variable: &Description) -> bool {
 pub(crate) fn each_of_access(
     probe: &mut Probe<'_>,
     access: VariableAccess,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step<bool>,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
 ) -> Step {
-    let mut any = false;
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             if variable.access == access && !is_of_service(&variable) {
-                any |= judge(probe, channel, &variable)?;
+                judge(probe, channel, &variable)?;
             }
         }
     }
-    applicable(any, NOTHING_WRITABLE)
+    probe.finish(NOTHING_WRITABLE)
 }
 
 pub(crate) fn write_check<'t>(
@@ -177,7 +175,7 @@ fn named(
         return Ok(None);
     }
     let Some(length) = probe.length_of(element)? else { return Ok(None) };
-    let address = ValueAddress::Element { element, length };
+    let address = ValueAddress::of_element(element, length);
     let name = text(probe, ReadElementName::new(element).into())?;
     if address.read().is_err() || !probe.may_write(&address, &name)? {
         return Ok(None);

@@ -10,7 +10,7 @@ use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 
 use crate::explain::class_name;
-use crate::judge::{Rule, Step, applicable, assumed};
+use crate::judge::{Rule, Step, assumed};
 use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
@@ -76,13 +76,11 @@ fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress)
 }
 
 pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for (rank, channel) in (1_u8..).zip(probe.channels()?) {
         for class in OF_PLACES.into_iter().chain([Class::Hld]) {
             let number = channel.number().into();
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
-            any = true;
             let by_index = element_by_rank(first, rank);
             // That objects are asked for by rank too is not said of this function.
             let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
@@ -99,7 +97,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             steady.finish()?;
         }
     }
-    applicable(any, "the target names no instance")
+    probe.finish("the target names no instance")
 }
 
 /// A question of another length, and a read length that does not hold the answer.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ads_cnc::address::{Class, ElementAddress, Group};
-use ads_cnc::operation::{CountElements, ObjectList, ReadElement};
+use ads_cnc::operation::{CountElements, ReadElement};
 use ads_cnc_vectors::Hex;
 
 use crate::judge::{Step, Stop, assumed};
@@ -76,10 +76,12 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
 }
 
 fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
-    let list = ObjectList::from(probe.channel_of(channel)?);
+    let list = probe.list_of(channel)?;
     for object in probe.objects()?.into_iter().filter(|one| one.list == list) {
-        let is_com = matches!(object.group.parts(), Some(Group::Com(_)));
-        let (true, true, Some(read)) = (object.is_at(place), is_com, object.read()) else {
+        let group = object.address.content().and_then(|(group, _)| group.parts());
+        let is_com = matches!(group, Some(Group::Com(_)));
+        let (true, true, Ok(read)) = (object.is_of_axis(place), is_com, object.address.read())
+        else {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
@@ -134,15 +136,19 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
             probe.check("SDA-11", is_blank(&content), expected, found);
         }
     }
-    let list = ObjectList::from(probe.channel_of(one.into())?);
+    let list = probe.list_of(one.into())?;
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
         let name = object.name.to_string();
-        let (true, false, Some(read)) = (of_com.contains(&name), object.is_at(1), object.read())
-        else {
+        let (true, false, Ok(read), Some((_, offset))) = (
+            of_com.contains(&name),
+            object.is_of_axis(1),
+            object.address.read(),
+            object.address.content(),
+        ) else {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let expected = || format!("0 of {name} at {}", object.offset);
+        let expected = || format!("0 of {name} at {offset}");
         probe.check("SDA-11", is_blank(&content), expected, || Hex(content));
     }
     Ok(())
@@ -200,11 +206,11 @@ fn blank_at(
 
 /// The names of objects at the first place whose content is this number.
 fn numbers_of(probe: &mut Probe<'_>, channel: u8, number: u32) -> Step<Vec<String>> {
-    let list = ObjectList::from(probe.channel_of(channel.into())?);
+    let list = probe.list_of(channel.into())?;
     let number = u64::from(number).to_le_bytes();
     let mut all = Vec::new();
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
-        let (true, Some(read)) = (object.is_at(1), object.read()) else { continue };
+        let (true, Ok(read)) = (object.is_of_axis(1), object.address.read()) else { continue };
         let content = probe.try_ask(read)?.unwrap_or_default();
         if !content.is_empty() && number.starts_with(&content) {
             all.push(object.name.to_string());

@@ -7,7 +7,7 @@ use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, ONE, WIDE, get, put, within, within_at};
-use crate::judge::{Step, applicable};
+use crate::judge::Step;
 use crate::suite::kit::{Probe, service_channels};
 use crate::values::until_nul;
 
@@ -52,10 +52,8 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
 pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let all = service_channels(probe)?;
-    let mut any = false;
     for &asking in &all {
         let Some(&answered) = all.iter().find(|other| **other != asking) else { continue };
-        any = true;
         within_at(probe, asking, |probe, asking, cnc| {
             within_at(probe, answered, |probe, answered, _| {
                 let held: [(ServiceVariable, &[u8]); 4] = [
@@ -99,5 +97,5 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
             })
         })?;
     }
-    applicable(any, "one channel has the Service Interface")
+    probe.finish("one channel has the Service Interface")
 }

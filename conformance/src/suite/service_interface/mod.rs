@@ -11,8 +11,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
-use crate::judge::{Needs, Rule, Step, Stop, applicable, assumed};
-use crate::suite::kit::{Probe, ValueAddress, WriteCheck, heard, service_channels};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::objects::ValueAddress;
+use crate::suite::kit::{Probe, WriteCheck, heard, service_channels};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 
@@ -101,12 +102,10 @@ fn response(probe: &mut Probe<'_>) -> Step {
     let may = |probe: &mut Probe<'_>, channel: Channel| -> Step<bool> {
         probe.may(WriteByName::new(channel, Response.name(), b"\0")?)
     };
-    let mut any = false;
     for channel in service_channels(probe)? {
         if !may(probe, channel)? {
             continue;
         }
-        any = true;
         if get(probe, channel, RequestState)? != NONE {
             return Err(Stop::inconclusive("a program is asking a service: it is left alone"));
         }
@@ -124,7 +123,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
         let same = (until_nul(&after.0), &after.1) == (until_nul(&before.0), &before.1);
         probe.check("SVC-1", same, "the old response again", || format!("{after:02x?}"));
     }
-    applicable(any, "no service may be answered for")
+    probe.finish("no service may be answered for")
 }
 
 /// Does what changes a variable, and restores what was there.

@@ -2,7 +2,7 @@
 
 use super::buffer::{expect, set_up, set_up_at, taken};
 use super::comment;
-use crate::judge::{Step, applicable};
+use crate::judge::Step;
 use crate::simulator::program::{Pace, Start};
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
@@ -12,10 +12,8 @@ const FILLING: [usize; 5] = [992, 992, 992, 992, 126];
 /// While the interface of one channel is full, those of the others have all their room.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
     let all = probe.channels()?;
-    let mut any = false;
     for &full in &all {
         for &other in all.iter().filter(|other| **other != full) {
-            any = true;
             set_up_at(probe, full, Pace::Hold, Start::Once, |probe, full, first| {
                 set_up_at(probe, other, Pace::Hold, Start::Once, |probe, other, second| {
                     for len in FILLING {
@@ -34,7 +32,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
             })?;
         }
     }
-    applicable(any, "there is one channel")
+    probe.finish("there is one channel")
 }
 
 /// Packets of several lines that do not fit, though some of their lines would.

@@ -7,13 +7,14 @@ mod words;
 
 use std::time::{Duration, Instant};
 
-use ads_cnc::address::{Channel, ComTable};
+use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, applicable};
+use crate::judge::{Needs, Step, Stop};
+use crate::objects::List;
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
 #[rustfmt::skip]
@@ -69,27 +70,22 @@ const NAME: &str = "mc_program_stream_w";
 /// The object is looked for in the lists of channels, by what is stated of it: its name, and where
 /// it is. That it is listed at all is not.
 fn object(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
     for object in probe.objects()? {
-        let parts = object.list.parts();
-        let groups: Vec<_> = match parts.instance {
-            0 => continue,
-            number => [0x12_0100, 0x02_0100].iter().map(|base| base | u32::from(number)).collect(),
-        };
-        let of_channel = parts.table == ComTable::Channel;
-        let here = groups.contains(&object.group.get()) && object.offset.get() == OFFSET;
+        let List::Channel(number) = object.list else { continue };
+        let Some((group, offset)) = object.address.content() else { continue };
+        let groups = [0x12_0100, 0x02_0100].map(|base| base | u32::from(number));
+        let here = groups.contains(&group.get()) && offset.get() == OFFSET;
         let named = object.name.as_cnc_str() == NAME;
-        if !of_channel || !here && !named {
+        if !here && !named {
             continue;
         }
-        any = true;
-        let found = || format!("{} at {}, {}", object.name, object.group, object.offset);
+        let found = || format!("{} at {group}, {offset}", object.name);
         let expected =
             || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
         probe.check("STM-1", here && named, expected, found);
-        probe.check("STM-1", object.writable, "write access", "none");
+        probe.check("STM-1", object.is_writable(), "write access", "none");
     }
-    applicable(any, &format!("no list names {NAME}"))
+    probe.finish(&format!("no list names {NAME}"))
 }
 
 /// How long a device may take before it has read what it holds.

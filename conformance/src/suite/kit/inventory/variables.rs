@@ -6,14 +6,11 @@ use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
 use ads_cnc::{Decode, Description, Kind, TextRef, VariableCount};
 
 use crate::judge::{Step, Stop, applicable};
+use crate::objects::KINDS;
 use crate::suite::kit::Probe;
 
 /// The most variables of a kind that are looked at.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
-
-/// The kinds that can be enumerated.
-pub(crate) const KINDS: [(&str, Kind<'static>); 3] =
-    [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
 
 /// The name of a description, as a request carries it.
 pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {

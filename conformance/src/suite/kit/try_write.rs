@@ -1,4 +1,4 @@
-//! The address of a value: how a case reads it, writes it and restores it.
+//! Writes of a case: each writes another value, reads it back and restores the old one.
 
 #![cfg_attr(
     not(test),
@@ -7,69 +7,14 @@
     deny(clippy::unwrap_used)
 )]
 
-use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
-use ads_cnc::operation::{
-    AxisReadByName, AxisWriteByName, ReadByHandle, ReadByName, ReadElement, ReadObject, Request,
-    WriteByHandle, WriteByName, WriteElement, WriteObject,
-};
-use ads_cnc::{CncString, Error, Handle};
+use ads_cnc::CncString;
+use ads_cnc::operation::Request;
 use ads_cnc_vectors::Hex;
 
 use crate::judge::{Rule, Step, Stop};
+use crate::objects::ValueAddress;
 use crate::suite::kit::{Probe, RawCall};
 use crate::values::until_nul;
-
-/// A value by one way to it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum ValueAddress {
-    Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
-    Name { channel: Channel, name: CncString },
-    Axis { channel: Channel, axis: ChannelAxis, name: CncString },
-    Object { group: IndexGroup, offset: IndexOffset, size: u32 },
-    Element { element: ElementAddress, length: u32 },
-}
-
-impl ValueAddress {
-    /// The whole variable with a handle.
-    pub(crate) const fn of_handle(channel: Channel, handle: Handle) -> Self {
-        Self::Handle { channel, handle, indices: Vec::new() }
-    }
-
-    pub(crate) fn read(&self) -> Result<Request<'_>, Error> {
-        Ok(match self {
-            Self::Handle { channel, handle, indices } => {
-                ReadByHandle::new(*channel, *handle, indices).into()
-            }
-            Self::Name { channel, name } => {
-                ReadByName { channel: *channel, name: name.as_cnc_str().into() }.into()
-            }
-            Self::Axis { channel, axis, name } => {
-                let name = name.as_cnc_str().into();
-                AxisReadByName { channel: *channel, axis: *axis, name }.into()
-            }
-            Self::Object { group, offset, size } => ReadObject::new(*group, *offset, *size)?.into(),
-            Self::Element { element, length } => ReadElement::new(*element, *length)?.into(),
-        })
-    }
-
-    pub(crate) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
-        Ok(match self {
-            Self::Handle { channel, handle, indices } => {
-                WriteByHandle::new(*channel, *handle, indices, value).into()
-            }
-            Self::Name { channel, name } => {
-                WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
-                    .into()
-            }
-            Self::Axis { channel, axis, name } => {
-                let name = name.as_cnc_str();
-                AxisWriteByName { channel: *channel, axis: *axis, name, value: value.into() }.into()
-            }
-            Self::Object { group, offset, .. } => WriteObject::new(*group, *offset, value)?.into(),
-            Self::Element { element, .. } => WriteElement::new(*element, value)?.into(),
-        })
-    }
-}
 
 /// Why a case that writes is not applicable.
 pub(crate) const NOTHING_WRITABLE: &str = "nothing of it may be written";

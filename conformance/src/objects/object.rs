@@ -1,0 +1,153 @@
+//! What a CNC has: an object of the COM task, an element, a variable or a parameter.
+
+use std::fmt;
+
+use ads_cnc::address::{Attribute, AxisStride, Channel};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::value::DataType;
+use ads_cnc::{CncString, Description, DescriptorRef, Handle, VariableAccess};
+
+use super::{List, ValueAddress};
+use crate::gate::Entry;
+use crate::values::Type;
+
+/// One thing that has a value.
+#[derive(Clone, Debug)]
+pub struct Object {
+    pub list: List,
+    pub name: CncString,
+    pub address: ValueAddress,
+    pub ty: Type,
+    /// Its unit, if it has one.
+    pub unit: Option<CncString>,
+    pub access: Access,
+    /// Its handle, if it is a variable.
+    pub handle: Option<Handle>,
+}
+
+impl Object {
+    /// The object of the COM task with a descriptor.
+    pub(crate) fn of_descriptor(list: List, descriptor: DescriptorRef<'_>) -> Self {
+        let (group, offset) = (descriptor.index_group(), descriptor.index_offset());
+        Self {
+            list,
+            name: descriptor.name().into(),
+            address: ValueAddress::Object { group, offset, size: descriptor.size() },
+            ty: Type::of_content(descriptor.type_name(), descriptor.size()),
+            unit: None,
+            access: Access::of_flag(descriptor.write_access().is_writable()),
+            handle: None,
+        }
+    }
+
+    /// The variable with a description.
+    pub(crate) fn of_description(list: List, channel: Channel, variable: Description) -> Self {
+        let Description { var_type, dimensions, size, access, handle, name, .. } = variable;
+        let name = name.text;
+        Self {
+            list,
+            address: ValueAddress::Name { channel, name: name.clone() },
+            name,
+            ty: Type::of_variable(var_type, dimensions.as_slice().into(), size),
+            unit: None,
+            access: Access::of_variable(access),
+            handle: Some(handle),
+        }
+    }
+
+    /// A dynamic parameter: one number. No function of its own writes it; V.L, V.P and V.S some CNCs
+    /// have among the variables too (VAR-18).
+    pub(crate) fn of_parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Self {
+        Self {
+            list: List::Parameters { kind, channel: channel.number() },
+            address: ValueAddress::Parameter { channel, kind, name: name.clone() },
+            name,
+            ty: Type::known(DataType::Real64, Vec::new()),
+            unit: None,
+            access: if kind == DynamicKind::P { Access::Read } else { Access::Unknown },
+            handle: None,
+        }
+    }
+
+    /// Bytes of its value; 0 if the CNC does not say.
+    pub fn size(&self) -> u32 {
+        self.ty.size.unwrap_or(0)
+    }
+
+    /// Whether the CNC says that it may be written.
+    pub fn is_writable(&self) -> bool {
+        self.access == Access::ReadWrite
+    }
+
+    pub(crate) fn is_text(&self) -> bool {
+        self.ty.name == "STRING"
+    }
+
+    /// Whether it is of the axis with this index: the objects of a channel's axes have a stride that
+    /// only their descriptors tell.
+    pub(crate) fn is_of_axis(&self, index: u32) -> bool {
+        let Some((_, offset)) = self.address.content() else { return false };
+        let strides = [AxisStride::X1000, AxisStride::X10000];
+        let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
+        split.any(|(axis, element)| axis == index && element > 0)
+    }
+
+    /// The entry that allows writing it, and nothing else.
+    pub fn entry(&self) -> Entry {
+        let of_variable = |channel: Channel, axis| {
+            let name = self.name.clone();
+            Entry::Variable { channel, axis, name }
+        };
+        match self.address {
+            ValueAddress::Object { group, offset, .. } => Entry::Content { group, offset },
+            ValueAddress::Element { element, .. } => Entry::Content {
+                group: element.group(Attribute::Content),
+                offset: element.index_offset(),
+            },
+            ValueAddress::Axis { channel, axis, .. } => of_variable(channel, Some(axis)),
+            ValueAddress::Handle { channel, .. }
+            | ValueAddress::Name { channel, .. }
+            | ValueAddress::Parameter { channel, .. } => of_variable(channel, None),
+        }
+    }
+}
+
+/// Whether something may be written, as the CNC says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// It may be read.
+    Read,
+    /// It may be read and written.
+    ReadWrite,
+    /// The CNC says this, which no manual has.
+    Code(u32),
+    /// The CNC does not say.
+    Unknown,
+}
+
+impl Access {
+    /// As a flag has it.
+    pub const fn of_flag(writable: bool) -> Self {
+        if writable { Self::ReadWrite } else { Self::Read }
+    }
+
+    /// As a description has it.
+    pub const fn of_variable(access: VariableAccess) -> Self {
+        match access {
+            VariableAccess::READ_ONLY => Self::Read,
+            VariableAccess::READ_WRITE => Self::ReadWrite,
+            VariableAccess(code) => Self::Code(code),
+        }
+    }
+}
+
+impl fmt::Display for Access {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read => f.write_str("R"),
+            Self::ReadWrite => f.write_str("RW"),
+            Self::Code(code) => write!(f, "{code}"),
+            Self::Unknown => Ok(()),
+        }
+    }
+}

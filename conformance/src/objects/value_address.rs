@@ -1,0 +1,162 @@
+//! The address of a value: how it is read and written.
+
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
+use ads_cnc::address::{Attribute, Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::{
+    AxisReadByName, AxisWriteByName, DynamicValueByName, ReadByHandle, ReadByName, ReadElement,
+    ReadObject, Request, Task, WriteByHandle, WriteByName, WriteElement, WriteObject,
+};
+use ads_cnc::{CncString, Error, ErrorKind, Handle};
+
+use crate::session::{Session, Trouble};
+
+/// Where a value is; a variable has several addresses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ValueAddress {
+    /// A variable, or with indices an element of one.
+    Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
+    /// A variable; for an element the name has indices.
+    Name { channel: Channel, name: CncString },
+    /// A variable of an axis, over the axis interface.
+    Axis { channel: Channel, axis: ChannelAxis, name: CncString },
+    /// A dynamic parameter.
+    Parameter { channel: Channel, kind: DynamicKind, name: CncString },
+    /// The content of a COM object.
+    Object { group: IndexGroup, offset: IndexOffset, size: u32 },
+    /// The content of an element of a class, at the task SDA or GEO.
+    Element { element: ElementAddress, length: u32, task: Task },
+}
+
+impl ValueAddress {
+    /// The whole variable with a handle.
+    pub const fn of_handle(channel: Channel, handle: Handle) -> Self {
+        Self::Handle { channel, handle, indices: Vec::new() }
+    }
+
+    /// The content of an element of SDA.
+    pub const fn of_element(element: ElementAddress, length: u32) -> Self {
+        Self::Element { element, length, task: Task::Sda }
+    }
+
+    /// The request that reads the value.
+    ///
+    /// # Errors
+    /// A content that no request can read.
+    pub fn read(&self) -> Result<Request<'_>, Error> {
+        Ok(match self {
+            Self::Handle { channel, handle, indices } => {
+                ReadByHandle::new(*channel, *handle, indices).into()
+            }
+            Self::Name { channel, name } => {
+                ReadByName { channel: *channel, name: name.as_cnc_str().into() }.into()
+            }
+            Self::Axis { channel, axis, name } => {
+                let name = name.as_cnc_str().into();
+                AxisReadByName { channel: *channel, axis: *axis, name }.into()
+            }
+            Self::Parameter { channel, kind, name } => {
+                let name = name.as_cnc_str().into();
+                DynamicValueByName { channel: *channel, kind: *kind, name }.into()
+            }
+            Self::Object { group, offset, size } => ReadObject::new(*group, *offset, *size)?.into(),
+            Self::Element { element, length, .. } => ReadElement::new(*element, *length)?.into(),
+        })
+    }
+
+    /// The request that writes a value.
+    ///
+    /// # Errors
+    /// A content that no request can write.
+    pub fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
+        Ok(match self {
+            Self::Handle { channel, handle, indices } => {
+                WriteByHandle::new(*channel, *handle, indices, value).into()
+            }
+            // Parameters have no function of their own to be written.
+            Self::Name { channel, name } | Self::Parameter { channel, name, .. } => {
+                WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
+                    .into()
+            }
+            Self::Axis { channel, axis, name } => {
+                let name = name.as_cnc_str();
+                AxisWriteByName { channel: *channel, axis: *axis, name, value: value.into() }.into()
+            }
+            Self::Object { group, offset, .. } => WriteObject::new(*group, *offset, value)?.into(),
+            Self::Element { element, .. } => WriteElement::new(*element, value)?.into(),
+        })
+    }
+
+    /// Index group and offset of a content; `None` of a variable or a parameter.
+    pub const fn content(&self) -> Option<(IndexGroup, IndexOffset)> {
+        match self {
+            Self::Object { group, offset, .. } => Some((*group, *offset)),
+            Self::Element { element, .. } => {
+                Some((element.group(Attribute::Content), element.index_offset()))
+            }
+            _ => None,
+        }
+    }
+
+    /// The task that has the value.
+    pub const fn task(&self) -> Task {
+        match self {
+            Self::Object { .. } => Task::Com,
+            Self::Element { task, .. } => *task,
+            _ => Task::Sda,
+        }
+    }
+
+    /// Why there is no request for it.
+    fn no_request(&self, error: Error) -> Trouble {
+        match (self, error.kind()) {
+            // Of the functions of COM the program stream alone is where contents are.
+            (Self::Object { .. }, ErrorKind::Function) => Trouble::Unable(
+                "it is the program stream, which is written only: by ads-cnc stream".to_owned(),
+            ),
+            // Where a function is, no content is (SDA-12).
+            (_, ErrorKind::Function) => {
+                Trouble::Unable("a function is at its address, no content".to_owned())
+            }
+            _ => Trouble::Unsendable(error),
+        }
+    }
+}
+
+impl Session {
+    /// Reads the bytes of a value.
+    ///
+    /// # Errors
+    /// Those of [`request`](Self::request), and a reply that is no value.
+    pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, Trouble> {
+        let read = address.read().map_err(|error| address.no_request(error))?;
+        let data = self.request(address.task(), read)?;
+        read.decode_reply(&data).map_err(Trouble::Reply)?;
+        Ok(data)
+    }
+
+    /// Writes the bytes of a value.
+    ///
+    /// # Errors
+    /// That the gate rejects it, or those of [`request`](Self::request).
+    pub fn write(&mut self, address: &ValueAddress, value: &[u8]) -> Result<(), Trouble> {
+        let write = address.write(value).map_err(|error| address.no_request(error))?;
+        let data = self.request(address.task(), write)?;
+        write.decode_reply(&data).map(drop).map_err(Trouble::Reply)
+    }
+
+    /// Whether the gate lets the value be written. Nothing is sent.
+    ///
+    /// # Errors
+    /// That it does not.
+    pub fn check_write(&self, address: &ValueAddress) -> Result<(), Trouble> {
+        let write = address.write(&[]).map_err(|error| address.no_request(error))?;
+        self.check(address.task(), write)
+    }
+}

@@ -1,0 +1,177 @@
+//! What every walk asks for, and where its lists end.
+
+use ads_cnc::address::{Channel, Class, ComTable, ElementAddress};
+use ads_cnc::operation::{CountElements, ObjectList, ReadDescriptors, Request};
+use ads_cnc::sda::{ElementCount, ElementLength};
+use ads_cnc::{Decode, Descriptors, Kind};
+
+use super::super::{List, Object};
+use super::{GAP, NUMBER_MAX};
+
+/// The kinds of variables that have an index.
+pub(crate) const KINDS: [(&str, Kind<'static>); 3] =
+    [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
+
+/// The classes, in the order of a walk.
+pub(crate) const CLASSES: [Class; 6] = [
+    Class::PositionController,
+    Class::Interpolator,
+    Class::Decoder,
+    Class::PathPreparation,
+    Class::Hld,
+    Class::Spindle,
+];
+
+/// A number of elements. Its width is not documented: a narrower one is decoded as a length is.
+pub(crate) fn decode_element_count(data: &[u8]) -> Option<u32> {
+    let count = ElementCount::decode(data).map(|count| count.0);
+    count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
+}
+
+/// Sends the requests of a walk: a tool over its session, a case of the suite over its probe.
+pub(crate) trait Walker: Sized {
+    /// Why a walk ends early.
+    type Error;
+
+    /// The data of the reply; `None` if the target rejects the request.
+    fn request<'r>(
+        &mut self,
+        request: impl Into<Request<'r>>,
+    ) -> Result<Option<Vec<u8>>, Self::Error>;
+
+    /// As [`request`](Self::request), and `None` too if the data is not the stream `T`.
+    fn decoded<'r, T>(&mut self, request: impl Into<Request<'r>>) -> Result<Option<T>, Self::Error>
+    where
+        T: for<'b> Decode<'b>,
+    {
+        Ok(self.request(request)?.and_then(|data| T::decode(&data).ok()))
+    }
+
+    /// Visits numbers, up to [`GAP`] in a row that the target rejects; how many it does not.
+    fn each(
+        &mut self,
+        numbers: impl IntoIterator<Item = u32>,
+        mut is_there: impl FnMut(&mut Self, u32) -> Result<bool, Self::Error>,
+    ) -> Result<u32, Self::Error> {
+        let (mut count, mut gap) = (0_u32, 0_u32);
+        for number in numbers {
+            if is_there(self, number)? {
+                (count, gap) = (count.saturating_add(1), 0);
+            } else {
+                gap = gap.saturating_add(1);
+            }
+            if gap >= GAP {
+                break;
+            }
+        }
+        Ok(count)
+    }
+
+    /// The objects of a list with `count` of them, `range` in a request; one in a request after a
+    /// request for several was rejected.
+    fn objects_of(
+        &mut self,
+        list: ObjectList,
+        count: u32,
+        mut range: u32,
+    ) -> Result<Vec<Object>, Self::Error> {
+        let (mut all, mut first, mut gap) = (Vec::new(), 1_u32, 0_u32);
+        while first <= count && gap < GAP {
+            let most = range.min(count.saturating_sub(first).saturating_add(1));
+            let given: Option<Descriptors> = match ReadDescriptors::new(list, first, most) {
+                Ok(read) => self.decoded(read)?,
+                Err(_) => None,
+            };
+            let given = given.unwrap_or_default();
+            match u32::try_from(given.len()).unwrap_or(u32::MAX) {
+                len if (1..=most).contains(&len) => {
+                    let objects = given.iter().map(|one| Object::of_descriptor(list.into(), one));
+                    all.extend(objects);
+                    (first, gap) = (first.saturating_add(len), 0);
+                }
+                _ if range > 1 => range = 1,
+                _ => (first, gap) = (first.saturating_add(1), gap.saturating_add(1)),
+            }
+        }
+        Ok(all)
+    }
+
+    /// Visits every instance of a class by its channel and its axis; `is_there` looks whether the
+    /// target has it. With `aliases` the axes of the platform are visited in the HLD of every channel
+    /// too, else in that of the first channel if the platform has none (E-30).
+    fn instances_of(
+        &mut self,
+        class: Class,
+        channels: &[Channel],
+        aliases: bool,
+        is_there: &mut impl FnMut(&mut Self, u32, u32) -> Result<bool, Self::Error>,
+    ) -> Result<(), Self::Error> {
+        let mut numbers = channels.iter().map(|channel| u32::from(channel.number()));
+        match class {
+            Class::PositionController => self.axes_of(0, 1, is_there).map(drop),
+            Class::Interpolator | Class::Decoder | Class::PathPreparation => {
+                numbers.try_for_each(|channel| self.axes_of(channel, 0, is_there).map(drop))
+            }
+            Class::Hld => {
+                let first = numbers.clone().next();
+                for channel in numbers {
+                    if aliases {
+                        self.axes_of(channel, 0, is_there)?;
+                    } else {
+                        is_there(self, channel, 0)?;
+                    }
+                }
+                match (self.axes_of(0, 1, is_there)?, first) {
+                    (0, Some(first)) if !aliases => self.axes_of(first, 1, is_there).map(drop),
+                    _ => Ok(()),
+                }
+            }
+            Class::Spindle => {
+                for index in 0..=NUMBER_MAX {
+                    if !is_there(self, index, 0)? {
+                        break;
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Visits the axes of a channel from this one on, up to the first that is not there; how many are.
+    fn axes_of(
+        &mut self,
+        channel: u32,
+        first: u32,
+        is_there: &mut impl FnMut(&mut Self, u32, u32) -> Result<bool, Self::Error>,
+    ) -> Result<u32, Self::Error> {
+        let mut count = 0_u32;
+        for axis in first..=NUMBER_MAX {
+            if !is_there(self, channel, axis)? {
+                break;
+            }
+            count = count.saturating_add(1);
+        }
+        Ok(count)
+    }
+
+    /// How many elements an instance has, as the target says.
+    fn count_elements(&mut self, first: ElementAddress) -> Result<Option<u32>, Self::Error> {
+        // An instance may be said to begin where a function is.
+        let data = match CountElements::new(first) {
+            Ok(count) => self.request(count)?,
+            Err(_) => None,
+        };
+        Ok(data.and_then(|data| decode_element_count(&data)))
+    }
+}
+
+impl From<ObjectList> for List {
+    fn from(list: ObjectList) -> Self {
+        let parts = list.parts();
+        match (parts.table, parts.instance) {
+            (ComTable::Axis, axis) => Self::Axis(axis),
+            (ComTable::Channel, 0) => Self::Platform,
+            (ComTable::Channel, number) => Self::Channel(number),
+        }
+    }
+}
