@@ -10,13 +10,13 @@ pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, written over and over where that is a terminal.
 #[derive(Debug)]
-pub(super) struct Progress {
+pub(super) struct ProgressLine {
     pub(super) live: bool,
     last: Instant,
     width: usize,
 }
 
-impl Progress {
+impl ProgressLine {
     pub(super) fn new() -> Self {
         Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
     }
@@ -60,7 +60,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressLine {
     fn drop(&mut self) {
         self.clear();
     }

@@ -12,7 +12,7 @@ use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
 use crate::edition::Edition;
 use crate::faults::Seed;
-use crate::judge::{Case, Exit, Needs, Plan, Selection, Subject, Unmatched, Waivers, any_seed};
+use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, Waivers, any_seed};
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
@@ -301,7 +301,7 @@ impl Run {
         };
         let mut cases: Vec<Case> = suite::cases().into_iter().filter(fits).collect();
         if self.testee.is_some() {
-            cases.iter_mut().for_each(|case| case.subject = Subject::Testee);
+            cases.iter_mut().for_each(|case| case.subject = CaseSubject::Testee);
         }
         selection.plan(cases, seed)
     }

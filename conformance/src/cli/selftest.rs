@@ -23,7 +23,7 @@ use crate::selftest::detection::Scope;
     1 something else; 3 nothing tried.\n\nExamples:\n  ads-cnc selftest\n  ads-cnc selftest --only VAR-11 \
     --verbose\n  ads-cnc selftest --only cnc --json selftest.json"
 )]
-pub(super) struct SelfTest {
+pub(super) struct SelfTestArguments {
     /// Only what is called this: a group (codec, cnc, client, miniature, different), an area or a
     /// requirement, or the beginning of an ID; repeatable
     #[arg(long, value_name = "WORD")]
@@ -51,7 +51,7 @@ pub(super) struct SelfTest {
     json: Option<PathBuf>,
 }
 
-impl SelfTest {
+impl SelfTestArguments {
     pub(super) fn execute(&self) -> Exit {
         let terminal = io::stderr().is_terminal();
         let last = Mutex::new(0_usize);

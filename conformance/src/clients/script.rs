@@ -17,7 +17,7 @@ const LOOKS: usize = 2;
 
 /// What the CNC of a scenario answers.
 #[derive(Debug)]
-pub(super) struct Script {
+pub(super) struct ScenarioScript {
     /// The CNC behind it.
     pub(super) cnc: Cnc,
     /// What is done to the replies of a function.
@@ -33,7 +33,7 @@ pub(super) struct Script {
     last: BTreeMap<usize, Vec<u8>>,
 }
 
-impl Script {
+impl ScenarioScript {
     /// A CNC that does everything right.
     pub(super) const fn new(cnc: Cnc) -> Self {
         Self {

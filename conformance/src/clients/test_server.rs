@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AmsNetId;
 
-use super::script::Script;
+use super::script::ScenarioScript;
 use super::tamper::SendStep;
 use crate::judge::Stop;
 use crate::net;
@@ -129,7 +129,7 @@ pub struct TestServer {
 /// What is going on.
 #[derive(Debug)]
 struct TestRun {
-    script: Mutex<Script>,
+    script: Mutex<ScenarioScript>,
     turns: Mutex<Turns>,
     /// Open connections, and how many there have been.
     streams: Mutex<Vec<TcpStream>>,
@@ -168,7 +168,7 @@ impl TestServer {
     }
 
     /// From now on this is played.
-    pub(super) fn begin(&self, script: Script) {
+    pub(super) fn begin(&self, script: ScenarioScript) {
         *lock(&self.run) = Some(Arc::new(TestRun {
             script: Mutex::new(script),
             turns: Mutex::default(),
@@ -206,7 +206,7 @@ impl TestServer {
     }
 
     /// Ends what is played: every connection is closed.
-    pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<Script>) {
+    pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Beyond::default(), None);
         };

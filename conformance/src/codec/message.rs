@@ -11,7 +11,7 @@ use crate::text::{hex::compact, shorten};
 /// A line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
-pub enum Command {
+pub enum TesteeCommand {
     /// The first line.
     Hello { protocol: u32 },
     Case {
@@ -110,13 +110,14 @@ impl Known {
 
 /// The answer to `hello`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Hello {
+pub struct TesteeHello {
     pub protocol: u32,
     pub testee: Identity,
     /// What it can do.
     pub capabilities: Capabilities,
 }
 
+/// The name, version and language of a program, as its answer to `hello` has them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     pub name: String,

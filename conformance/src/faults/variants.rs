@@ -10,13 +10,13 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Row, Twist, Upstream, behind, dimensions, first,
-    fits, function, group, is, measured, number, offset, on, put, records_mut, row, text, twisted,
-    u32_at,
+    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Upstream, behind, dimensions,
+    fault, first, fits, function, group, is, measured, number, offset, on, put, records_mut, row,
+    text, u32_at,
 };
 
 /// A row about something that does not answer as printed.
-const fn unprinted(mut row: Row) -> Row {
+const fn unprinted(mut row: CncSeed) -> CncSeed {
     row.printed = false;
     row
 }
@@ -25,8 +25,8 @@ const fn sent(
     id: &'static str,
     what: &'static str,
     frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> Row {
-    twisted(id, &[], what, Twist::Frame(frame))
+) -> CncSeed {
+    fault(id, &[], what, CncFault::Frame(frame))
 }
 
 /// The handles of replies and, back, of requests made others.
@@ -56,14 +56,14 @@ fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: ReplyData) -> ReplyData
     fits(call, answer).or_else(|_| cnc.answer(call))
 }
 
-pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
+pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
     let areas =
         [ROWS, elements::ROWS, unspecified::ROWS, replies::ROWS, models::ROWS, requests::ROWS];
     areas.into_iter().flatten()
 }
 
 #[rustfmt::skip]
-const ROWS: &[Row] = &[
+const ROWS: &[CncSeed] = &[
     unprinted(row("different.names-padded", &[], "names are padded with NULs as far as the field goes",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex) => {
@@ -104,8 +104,8 @@ const ROWS: &[Row] = &[
             }
             _ => cnc.answer(call),
         })),
-    twisted("different.bytes-alone", &[], "every byte is sent by itself", Twist::Pieces(1)),
-    twisted("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", Twist::Pieces(40)),
+    fault("different.bytes-alone", &[], "every byte is sent by itself", CncFault::Pieces(1)),
+    fault("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", CncFault::Pieces(40)),
     row("different.error-numbers", &[], "errors have other numbers",
         |cnc, call| cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))),
     row("different.error-one", &[], "every error has the same number",

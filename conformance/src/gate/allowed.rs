@@ -110,7 +110,7 @@ pub enum Entry {
     /// The content at an address: of a COM object or of an element.
     Content { group: IndexGroup, offset: IndexOffset },
     /// The content of the one COM object of this name in a list.
-    Object { list: List, name: CncString },
+    Object { list: AllowedList, name: CncString },
     /// NC programs for a channel.
     Stream(Channel),
     /// What a host of the Service Interface writes to a channel.
@@ -118,7 +118,7 @@ pub enum Entry {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum List {
+pub enum AllowedList {
     /// Of the platform.
     Platform,
     /// Of a channel.
@@ -127,7 +127,7 @@ pub enum List {
     Axis(PlatformAxis),
 }
 
-impl List {
+impl AllowedList {
     /// The list as it is addressed.
     pub fn list(self) -> ObjectList {
         match self {
@@ -248,9 +248,9 @@ impl fmt::Display for Entry {
             }
             Self::Object { list, name } => {
                 let list = match list {
-                    List::Platform => "channel = 0".to_owned(),
-                    List::Channel(channel) => at(*channel),
-                    List::Axis(axis) => format!("axis = {}", axis.index()),
+                    AllowedList::Platform => "channel = 0".to_owned(),
+                    AllowedList::Channel(channel) => at(*channel),
+                    AllowedList::Axis(axis) => format!("axis = {}", axis.index()),
                 };
                 write!(f, "[[object]]\n{list}\nname = {}", quoted(name))
             }

@@ -29,7 +29,7 @@ mod observed;
 mod refusal;
 
 pub use crate::text::Moment;
-pub use allowed::{Allowed, Entry, List};
+pub use allowed::{Allowed, AllowedList, Entry};
 pub use file::AllowFileError;
 pub use refusal::{Doubt, Reason, Refusal};
 

@@ -588,10 +588,10 @@ fn entries_are_shown_as_they_are_read() {
             axis: None,
             name: "V.E.\"L\\\u{e4}nge\"\u{7f}".parse().unwrap(),
         },
-        Entry::Object { list: List::Platform, name: "a".parse().unwrap() },
-        Entry::Object { list: List::Channel(channel(2)), name: "a".parse().unwrap() },
+        Entry::Object { list: AllowedList::Platform, name: "a".parse().unwrap() },
+        Entry::Object { list: AllowedList::Channel(channel(2)), name: "a".parse().unwrap() },
         Entry::Object {
-            list: List::Axis(ads_cnc::address::PlatformAxis::new(3).unwrap()),
+            list: AllowedList::Axis(ads_cnc::address::PlatformAxis::new(3).unwrap()),
             name: "a".parse().unwrap(),
         },
         Entry::Content {

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{Running, interrupt};
+use super::{RunningCommand, interrupt};
 use crate::text::escape_lines;
 
 /// The longest line that is taken. The longest right answer has some thousand bytes.
@@ -61,7 +61,7 @@ pub enum RecvError {
 /// A command that runs; ended with all that it has started when it is dropped.
 #[derive(Debug)]
 pub struct LineProcess {
-    child: Running,
+    child: RunningCommand,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
 }
@@ -70,7 +70,7 @@ impl LineProcess {
     /// Starts a command, apart from this process.
     pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = Running::start(command)?;
+        let child = RunningCommand::start(command)?;
         let (to, lines) = mpsc::channel();
         let (tell, from) = mpsc::sync_channel(4);
         if let Some(stdin) = child.take_stdin() {
@@ -231,7 +231,11 @@ pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     })
 }
 
-fn wait(child: &Running, limit: Duration, mut meanwhile: impl FnMut()) -> Option<ExitStatus> {
+fn wait(
+    child: &RunningCommand,
+    limit: Duration,
+    mut meanwhile: impl FnMut(),
+) -> Option<ExitStatus> {
     let until = Instant::now().checked_add(limit)?;
     loop {
         match child.try_wait() {

@@ -65,7 +65,7 @@ impl Profile {
     /// # Errors
     /// The line and what is wrong in it: keys that are unknown, values that nothing can have.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
-        let file: File = toml::from_str(text).map_err(|error| {
+        let file: ProfileFile = toml::from_str(text).map_err(|error| {
             // As it shows itself it draws the line; the message alone does not say which.
             ProfileFileError { file: None, why: error.to_string().trim_end().to_owned() }
         })?;
@@ -75,7 +75,7 @@ impl Profile {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-struct File {
+struct ProfileFile {
     name: Option<String>,
     #[serde(default, deserialize_with = "edition")]
     edition: Option<Edition>,
@@ -107,8 +107,8 @@ struct File {
     timeout: Option<Duration>,
 }
 
-impl From<File> for Profile {
-    fn from(file: File) -> Self {
+impl From<ProfileFile> for Profile {
+    fn from(file: ProfileFile) -> Self {
         let all = |texts: Vec<String>| texts.into_iter().map(Cow::Owned).collect::<Vec<_>>();
         let device = Self::DEVICE;
         Self {

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use super::BytesReport;
 use super::lines::{lines, marked};
 use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals};
-use crate::judge::{Exit, Subject, Verdict, WaiverReport};
+use crate::judge::{CaseSubject, Exit, Verdict, WaiverReport};
 
 /// Writes the report. `verbose` shows the cases made of vectors one by one too.
 pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
@@ -64,19 +64,19 @@ pub(super) fn describe(target: &TargetReport) -> String {
     text
 }
 
-pub(super) const fn heading(subject: Subject) -> &'static str {
+pub(super) const fn heading(subject: CaseSubject) -> &'static str {
     match subject {
-        Subject::Codec => "The codec against the golden vectors",
-        Subject::Testee => "The testee against the golden vectors",
-        Subject::Target => "The target, asked over AMS/TCP",
-        Subject::Client => "The client, answered over AMS/TCP",
-        Subject::CapturedClient => "The clients in the captured traffic",
-        Subject::CapturedCnc => "The CNCs in the captured traffic",
+        CaseSubject::Codec => "The codec against the golden vectors",
+        CaseSubject::Testee => "The testee against the golden vectors",
+        CaseSubject::Target => "The target, asked over AMS/TCP",
+        CaseSubject::Client => "The client, answered over AMS/TCP",
+        CaseSubject::CapturedClient => "The clients in the captured traffic",
+        CaseSubject::CapturedCnc => "The CNCs in the captured traffic",
     }
 }
 
 /// The cases of one who was judged: of vectors one line for each stream.
-fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
+fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(who))?;
     let mine = || report.cases.iter().filter(|case| case.subject == who);
     let mut streams: BTreeMap<&str, Vec<&CaseReport>> = BTreeMap::new();
@@ -110,7 +110,7 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> i
 }
 
 /// The place of each requirement in the catalogue.
-fn places(report: &Report, who: Subject) -> BTreeMap<&str, usize> {
+fn places(report: &Report, who: CaseSubject) -> BTreeMap<&str, usize> {
     let mine = report.subjects.iter().filter(|one| one.subject == who);
     let all = mine.flat_map(|one| &one.areas).flat_map(|area| &area.requirements);
     all.enumerate().map(|(place, one)| (one.requirement.as_str(), place)).collect()

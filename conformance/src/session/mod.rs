@@ -17,7 +17,7 @@ use ads_cnc::{Kind, address::Channel};
 
 use crate::client::{Client, Inquiry, Said, Tap, Target};
 use crate::deadline::Deadline;
-use crate::exchange::{Exchange, Fault};
+use crate::exchange::{Exchange, ExchangeError};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
@@ -210,7 +210,7 @@ impl Session {
                 self.reply = answer.data.unwrap_or_default();
             }
             // Nothing is waited for.
-            Err(Fault::NotSent) if spec.reply.is_none() => {}
+            Err(ExchangeError::NotSent) if spec.reply.is_none() => {}
             Err(fault) => return Err(Trouble::fault(&self.client, fault, self.answered)),
         }
         operation.decode_reply(&self.reply).map_err(Trouble::Reply)
@@ -371,8 +371,8 @@ impl fmt::Display for Shown<'_> {
         let spec = call.dispatch().ok().map(|request| request.function().spec());
         let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
         let verdict = match &self.0.outcome {
-            Err(Fault::Refused(refusal)) => format!("would be refused: {refusal}"),
-            Err(Fault::Unsendable(error)) => format!("has no form on the wire: {error}"),
+            Err(ExchangeError::Refused(refusal)) => format!("would be refused: {refusal}"),
+            Err(ExchangeError::Unsendable(error)) => format!("has no form on the wire: {error}"),
             _ => "would be sent".to_owned(),
         };
         writeln!(f, "{verdict}\n  {name} ({clause}): {}", self.0)?;

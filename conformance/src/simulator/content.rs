@@ -6,7 +6,7 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 
 use super::model::{Item, Meaning, Model};
-use super::state::State;
+use super::state::CncState;
 
 /// What an object or an element belongs to. Places are counted from 0 here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +50,7 @@ pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
 /// The content; blank where no axis is (SDA-11).
 pub(super) fn read<'s>(
     model: &Model,
-    state: &'s State,
+    state: &'s CncState,
     owner: Owner,
     index: usize,
 ) -> Result<Cow<'s, [u8]>, AdsError> {
@@ -72,7 +72,7 @@ pub(super) fn read<'s>(
 /// Writes a content of the right size that may be written.
 pub(super) fn write(
     model: &Model,
-    state: &mut State,
+    state: &mut CncState,
     owner: Owner,
     index: usize,
     bytes: &[u8],
@@ -116,7 +116,7 @@ pub(super) fn put(place: &mut [u8], bytes: &[u8]) {
     place.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = new);
 }
 
-fn axis(state: &State, owner: Owner) -> Option<usize> {
+fn axis(state: &CncState, owner: Owner) -> Option<usize> {
     match owner {
         Owner::Axis(axis) | Owner::ClassAxis(_, axis) => Some(axis),
         Owner::Place { channel, place } | Owner::ClassPlace { channel, place, .. } => {

@@ -31,7 +31,7 @@ pub(crate) enum Holder {
 
 /// A content of an object or an element, as it is at the moment.
 #[derive(Clone, Debug)]
-pub(crate) struct Held {
+pub(crate) struct StoredContent {
     pub(crate) holder: Holder,
     /// Its place among those of the holder.
     pub(crate) element: u32,
@@ -65,7 +65,7 @@ pub(crate) struct HeldParameter {
 impl Cnc {
     /// All contents that are what was put there last: none that says something of the
     /// configuration, none where no axis is.
-    pub(crate) fn held(&self) -> Vec<Held> {
+    pub(crate) fn held(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
             let elements = elements(self.model(), owner);
@@ -74,7 +74,7 @@ impl Cnc {
             let items = content::items(self.model(), owner).iter().zip(elements).zip(values);
             for (index, ((item, element), value)) in items.enumerate() {
                 if item.meaning == Meaning::Value {
-                    all.push(Held {
+                    all.push(StoredContent {
                         holder,
                         element,
                         name: item.name.clone(),
@@ -92,7 +92,7 @@ impl Cnc {
     }
 
     /// Puts this value there; it has the size of the old one.
-    pub(crate) fn hold(&self, held: &Held, value: &[u8]) {
+    pub(crate) fn hold(&self, held: &StoredContent, value: &[u8]) {
         let mut state = self.state();
         let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
         if let Some(content) = content.filter(|content| content.len() == value.len()) {

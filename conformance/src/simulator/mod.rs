@@ -42,7 +42,7 @@ pub use crate::gate::NET_ID;
 pub use answer::Cnc;
 pub use control::ControlError;
 pub(crate) use in_process::InProcess;
-pub(crate) use inspect::{Held, Holder};
+pub(crate) use inspect::{Holder, StoredContent};
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::DATA_MAX;

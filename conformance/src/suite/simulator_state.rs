@@ -6,7 +6,7 @@ use ads_cnc::address::{ComGroup, ComTable};
 use super::kit::{self, Addresses, JudgedAddress, Object, Probe, ValueAddress, is_permuted};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
-use crate::simulator::{Held, Holder};
+use crate::simulator::{Holder, StoredContent};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
@@ -30,18 +30,18 @@ const ROUNDS: u32 = 6;
 /// Rounds of longer contents.
 const ROUNDS_OF_NUMBERS: u32 = 2;
 
-fn is_bit(held: &Held) -> bool {
+fn is_bit(held: &StoredContent) -> bool {
     matches!(held.type_name, "BOOL" | "BOOLEAN")
 }
 
 /// Whether its bytes have an order.
-fn is_number(held: &Held) -> bool {
+fn is_number(held: &StoredContent) -> bool {
     held.type_name != "STRING" && held.value.len() > 1
 }
 
 /// A value of the content with this number, another in each round. No two bytes of a number are
 /// the same, and no REAL is an odd one.
-fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
+fn value(held: &StoredContent, number: u32, round: u32) -> Vec<u8> {
     if is_bit(held) {
         return vec![u8::from(number.checked_shr(round).unwrap_or_default() & 1 == 1)];
     }
@@ -62,7 +62,7 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
     }
 }
 
-fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
+fn same(held: &StoredContent, one: &[u8], other: &[u8]) -> bool {
     kit::same(one, other, held.type_name == "STRING")
 }
 
@@ -71,7 +71,7 @@ fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
 fn judge(
     probe: &mut Probe<'_>,
     rules: &[Rule],
-    held: &Held,
+    held: &StoredContent,
     (expected, found): (&[u8], Option<&[u8]>),
     result: &str,
 ) {
@@ -99,7 +99,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
         let values: Vec<Vec<u8>> =
             (1..).zip(&all).map(|(number, held)| value(held, number, round)).collect();
         all.iter().zip(&values).for_each(|(held, value)| cnc.hold(held, value));
-        let of_round = |held: &Held| is_bit(held) || round < ROUNDS_OF_NUMBERS;
+        let of_round = |held: &StoredContent| is_bit(held) || round < ROUNDS_OF_NUMBERS;
         for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
             done = done.and_then(|()| read(probe, &addresses, held, value));
         }
@@ -108,7 +108,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
     done
 }
 
-fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &Held, value: &[u8]) -> Step {
+fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &StoredContent, value: &[u8]) -> Step {
     for (place, rules) in addresses.of(held)? {
         // Of the program stream, and where functions are, nothing is read.
         let Ok(request) = place.read() else { continue };
@@ -138,8 +138,8 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
 
 fn write(
     probe: &mut Probe<'_>,
-    all: &[Held],
-    held: &Held,
+    all: &[StoredContent],
+    held: &StoredContent,
     addresses: &[JudgedAddress],
     value: &[u8],
 ) -> Step {
@@ -238,7 +238,7 @@ mod tests {
     #[test]
     fn values_are_told_apart() {
         let all = Cnc::with_default_model().unwrap().held();
-        let sequence = |number: u32, held: &Held| {
+        let sequence = |number: u32, held: &StoredContent| {
             let rounds = if is_bit(held) { ROUNDS } else { ROUNDS_OF_NUMBERS };
             (0..rounds).map(|round| value(held, number, round)).collect::<Vec<_>>()
         };

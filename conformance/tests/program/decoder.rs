@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, ProgramEnd};
 use ads_cnc_conformance::simulator::program::{
-    Pace, Program, ProgramConfig, Start, StartError, State, digest,
+    Pace, ProgramConfig, Start, StartError, State, StreamingProgram, digest,
 };
 use proptest::prelude::*;
 
@@ -17,16 +17,16 @@ fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)
 }
 
-fn program(pace: Pace) -> Program {
-    Program::new(ProgramConfig { pace, ..ProgramConfig::default() })
+fn program(pace: Pace) -> StreamingProgram {
+    StreamingProgram::new(ProgramConfig { pace, ..ProgramConfig::default() })
 }
 
-fn lines(rate: u32) -> Program {
+fn lines(rate: u32) -> StreamingProgram {
     program(Pace::lines_per_second(rate).unwrap())
 }
 
 #[track_caller]
-fn aborted(program: &Program) -> String {
+fn aborted(program: &StreamingProgram) -> String {
     match program.state() {
         State::Aborted(message) => message.to_string(),
         other => panic!("{other:?}"),
@@ -35,7 +35,7 @@ fn aborted(program: &Program) -> String {
 
 #[test]
 fn default_is_started_and_not_without_end() {
-    let mut program = Program::new(ProgramConfig::default());
+    let mut program = StreamingProgram::new(ProgramConfig::default());
     assert_eq!(program.state(), State::Dry);
     let line = [&[b'X'; 990][..], b"\r\n"].concat();
     let taken = (0..10).take_while(|_| program.write(&line, ZERO) == Ack::Accepted).count();
@@ -50,7 +50,8 @@ fn default_is_started_and_not_without_end() {
 #[test]
 fn writes_of_a_wrong_size_are_refused_in_any_state() {
     for start in [Start::ByHand, Start::Once, Start::Again] {
-        let mut program = Program::new(ProgramConfig { start, ..ProgramConfig::default() });
+        let mut program =
+            StreamingProgram::new(ProgramConfig { start, ..ProgramConfig::default() });
         assert_eq!(program.write(b"", ZERO), Ack::Rejected);
         assert_eq!(program.write(&[b'X'; STREAM_PACKET_MAX + 1], ZERO), Ack::Rejected);
         assert_eq!((program.held(), program.refusals()), (0, 0));
@@ -133,7 +134,7 @@ fn ends() {
 fn a_program_that_is_started_again_and_again() {
     let config =
         ProgramConfig { start: Start::Again, pace: Pace::Fast, ..ProgramConfig::default() };
-    let mut program = Program::new(config);
+    let mut program = StreamingProgram::new(config);
     program.write(b"N1:\r\nM30\r\nN2\r\n", ZERO);
     assert_eq!(program.state(), State::Dry);
     // The label was that of the program before.
@@ -211,7 +212,7 @@ fn comments_hide_over_packets_and_calls_return() {
 fn without_a_name_there_is_no_streaming() {
     let config =
         ProgramConfig { name: String::new(), pace: Pace::Fast, ..ProgramConfig::default() };
-    let mut program = Program::new(config);
+    let mut program = StreamingProgram::new(config);
     assert_eq!(program.state(), State::Stopped);
     assert_eq!(program.start(ZERO), Err(StartError::NoName));
     assert_eq!(program.write(b"N1\r\n", ZERO), Ack::Accepted);
@@ -236,7 +237,7 @@ fn a_reset_runs_what_was_due_and_no_more() {
 fn what_was_run_is_kept_within_bounds() {
     for kept in [0, 1, 10, 100, 5000] {
         let config = ProgramConfig { pace: Pace::Fast, kept, ..ProgramConfig::default() };
-        let mut program = Program::new(config);
+        let mut program = StreamingProgram::new(config);
         let mut all = Vec::new();
         for n in 0..2000_usize {
             let line = format!("N{n} {}\r\n", "X".repeat(n * 7 % 60));
@@ -289,7 +290,7 @@ fn all_goes_as_if_it_ran_all_the_time(
 ) {
     let start = if again { Start::Again } else { Start::Once };
     let config = ProgramConfig { pace, start, ..ProgramConfig::default() };
-    let (mut busy, mut lazy) = (Program::new(config.clone()), Program::new(config));
+    let (mut busy, mut lazy) = (StreamingProgram::new(config.clone()), StreamingProgram::new(config));
     let mut now = ZERO;
     for (data, wait, ticks) in writes {
         let next = now + ms(wait);

@@ -11,10 +11,12 @@ use super::super::table::{Ending, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
-use super::{CapturedFrame, Judge, Lost, PATIENCE, is_cnc, is_reply, location, service_clause};
+use super::{
+    CapturedFrame, Lost, PATIENCE, TrafficJudge, is_cnc, is_reply, location, service_clause,
+};
 use crate::judge::Checks as _;
 
-impl Judge {
+impl TrafficJudge {
     pub(super) fn broken(
         &mut self,
         error: Error,

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::findings::{Observation, Topic};
-use super::super::table::{SegmentDirection, Table};
+use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, Judge, is_cnc, location, service_clause};
+use super::{CapturedFrame, TrafficJudge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Requests of a connection that wait for their answers, and bytes of those of all connections; of
@@ -95,7 +95,7 @@ impl CapturedFrame {
     }
 }
 
-impl Judge {
+impl TrafficJudge {
     /// A request that is to be answered, if it was not before it was captured.
     pub(super) fn wait(&mut self, seen: CapturedFrame) {
         let id = seen.header.invoke_id;
@@ -153,7 +153,11 @@ impl Judge {
 
     /// Whether another request with this invoke ID still waits; none if its answer may only not
     /// have been captured.
-    pub(super) fn is_repeated(&self, seen: &CapturedFrame, table: &Table) -> Option<bool> {
+    pub(super) fn is_repeated(
+        &self,
+        seen: &CapturedFrame,
+        table: &ConnectionTable,
+    ) -> Option<bool> {
         let lost = self.lost.get(&seen.way.connection);
         let back = SegmentDirection { from: seen.way.to, to: seen.way.from, ..seen.way };
         let got = seen.span.last.acknowledged?;
@@ -201,7 +205,7 @@ impl Judge {
     }
 
     /// Gives up the requests of replies for which none will come any more.
-    pub(super) fn tidy(&mut self, table: &Table) {
+    pub(super) fn tidy(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
             let last = first.span.last.packet.saturating_add(REORDERED_MAX);

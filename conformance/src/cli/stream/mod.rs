@@ -29,7 +29,7 @@ use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::text::duration;
 use check::CheckedText;
-use progress::Progress;
+use progress::StreamProgress;
 use send::{Retry, SendEnd, Sending};
 
 const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
@@ -40,7 +40,7 @@ const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 /// what it has. A packet that the CNC cannot take for now is sent again.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
-pub(super) struct Stream {
+pub(super) struct StreamArguments {
     /// The NC program; - reads it from stdin
     #[arg(value_name = "FILE.nc")]
     file: PathBuf,
@@ -93,7 +93,7 @@ Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 
 3 unfinished: a signal, no connection or no answer; 4 refused for safety; 70 internal error.
 Once it sends, stdout says which lines were taken, and which were not if it ends before its time.";
 
-impl Stream {
+impl StreamArguments {
     /// Sends, and says how the process ends.
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |_| None)
@@ -159,7 +159,7 @@ impl Stream {
             refusals: 0,
             out: 0,
         };
-        let mut progress = Progress::new(text, self.quiet);
+        let mut progress = StreamProgress::new(text, self.quiet);
         let end = sending.run(&mut session, &interrupt, &mut progress);
         progress.clear();
         let channel = self.channel.channel.number();

@@ -8,7 +8,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, Sender};
 
-use super::progress::{Progress, Rate, Size};
+use super::progress::{ByteCount, Rate, StreamProgress};
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 
@@ -49,7 +49,7 @@ impl Sending<'_> {
         &mut self,
         session: &mut Session,
         interrupt: &Interrupt,
-        progress: &mut Progress,
+        progress: &mut StreamProgress,
     ) -> SendEnd {
         loop {
             if interrupt.came() {
@@ -101,7 +101,7 @@ impl Sending<'_> {
         took: Duration,
     ) -> String {
         let sent = self.sender.sent();
-        let (packets, bytes, rate) = (sent.packets, Size(sent.bytes), Rate(sent.bytes, took));
+        let (packets, bytes, rate) = (sent.packets, ByteCount(sent.bytes), Rate(sent.bytes, took));
         let channel = self.channel.number();
         let mut summary = match sent.lines {
             0 => format!("{name}: channel {channel} has taken nothing"),

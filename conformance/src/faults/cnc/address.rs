@@ -4,7 +4,7 @@ use ads_cnc::address::{Access, Addressing, Class, ComTable};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::{LOGICAL, Row, class, com_group, group, is, offset, row};
+use super::{CncSeed, LOGICAL, class, com_group, group, is, offset, row};
 
 /// Whether the low byte of the group is a channel.
 fn of_channel(call: &Call<'_>) -> bool {
@@ -20,7 +20,7 @@ fn by_index(call: &Call<'_>) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.index-as-logical", &["ADR-1"],
         "the bit of logical addressing is ignored: a channel by index is the one with that number",
         |cnc, call| match of_channel(call) {

@@ -4,12 +4,12 @@ use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Service};
 
 use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
-use super::{Row, fits, put, row};
+use super::{CncSeed, fits, put, row};
 
 const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.ads.read-more", &["ADS-1"], "a Read is answered with all there is, however short the length",
         |cnc, call| match call.service { Service::Read => cnc.whole(call), _ => cnc.answer(call) }),
     row("cnc.ads.read-write-more", &["ADS-3"],

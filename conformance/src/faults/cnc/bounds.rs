@@ -7,8 +7,8 @@ use ads_cnc::service::ServiceVariable;
 use super::handle::{joined, parts};
 use super::lookup::{indexed, instance, with_indices};
 use super::{
-    DESCRIPTIONS, LOGICAL, Row, behind, dimensions, fits, function, group, is, number, offset, on,
-    records, reply, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, LOGICAL, behind, dimensions, fits, function, group, is, number, offset,
+    on, records, reply, row, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -16,7 +16,7 @@ const STREAM: &[Function] = &[Function::WriteProgramStream];
 const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.logical-beyond-number", &["ADR-1"],
         "logical numbers of channels go up to the number of channels: in SDA and GEO channel 6 is refused",
         |cnc, call| match (group(call) & 0xFF_0F00, usize::try_from(instance(call))) {

@@ -1,13 +1,13 @@
 //! Types, access and sizes of variables (VAR).
 
 use super::variable::element;
-use super::{DESCRIPTIONS, Row, dimensions, number, on, put, reply, row, u32_at};
+use super::{CncSeed, DESCRIPTIONS, dimensions, number, on, put, reply, row, u32_at};
 
 /// The sizes of elements of the types in their order, without STRING.
 const SIZES: [u32; 9] = [0, 1, 1, 1, 2, 2, 4, 4, 8];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.types-from-0", &["VAR-5"], "types are counted from 0: BOOLEAN",
         DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| code.wrapping_sub(1))),
     on("cnc.var.types-unsigned-first", &["VAR-5"],

@@ -5,8 +5,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    ReplyData, Row, Upstream, com_group, group, is, number, offset, on, records, records_mut, row,
-    u32_at,
+    CncSeed, ReplyData, Upstream, com_group, group, is, number, offset, on, records, records_mut,
+    row, u32_at,
 };
 
 const LEN: u32 = 84;
@@ -37,7 +37,7 @@ pub(super) fn set(record: &mut [u8; 84], place: usize, bytes: &[u8]) {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.com.count-one-more", &["COM-1"], "the number of objects counts itself",
         &[Function::CountObjects], |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
     on("cnc.com.count-one-less", &["COM-1", "OBJ-1"],

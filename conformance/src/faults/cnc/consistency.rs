@@ -5,7 +5,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Key, ReplyData, Row, Upstream, class, group, is, number, offset, on, put, reply, row, text,
+    CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, put, reply, row, text,
     u32_at,
 };
 
@@ -60,7 +60,7 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Repl
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.address-of-channel-1", &["SDA-1"],
         "whichever channel is asked for, the address is that of channel 1",
         |cnc, call| asked(cnc, call, 0, |channel| channel.min(1))),

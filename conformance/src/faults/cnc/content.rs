@@ -4,7 +4,7 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule, Service};
 
-use super::{Row, at, class, function, functions, group, is, is_at, number, offset, on, row};
+use super::{CncSeed, at, class, function, functions, group, is, is_at, number, offset, on, row};
 
 const COUNT: &[Function] = &[Function::CountElements];
 const WRITE: &[Function] = &[Function::WriteElement];
@@ -27,7 +27,7 @@ fn empty_place(call: &Call<'_>) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.sda.count-itself", &["SDA-4"], "the number of element types is twice what it should be",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_mul(2))),
     on("cnc.sda.count-one-less", &["SDA-4", "OBJ-1"], "the number of element types leaves out the last",

@@ -2,14 +2,14 @@
 
 use ads_cnc::ads::{AmsPort, Command};
 
-use super::Row;
+use super::CncSeed;
 use super::frame::{DATA, LENGTH, RESULT, is, measured, sent, set};
 
 const INFO: &[Command] = &[Command::READ_DEVICE_INFO];
 const STATE: &[Command] = &[Command::READ_STATE];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     sent("cnc.ads.info-refused", &["ADS-8"], "ReadDeviceInfo is refused",
         |_, request, bytes| match is(request, INFO) {
             true => measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect()),

@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    ReplyData, Row, Upstream, fits, group, is, number, of_decoder, offset, on, put, row, text,
+    CncSeed, ReplyData, Upstream, fits, group, is, number, of_decoder, offset, on, put, row, text,
     u32_at,
 };
 
@@ -41,7 +41,7 @@ fn count(cnc: &Upstream<'_>, call: &Call<'_>) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.dyn.count-one-more", &["DYN-1"], "numbers of parameters are one more",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
     on("cnc.dyn.count-highest-index", &["DYN-1"],

@@ -3,7 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 
-use super::{ELEMENT_TEXTS, Row, group, is, offset, on, put, reply, row, text, u32_at};
+use super::{CncSeed, ELEMENT_TEXTS, group, is, offset, on, put, reply, row, text, u32_at};
 
 const NAME: &[Function] = &[Function::ReadElementName];
 const TYPE: &[Function] = &[Function::ReadElementType];
@@ -12,7 +12,7 @@ const UNIT: &[Function] = &[Function::ReadElementUnit];
 const FLAG: &[Function] = &[Function::ReadElementWriteFlag];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.instance-name-missing", &["SDA-4"], "element 0 has no name",
         |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
             true => Err(AdsError::INVALID_OFFSET),
@@ -34,7 +34,8 @@ pub(super) const ROWS: &[Row] = &[
             [&length.to_le_bytes(), bytes.as_slice()].concat()
         })),
     row("cnc.sda.text-wide", &["SDA-6"], "texts take two bytes a character",
-        |cnc, call| reply(cnc, call, ELEMENT_TEXTS, |bytes| bytes.iter().flat_map(|&byte| [byte, 0]).collect())),
+        |cnc, call| reply(cnc, call, ELEMENT_TEXTS,
+            |bytes| bytes.iter().flat_map(|&byte| [byte, 0]).collect())),
     row("cnc.sda.names-empty", &["SDA-6"], "elements have no names: they are empty",
         |cnc, call| reply(cnc, call, NAME, |_| vec![0])),
     on("cnc.sda.unit-refused", &["SDA-6", "ADR-6"], "elements have no unit: it is refused",

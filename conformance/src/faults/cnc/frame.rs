@@ -2,7 +2,7 @@
 
 use ads_cnc::ads::{Command, FrameRef};
 
-use super::{Row, Twist, Upstream, put, twisted, u32_at};
+use super::{CncFault, CncSeed, Upstream, fault, put, u32_at};
 
 /// Where things are in a frame.
 pub(super) const TCP_LENGTH: usize = 2;
@@ -23,8 +23,8 @@ pub(super) const fn sent(
     breaks: &'static [&'static str],
     what: &'static str,
     frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> Row {
-    twisted(id, breaks, what, Twist::Frame(frame))
+) -> CncSeed {
+    fault(id, breaks, what, CncFault::Frame(frame))
 }
 
 /// The frame with the lengths that it has.
@@ -51,7 +51,7 @@ pub(super) fn is(request: &FrameRef<'_>, commands: &[Command]) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     sent("cnc.ads.invoke-id-0", &["ADS-5"], "the invoke ID of a response is 0",
         |_, _, bytes| set(bytes, INVOKE_ID, &[0; 4])),
     sent("cnc.ads.invoke-id-own", &["ADS-5"], "responses are counted by invoke IDs of their own",

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, FunctionSpec};
 use ads_cnc::text::cp1252_to_char;
 
 use super::{
-    DESCRIPTIONS, NAMED, ReplyData, Row, Upstream, VALUES, WRITES, behind, dimensions, first, fits,
-    function, functions, number, on, put, records, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, behind, dimensions, first,
+    fits, function, functions, number, on, put, records, row, text, u32_at,
 };
 
 /// Functions whose reply is a number.
@@ -58,7 +58,7 @@ fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.gen.numbers-big-endian", &["GEN-1"],
         "counts and handles are answered with the most significant byte first",
         NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),

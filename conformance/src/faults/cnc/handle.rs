@@ -4,7 +4,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    ReplyData, Row, Upstream, fours, function, group, number, of_decoder, offset, on, put, row,
+    CncSeed, ReplyData, Upstream, fours, function, group, number, of_decoder, offset, on, put, row,
     text, u32_at,
 };
 
@@ -35,7 +35,7 @@ fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-not-understood", &["VAR-10"],
         "the handle by name is another than the one that is understood",
         |cnc, call| told(cnc, call, |handle| handle ^ 0x5A00_0000)),

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
 use super::variable::{described, element, first_element};
-use super::{ReplyData, Row, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
+use super::{CncSeed, ReplyData, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
 
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
@@ -26,7 +26,7 @@ fn indices(
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-unknown", &["VAR-11"], "a handle of no variable reads as 0",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
             (true, Err(_)) if described(cnc, call).is_none() => fits(call, Ok(vec![0; 4])),

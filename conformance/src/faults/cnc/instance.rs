@@ -4,7 +4,9 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::{LOGICAL, ReplyData, Row, Upstream, class, group, is, offset, put, reply, row, u32_at};
+use super::{
+    CncSeed, LOGICAL, ReplyData, Upstream, class, group, is, offset, put, reply, row, u32_at,
+};
 
 const FIND: &[Function] = &[Function::FindInstance];
 
@@ -35,7 +37,7 @@ fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> b
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.query-swapped", &["SDA-1"], "the question for an instance is read as axis and channel",
         |cnc, call| asked(cnc, call, |channel, axis| (axis, channel))),
     row("cnc.sda.address-swapped", &["SDA-1"], "an instance is answered as index offset and index group",

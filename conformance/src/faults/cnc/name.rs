@@ -5,18 +5,18 @@ use ads_cnc::operation::{Function, Service};
 
 use super::variable::without_indices;
 use super::{
-    NAMED, Row, at, behind, function, group, is, is_at, of_decoder, on, row, text, u32_at,
+    CncSeed, NAMED, at, behind, function, group, is, is_at, of_decoder, on, row, text, u32_at,
 };
 use crate::edition::Edition;
 
 /// A row that shows in the German edition.
-const fn german(mut row: Row) -> Row {
+const fn german(mut row: CncSeed) -> CncSeed {
     row.edition = Some(Edition::German);
     row
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.name-of-200", &["VAR-9"], "names of more than 200 characters are refused",
         |cnc, call| match is(call, NAMED) && text(call.data).len() > 200 {
             true => Err(AdsError::INVALID_SIZE),

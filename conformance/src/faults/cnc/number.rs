@@ -4,8 +4,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    INDEXED, ReplyData, Row, Upstream, group, is, number, of_decoder, offset, on, put, row, text,
-    u32_at,
+    CncSeed, INDEXED, ReplyData, Upstream, group, is, number, of_decoder, offset, on, put, row,
+    text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -30,7 +30,7 @@ pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.sum-refused", &["VAR-1"], "the empty kind is refused",
         |cnc, call| match is(call, COUNT) && text(call.data).is_empty() {
             true => Err(AdsError::SYMBOL_NOT_FOUND),

@@ -5,7 +5,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::com::set;
-use super::{LOGICAL, Row, at, com_group, group, is, offset, on, put_off, records_mut, row};
+use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, on, put_off, records_mut, row};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -20,7 +20,7 @@ fn content(call: &Call<'_>) -> Option<ComGroup> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.com.content-short", &["COM-5"], "contents lack their last byte",
         READ, |cnc, call| cnc.answer(call).map(|mut bytes| {
             bytes.pop();

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
 use super::{
-    LOGICAL, ReplyData, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
-    put, records_mut, reply, row, text, u32_at,
+    CncSeed, LOGICAL, ReplyData, Upstream, behind, dimensions, function, group, is, number, offset,
+    on, put, records_mut, reply, row, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -54,7 +54,7 @@ fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> Repl
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.spindle-written-first", &["ADR-2"],
         "what is written to the second spindle is written to the first",
         |cnc, call| match (is(call, WRITE), group(call)) {

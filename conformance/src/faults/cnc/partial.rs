@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    DESCRIPTIONS, LOGICAL, ReplyData, Row, Upstream, behind, dimensions, fits, function, group, is,
-    number, of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, behind, dimensions, fits, function, group,
+    is, number, of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -46,7 +46,7 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.objects-logical-only", &["ADR-12"],
         "objects are described by logical addressing only, their contents are read by index too",
         |cnc, call| match group(call) & 0xFF_FE00 {

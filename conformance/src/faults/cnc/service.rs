@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    ReplyData, Row, Upstream, behind, dimensions, function, group, is, number, offset, on, program,
-    row, text, u32_at,
+    CncSeed, ReplyData, Upstream, behind, dimensions, function, group, is, number, offset, on,
+    program, row, text, u32_at,
 };
 use crate::simulator::program::Policy;
 
@@ -44,7 +44,7 @@ fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.svc.missing", &["SVC-1", "SVC-11"], "the variables of the Service Interface are not there",
         |cnc, call| match of_service(call) && super::of_decoder(call).is_some() {
             true => Err(AdsError::SYMBOL_NOT_FOUND),

@@ -7,7 +7,7 @@ use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
 use super::lookup::{instance, one, over};
 use super::{
-    ReplyData, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
+    CncSeed, ReplyData, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -58,7 +58,7 @@ fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.sda.unit-runs-on", &["SDA-6"],
         "a unit that is shorter than the one read before it runs on with the rest of that",
         UNIT, |cnc, call| {

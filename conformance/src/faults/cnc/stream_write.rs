@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    LOGICAL, ReplyData, Row, Upstream, at, function, group, later, offset, records_mut, row,
+    CncSeed, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
 };
 
 /// Whether it is a write to a stream, of whatever length.
@@ -23,7 +23,7 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> 
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.stm.object-renamed", &["STM-1"], "the object of the stream is called mc_program_stream",
         |cnc, call| {
             let mut answer = cnc.answer(call)?;

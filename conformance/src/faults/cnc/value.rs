@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule};
 
 use super::variable::{described, element, first_element};
 use super::{
-    Row, VALUES, dimensions, fits, function, functions, group, is, is_at, number, offset, on, put,
-    reply, row, text, u32_at,
+    CncSeed, VALUES, dimensions, fits, function, functions, group, is, is_at, number, offset, on,
+    put, reply, row, text, u32_at,
 };
 
 const BY_NAME: &[Function] = &[Function::DescribeByName];
@@ -18,7 +18,7 @@ const CHANNEL: &[Function] = functions!(|spec| matches!(
 ));
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.value-first", &["VAR-14"], "a read by name without an index gives the first element",
         |cnc, call| match (is(call, &[Function::ReadByName]), text(call.data).ends_with(b"]")) {
             (true, false) => first_element(cnc, call),

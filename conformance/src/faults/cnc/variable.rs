@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 
 use super::number::count;
 use super::{
-    DESCRIPTIONS, ReplyData, Row, Upstream, dimensions, fits, function, group, on, put, reply, row,
-    text, u32_at,
+    CncSeed, DESCRIPTIONS, ReplyData, Upstream, dimensions, fits, function, group, on, put, reply,
+    row, text, u32_at,
 };
 
 const DESCRIBE: &[Function] = &[Function::DescribeByIndex];
@@ -59,7 +59,7 @@ pub(super) fn element(description: &[u8]) -> usize {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.description-of-next", &["VAR-4"], "the name in a description is that of the variable behind",
         DESCRIBE, |cnc, call| {
             let own = cnc.answer(call)?;

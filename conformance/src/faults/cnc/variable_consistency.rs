@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function, Service};
 use super::handle::{joined, parts};
 use super::number::count;
 use super::{
-    NAMED, Row, Upstream, WRITES, behind, dimensions, fits, function, group, is, of_decoder,
+    CncSeed, NAMED, Upstream, WRITES, behind, dimensions, fits, function, group, is, of_decoder,
     offset, on, reply, row, text, u32_at,
 };
 
@@ -51,7 +51,7 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.name-compared-8", &["VAR-9"],
         "names are compared by their first 8 characters if there is none that is the same",
         |cnc, call| match (is_query(call), cnc.answer(call)) {

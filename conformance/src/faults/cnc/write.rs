@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
 use super::{
-    ReplyData, Row, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off, row,
-    text,
+    CncSeed, ReplyData, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off,
+    row, text,
 };
 
 const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
@@ -25,7 +25,7 @@ fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> ReplyDa
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.write-by-handle-ignored", &["VAR-12"], "a write by handle succeeds and changes nothing",
         BY_HANDLE, |cnc, call| {
             let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());

@@ -6,7 +6,9 @@ use ads_cnc::service::ServiceVariable;
 
 use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
-use super::{ReplyData, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
+use super::{
+    CncSeed, ReplyData, Upstream, behind, function, group, is, offset, on, row, text, u32_at,
+};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
@@ -48,7 +50,7 @@ fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.com.string-runs-on", &["COM-5"],
         "a STRING that is written over a longer one runs on with the rest of that",
         |cnc, call| match is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    ReplyData, Row, Twist, Upstream, class, fits, function, group, is, number, offset, on, put,
-    row, text, twisted, u32_at,
+    CncFault, CncSeed, ReplyData, Upstream, class, fault, fits, function, group, is, number,
+    offset, on, put, row, text, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -64,7 +64,7 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     unprinted(row("different.number-counts-first", &[],
         "the number of elements counts the first, which says it",
         |cnc, call| match is_number(call) {
@@ -115,8 +115,8 @@ pub(super) const ROWS: &[Row] = &[
             true => Err(AdsError::INVALID_SIZE),
             false => cnc.answer(call),
         }),
-    unprinted(twisted("different.come-and-go", &[],
-        "the CNC is one whose parameters come and go all the time", Twist::Model(MODEL))),
+    unprinted(fault("different.come-and-go", &[],
+        "the CNC is one whose parameters come and go all the time", CncFault::Model(MODEL))),
 ];
 
 /// A CNC with channels of other numbers, and parameters that are there for a moment.

@@ -8,12 +8,12 @@ use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    ELEMENT_TEXTS, Row, function, group, is, measured, offset, on, or_short, put, row, sent, text,
-    u32_at, unprinted,
+    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, put, row, sent,
+    text, u32_at, unprinted,
 };
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("different.request-over-early", &[],
         "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
         |cnc, call| {

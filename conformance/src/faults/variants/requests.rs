@@ -6,8 +6,8 @@ use ads_cnc::operation::{Function, OffsetRule, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    INDEXED, NAMED, Row, WRITES, function, functions, group, is, is_at, number, of_decoder, offset,
-    put, row, text, u32_at,
+    CncSeed, INDEXED, NAMED, WRITES, function, functions, group, is, is_at, number, of_decoder,
+    offset, put, row, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -17,7 +17,7 @@ const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule:
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("different.name-unended", &[], "names without a NUL are taken",
         |cnc, call| match is_at(call, NAMED) && !call.data.contains(&0) {
             true if !call.data.is_empty() => cnc.with(call, &[call.data, &[0]].concat()),

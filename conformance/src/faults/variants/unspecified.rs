@@ -4,8 +4,8 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    NAMED, ReplyData, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row,
-    text, twisted, u32_at, unprinted,
+    CncFault, CncSeed, NAMED, ReplyData, Upstream, fault, function, group, is, offset, on, put,
+    records_mut, row, text, u32_at, unprinted,
 };
 use super::{measured, sent};
 
@@ -66,7 +66,7 @@ fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("different.contents-just", &[], "a content of COM is read with just the length that it has",
         &[Function::ReadObject], |cnc, call| cnc.answer(call).and_then(|bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
@@ -186,10 +186,10 @@ pub(super) const ROWS: &[Row] = &[
             Some(_) if !super::behind(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
-    unprinted(twisted("different.model-numbers", &[],
+    unprinted(fault("different.model-numbers", &[],
         "the CNC has channels 1, 9 and 255, axes with large numbers and long names, and \
          spindles only to be read",
-        Twist::Model(NUMBERS))),
+        CncFault::Model(NUMBERS))),
 ];
 
 /// A CNC whose numbers are as large as they may be.

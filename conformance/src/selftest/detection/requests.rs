@@ -32,7 +32,7 @@ use ads_cnc::{
 };
 
 use crate::client::{Client, Inquiry};
-use crate::exchange::Fault;
+use crate::exchange::ExchangeError;
 use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
@@ -94,7 +94,7 @@ pub(super) struct Dialogue<'t> {
 }
 
 /// What came of asking everything.
-pub(super) struct Answers {
+pub(super) struct RecordedAnswers {
     pub(super) answers: Vec<u64>,
     /// The first request that was answered otherwise than by the CNC it was compared with.
     pub(super) difference: Option<String>,
@@ -102,7 +102,11 @@ pub(super) struct Answers {
 
 /// Asks a CNC everything that its client's gate lets through; up to the first answer that is not
 /// this one of another CNC, if there is one to compare with.
-pub(super) fn ask_everything(client: Client, cnc: Arc<Cnc>, right: Option<&[u64]>) -> Answers {
+pub(super) fn ask_everything(
+    client: Client,
+    cnc: Arc<Cnc>,
+    right: Option<&[u64]>,
+) -> RecordedAnswers {
     let mut dialogue = Dialogue {
         client,
         cnc,
@@ -118,7 +122,7 @@ pub(super) fn ask_everything(client: Client, cnc: Arc<Cnc>, right: Option<&[u64]
     if difference.is_none() && right.is_some_and(|right| right.len() != answers.len()) {
         difference = Some("the end: the other CNC is asked more".to_owned());
     }
-    Answers { answers, difference }
+    RecordedAnswers { answers, difference }
 }
 
 impl Dialogue<'_> {
@@ -200,7 +204,7 @@ impl Dialogue<'_> {
         }
         let exchange = self.client.call(call);
         let fault = match &exchange.outcome {
-            Err(Fault::Refused(_) | Fault::Unsendable(_)) => return None,
+            Err(ExchangeError::Refused(_) | ExchangeError::Unsendable(_)) => return None,
             Err(fault) => fault.to_string(),
             Ok(_) => String::new(),
         };

@@ -17,12 +17,12 @@ use ads_cnc::{
 };
 
 use self::resolve::{Resolved, UNKNOWN, parameter};
-use super::{ReplyData, Running, encode};
+use super::{AnsweringCnc, ReplyData, encode};
 use crate::simulator::content::{check_size, put};
 use crate::simulator::model::At;
 use crate::simulator::to_u32;
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     pub(super) fn count_variables(&self, op: &CountVariables<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         self.permit(Function::CountVariables, op.kind)?;

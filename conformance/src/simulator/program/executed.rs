@@ -5,10 +5,10 @@
 /// ```
 /// use std::time::Duration;
 ///
-/// use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, digest};
+/// use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig, digest};
 ///
 /// let config = ProgramConfig { pace: Pace::Fast, kept: 20, ..ProgramConfig::default() };
-/// let mut program = Program::new(config);
+/// let mut program = StreamingProgram::new(config);
 /// let text = b"N10 X1\r\nN20 X2\r\nN30 X3\r\nN40 X4\r\nN50 X5\r\nN60 X6\r\n";
 /// program.write(text, Duration::ZERO);
 /// let executed = program.executed();
