@@ -37,9 +37,10 @@ impl Flow {
 
     /// The whole packet, from Ethernet on.
     pub(super) fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) -> io::Result<Vec<u8>> {
-        let (from, to) = match outgoing {
-            true => (&mut self.local, &self.remote),
-            false => (&mut self.remote, &self.local),
+        let (from, to) = if outgoing {
+            (&mut self.local, &self.remote)
+        } else {
+            (&mut self.remote, &self.local)
         };
         let builder = PacketBuilder::ethernet2(from.mac, to.mac);
         let builder = match (from.addr.ip(), to.addr.ip()) {

@@ -109,9 +109,10 @@ impl Half {
     pub(super) fn place_of(&self, sequence: u32) -> Option<u64> {
         let next = self.next?;
         let (after, before) = (sequence.wrapping_sub(next), next.wrapping_sub(sequence));
-        Some(match after < before {
-            true => self.place.saturating_add(after.into()),
-            false => self.place.saturating_sub(before.into()),
+        Some(if after < before {
+            self.place.saturating_add(after.into())
+        } else {
+            self.place.saturating_sub(before.into())
         })
     }
 
@@ -143,10 +144,7 @@ impl Half {
         out: &mut impl FnMut(ReassembledPiece<'_>),
     ) {
         self.seen = true;
-        let sequence = match part.syn {
-            true => part.sequence.wrapping_add(1),
-            false => part.sequence,
-        };
+        let sequence = if part.syn { part.sequence.wrapping_add(1) } else { part.sequence };
         if part.payload.is_empty() && part.missing == 0 {
             if part.syn {
                 self.next.get_or_insert(sequence);

@@ -132,9 +132,10 @@ impl Browse {
                 format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
             });
         })?;
-        let contents = match self.content {
-            true => Some(read_all(&mut session, &mut found, &mut progress)?),
-            false => None,
+        let contents = if self.content {
+            Some(read_all(&mut session, &mut found, &mut progress)?)
+        } else {
+            None
         };
         drop(progress);
         self.write(&session, &found, contents.as_deref())?;

@@ -137,9 +137,10 @@ impl Explain {
             ExplainQuery { subject: self.subject(given.as_deref()).map_err(usage)?, values };
         let explanation = explain(&question, &given.unwrap_or_default());
         let mut out = BufWriter::new(io::stdout().lock());
-        let shown = match self.json {
-            true => crate::text::json::write(&explanation, &mut out),
-            false => print(&explanation, self.paint(), &mut out),
+        let shown = if self.json {
+            crate::text::json::write(&explanation, &mut out)
+        } else {
+            print(&explanation, self.paint(), &mut out)
         };
         written(shown.and_then(|()| out.flush()))?;
         Ok(explanation.outcome.exit())

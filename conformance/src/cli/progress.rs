@@ -38,9 +38,10 @@ impl ProgressLine {
         self.last = Instant::now();
         let line = self.fitted(text);
         // A run must not fail because its progress cannot be written.
-        let _unseen = match self.live {
-            true => write!(io::stderr(), "\r{line:<0$}", self.width),
-            false => writeln!(io::stderr(), "{line}"),
+        let _unseen = if self.live {
+            write!(io::stderr(), "\r{line:<0$}", self.width)
+        } else {
+            writeln!(io::stderr(), "{line}")
         };
         self.width = line.chars().count();
     }

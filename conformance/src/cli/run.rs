@@ -273,12 +273,11 @@ impl Run {
     /// What the file says, or what holds without one; --edition is about both.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
-        let without = match self.is_simulated() {
-            true => {
-                let model = Model::default_model().map_err(|error| error.to_string())?;
-                Profile { printed_examples: true, ..model.profile() }
-            }
-            false => Profile::DEVICE,
+        let without = if self.is_simulated() {
+            let model = Model::default_model().map_err(|error| error.to_string())?;
+            Profile { printed_examples: true, ..model.profile() }
+        } else {
+            Profile::DEVICE
         };
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);

@@ -64,12 +64,11 @@ impl SelfTestArguments {
             }
         };
         let seed = self.seed.unwrap_or_else(any_seed);
-        let scope = match self.all || self.renew.is_some() {
-            true => Scope::All,
-            false => {
-                complain(format_args!("sample by --seed {seed}"));
-                Scope::Sample(seed)
-            }
+        let scope = if self.all || self.renew.is_some() {
+            Scope::All
+        } else {
+            complain(format_args!("sample by --seed {seed}"));
+            Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
         if let Some(folder) = &self.renew {
@@ -91,10 +90,8 @@ impl SelfTestArguments {
         };
         let written = self.json.as_ref().map_or(Ok(()), json);
         let quiet = self.json.as_deref().is_some_and(is_stdout);
-        let shown = match quiet {
-            true => Ok(()),
-            false => show(|out| selftest::print(&test, self.verbose, out)),
-        };
+        let shown =
+            if quiet { Ok(()) } else { show(|out| selftest::print(&test, self.verbose, out)) };
         written.and(shown).map_or_else(lost, |()| test.exit())
     }
 }

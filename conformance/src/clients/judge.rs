@@ -234,9 +234,10 @@ fn said(
             return Some(Stop::NotApplicable(format!("the client has no {what}")));
         }
         ClientReaction::Answer(ActionResult::Result(value)) => {
-            let value = match scenario.action.starts_with("find-instance") {
-                true => logical(value),
-                false => value.clone(),
+            let value = if scenario.action.starts_with("find-instance") {
+                logical(value)
+            } else {
+                value.clone()
             };
             expected.any || expected.result.as_ref().is_some_and(|right| same(right, &value))
         }

@@ -106,9 +106,10 @@ fn stream(scenario: &Scenario, turns: &[Turn], findings: &mut Findings) {
     }
     let expected = on_the_wire(scenario.program.as_deref().unwrap_or_default());
     let kept = arrived == expected;
-    let found = match arrived.len() == expected.len() {
-        true => "as many bytes in another order, or others".to_owned(),
-        false => format!("{} bytes of it", arrived.len()),
+    let found = if arrived.len() == expected.len() {
+        "as many bytes in another order, or others".to_owned()
+    } else {
+        format!("{} bytes of it", arrived.len())
     };
     let last = packets.last().map(|(turn, _)| *turn);
     let what = format!("the program line by line, {} bytes", expected.len());

@@ -48,15 +48,15 @@ impl ClientProcess {
         scenario: &str,
         action: &Action,
     ) -> Result<ClientReaction, ClientReaction> {
-        match self.process.running.is_some() {
-            true => {}
-            false if self.stays => {
+        if self.process.running.is_none() {
+            if self.stays {
                 self.hello(place)?;
                 if !self.stays {
                     return Err(ClientReaction::Garbled("it stays no longer".to_owned()));
                 }
+            } else {
+                self.process.start(environment(place, scenario, &action.to_string()))?;
             }
-            false => self.process.start(environment(place, scenario, &action.to_string()))?,
         }
         if self.stays {
             self.process.send(told(place, scenario, action).to_string().into_bytes());

@@ -180,9 +180,10 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));
-        return match shown && !all.is_empty() && all.len() <= 128 {
-            true => format!("STRING {}", quoted(all)),
-            false => String::new(),
+        return if shown && !all.is_empty() && all.len() <= 128 {
+            format!("STRING {}", quoted(all))
+        } else {
+            String::new()
         };
     }
     let mut all_of_them = Vec::new();

@@ -152,12 +152,10 @@ const ROWS: &[CncSeed] = &[
                 let index = count.wrapping_add(1).wrapping_sub(index);
                 cnc.at(&Call { read_length: 84, ..*call }, group(call), index)
             };
-            match first > count || call.read_length < 84 {
-                true => cnc.answer(call),
-                false => (first..=last)
-                    .map(one)
-                    .collect::<Result<Vec<_>, _>>()
-                    .map(|all| all.concat()),
+            if first > count || call.read_length < 84 {
+                cnc.answer(call)
+            } else {
+                (first..=last).map(one).collect::<Result<Vec<_>, _>>().map(|all| all.concat())
             }
         })),
     row("different.true-255", &[], "TRUE is 0xFF in write flags, 0xFFFF in descriptors",
@@ -227,9 +225,10 @@ const ROWS: &[CncSeed] = &[
             (_, answer) => answer,
         }),
     row("different.kind-with-nul", &[], "the empty kind takes its NUL",
-        |cnc, call| match is(call, &[Function::CountVariables]) && call.data.is_empty() {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::CountVariables]) && call.data.is_empty() {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("different.absent-refused", &[], "an instance that is not there is answered with an error",
         |cnc, call| match (is(call, &[Function::FindInstance]), cnc.answer(call)) {

@@ -89,10 +89,7 @@ impl Allowed {
         if target == NET_ID && !address.is_some_and(|address| address.is_loopback()) {
             return Err(Reason::LocalNetId(address));
         }
-        match now >= self.expires {
-            true => Err(Reason::Expired(self.expires)),
-            false => Ok(()),
-        }
+        if now >= self.expires { Err(Reason::Expired(self.expires)) } else { Ok(()) }
     }
 }
 
@@ -178,9 +175,10 @@ impl Entry {
                 Ok(self.allows_variable(op.channel, Some(op.axis), op.name))
             }
             (Self::Content { group, offset }, Request::WriteObject(op)) => {
-                match (op.index_group(), op.index_offset()) == (*group, *offset) {
-                    true => observed.has_one_name((*group, *offset)).map(|()| true),
-                    false => Ok(false),
+                if (op.index_group(), op.index_offset()) == (*group, *offset) {
+                    observed.has_one_name((*group, *offset)).map(|()| true)
+                } else {
+                    Ok(false)
                 }
             }
             (Self::Content { .. } | Self::Stream(_), _) => {

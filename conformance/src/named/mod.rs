@@ -70,9 +70,10 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
 /// # Errors
 /// A name that has no form on the wire.
 pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, Trouble> {
-    match variable::is_named(&lookup.name) || lookup.axis.is_some() {
-        true => variable::unasked(lookup).map(Some),
-        false => Ok(None),
+    if variable::is_named(&lookup.name) || lookup.axis.is_some() {
+        variable::unasked(lookup).map(Some)
+    } else {
+        Ok(None)
     }
 }
 

@@ -86,12 +86,11 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
     };
     let Some(DescribedVariable { ty, access, handle }) = told else { return Ok(object) };
     let indices = path.elements();
-    let ty = match indices.is_empty() {
-        true => ty,
-        false => {
-            let odd = |why| Trouble::Usage(format!("{}: {why}", path.text()));
-            ty.element(indices).map_err(odd)?
-        }
+    let ty = if indices.is_empty() {
+        ty
+    } else {
+        let odd = |why| Trouble::Usage(format!("{}: {why}", path.text()));
+        ty.element(indices).map_err(odd)?
     };
     Ok(Object { ty, access, handle, ..object })
 }
@@ -161,10 +160,11 @@ fn listed(
 
 fn is_it(variable: &DescriptionRef<'_>, wanted: CncStr<'_>, of_axis: bool) -> bool {
     let name = variable.name.text();
-    match of_axis {
-        false => name == wanted,
-        true => VariablePath::from_text(name)
+    if of_axis {
+        VariablePath::from_text(name)
             .and_then(|path| path.without_axis())
-            .is_ok_and(|name| name.as_cnc_str() == wanted),
+            .is_ok_and(|name| name.as_cnc_str() == wanted)
+    } else {
+        name == wanted
     }
 }

@@ -204,9 +204,12 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
 
 fn kinds<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
     checked(value, |kinds: Vec<String>| {
-        each(kinds, |kind| match LISTED.iter().any(|known| known == kind) {
-            true => Ok(()),
-            false => Err(format!("{kind:?} cannot be listed; V.G, V.E and V.A can")),
+        each(kinds, |kind| {
+            if LISTED.iter().any(|known| known == kind) {
+                Ok(())
+            } else {
+                Err(format!("{kind:?} cannot be listed; V.G, V.E and V.A can"))
+            }
         })
     })
 }
@@ -233,12 +236,11 @@ fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>,
     checked(value, |names: Vec<String>| {
         each(names, |name| {
             let all = || Function::ALL.iter().map(|function| function.spec().name);
-            match all().any(|known| known == name) {
-                true => Ok(()),
-                false => {
-                    let all: Vec<&str> = all().collect();
-                    Err(format!("{name:?} is no function; there are {}", all.join(", ")))
-                }
+            if all().any(|known| known == name) {
+                Ok(())
+            } else {
+                let all: Vec<&str> = all().collect();
+                Err(format!("{name:?} is no function; there are {}", all.join(", ")))
             }
         })
     })
@@ -255,10 +257,7 @@ fn timeout<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Duration>, D::E
 fn each<T: Ord>(list: Vec<T>, check: impl Fn(&T) -> Result<(), String>) -> Result<Vec<T>, String> {
     list.iter().try_for_each(check)?;
     let different = list.iter().collect::<BTreeSet<&T>>().len();
-    match different == list.len() {
-        true => Ok(list),
-        false => Err("something is there twice".to_owned()),
-    }
+    if different == list.len() { Ok(list) } else { Err("something is there twice".to_owned()) }
 }
 
 #[cfg(test)]

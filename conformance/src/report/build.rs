@@ -251,9 +251,10 @@ impl From<&Evidence> for EvidenceReport {
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
     let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
-    match level == Some(requirement.level) || parts.is_empty() {
-        true => requirement.text.clone(),
-        false => parts.join(" "),
+    if level == Some(requirement.level) || parts.is_empty() {
+        requirement.text.clone()
+    } else {
+        parts.join(" ")
     }
 }
 

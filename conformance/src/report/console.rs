@@ -35,9 +35,10 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         let channels = profile.claims.get("channels").and_then(|list| list.as_array());
         let channels = channels.into_iter().flatten().map(ToString::to_string);
         let channels: Vec<String> = channels.collect();
-        match channels.is_empty() {
-            true => writeln!(out, "profile  {}", profile.name)?,
-            false => writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?,
+        if channels.is_empty() {
+            writeln!(out, "profile  {}", profile.name)?
+        } else {
+            writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?
         }
     }
     if !only.is_empty() {
@@ -165,9 +166,10 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
 fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
     writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
-    match failure.sources.is_empty() {
-        true => writeln!(out, "            in no document: assumed"),
-        false => writeln!(out, "            {}", failure.sources.join("; ")),
+    if failure.sources.is_empty() {
+        writeln!(out, "            in no document: assumed")
+    } else {
+        writeln!(out, "            {}", failure.sources.join("; "))
     }
 }
 

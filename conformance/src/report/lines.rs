@@ -21,9 +21,10 @@ fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
         ShownField::Field(field) => of_field(field, fold),
         ShownField::More(more) => vec![format!("     …  {more} more")],
     };
-    let mut all: Vec<String> = match fold {
-        true => bytes.shown().into_iter().flat_map(of_shown).collect(),
-        false => bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect(),
+    let mut all: Vec<String> = if fold {
+        bytes.shown().into_iter().flat_map(of_shown).collect()
+    } else {
+        bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect()
     };
     all.extend(bytes.faults.iter().map(|fault| format!("      ! {fault}")));
     all

@@ -116,10 +116,12 @@ impl SelfTest {
             Outcomes::FalseAlarm | Outcomes::Broken => true,
         };
         let differs = !self.detection.differences.is_empty();
-        match self.tried.iter().any(wrong) || !self.stale.is_empty() || differs {
-            _ if self.tried.is_empty() => Exit::Nothing,
-            true => Exit::Failure,
-            false => Exit::Success,
+        if self.tried.is_empty() {
+            Exit::Nothing
+        } else if self.tried.iter().any(wrong) || !self.stale.is_empty() || differs {
+            Exit::Failure
+        } else {
+            Exit::Success
         }
     }
 }

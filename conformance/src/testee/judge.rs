@@ -140,9 +140,10 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     // Our own codec is asked without a protocol in between.
     if terms.subject != CaseSubject::Codec {
         let protocol = protocol.outcome(terms.subject);
-        outcomes.push(match interrupt::came() {
-            true => CaseOutcome::interrupted(protocol.case),
-            false => protocol,
+        outcomes.push(if interrupt::came() {
+            CaseOutcome::interrupted(protocol.case)
+        } else {
+            protocol
         });
     }
     JudgedTestee { hello: Some(hello), outcomes, asked, restarts }

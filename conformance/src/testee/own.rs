@@ -104,10 +104,13 @@ fn refusal(refused: Refused) -> Answer {
         Refused::Unfit(why) => {
             Answer::Reject(Rejection { message: Some(why), ..Rejection::default() })
         }
-        Refused::Unsupported(what) => match what.starts_with("stream ") {
-            true => unsupported("stream"),
-            false => unsupported("context"),
-        },
+        Refused::Unsupported(what) => {
+            if what.starts_with("stream ") {
+                unsupported("stream")
+            } else {
+                unsupported("context")
+            }
+        }
     }
 }
 

@@ -118,10 +118,12 @@ impl Verdicts<'_> {
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
-        let level = match lenient {
-            true if !self.is_of_edition(&case.body) => Level::Info,
-            true => level(&case.body, verdict, &question.op),
-            false => Level::Must,
+        let level = if !lenient {
+            Level::Must
+        } else if self.is_of_edition(&case.body) {
+            level(&case.body, verdict, &question.op)
+        } else {
+            Level::Info
         };
         Check { verdict, level, evidence, expected, found }
     }
@@ -286,11 +288,10 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
         }
     }
     let all = packets.concat();
-    match all == text {
-        true => None,
-        false => {
-            let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
-            Some(format!("{} bytes in all, another one at offset {same}", all.len()))
-        }
+    if all == text {
+        None
+    } else {
+        let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
+        Some(format!("{} bytes in all, another one at offset {same}", all.len()))
     }
 }

@@ -31,9 +31,10 @@ pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
 
 /// A text among others: in quotes if it would be taken for two.
 fn listed(text: &str) -> String {
-    match text.contains([',', '"']) || text != text.trim() {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
+    if text.contains([',', '"']) || text != text.trim() {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
     }
 }
 

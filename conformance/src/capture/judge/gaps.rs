@@ -146,9 +146,10 @@ impl TrafficJudge {
     /// Nothing was captured of one direction, that of the CNC or that of the client.
     fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
         let observation = Observation::Bytes(&[], location(way, None, None));
-        let (topic, found) = match is_cnc {
-            true => (Topic::CncFrames, "nothing of what the CNC sent was captured"),
-            false => (Topic::ClientFrames, "nothing of what the client sent was captured"),
+        let (topic, found) = if is_cnc {
+            (Topic::CncFrames, "nothing of what the CNC sent was captured")
+        } else {
+            (Topic::ClientFrames, "nothing of what the client sent was captured")
         };
         self.records.on(topic, &observation).open("ADS-5", found);
     }

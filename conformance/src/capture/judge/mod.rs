@@ -237,9 +237,10 @@ impl TrafficJudge {
         let header = whole.header();
         self.newest = self.newest.max(span.last.packet);
         let seen = CapturedFrame { number: self.tally.frames, header, way, span, frame };
-        match is_reply(&header) {
-            true => self.reply(seen),
-            false => self.request(seen, table),
+        if is_reply(&header) {
+            self.reply(seen)
+        } else {
+            self.request(seen, table)
         }
         self.tidy(table);
     }

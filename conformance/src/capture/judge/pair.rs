@@ -178,13 +178,12 @@ impl TrafficJudge {
         let key = (reply.way.connection, reply.header.invoke_id);
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
         let fits = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
-        let here = self.waiting.get(&key).and_then(|all| match lost {
+        let here = self.waiting.get(&key).and_then(|all| {
             // Whoever uses an invoke ID once more has got the answer before, which was lost.
-            true => {
+            if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
                 latest.into_iter().find(|&place| all.get(place).is_some_and(fits))
-            }
-            false => {
+            } else {
                 let mut first = all.iter().take(ALIKE_MAX);
                 let mirrored = || all.iter().take(ALIKE_MAX).position(|one| one.mirrors(reply));
                 first.position(fits).or_else(mirrored)

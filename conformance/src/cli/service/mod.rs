@@ -119,10 +119,7 @@ fn uuid(text: &str) -> Result<ServiceId, String> {
 impl ServiceArguments {
     /// Serves, and says how the process ends.
     pub(super) fn execute(&self) -> Exit {
-        let done = match self.target.is_dry() {
-            true => self.show(),
-            false => self.serve(),
-        };
+        let done = if self.target.is_dry() { self.show() } else { self.serve() };
         self.target.end(done.map(|()| Exit::Success), |_| None)
     }
 

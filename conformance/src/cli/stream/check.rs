@@ -33,10 +33,7 @@ pub(super) fn check<'a>(
     let mut ends = 0_usize;
     for finding in text.diagnostics() {
         let (line, column) = (finding.line, finding.column);
-        let level = match finding.kind.ends_streaming() {
-            true => "error",
-            false => "warning",
-        };
+        let level = if finding.kind.ends_streaming() { "error" } else { "warning" };
         ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
         // It says its place itself, though not as compilers do.
         let whole = finding.to_string();

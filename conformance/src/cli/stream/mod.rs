@@ -119,10 +119,7 @@ impl StreamArguments {
         let Some(lines) = NonZeroUsize::new(text.line_count()) else {
             return Err(Trouble::Usage(format!("{name} is empty: there is nothing to send")));
         };
-        match self.target.is_dry() {
-            true => self.show(text),
-            false => self.send(&name, text, lines),
-        }
+        if self.target.is_dry() { self.show(text) } else { self.send(&name, text, lines) }
     }
 
     fn open(&self) -> Result<Session, Trouble> {
@@ -202,17 +199,19 @@ impl StreamArguments {
 
     /// The program as messages name it.
     fn name(&self) -> String {
-        match self.file == Path::new("-") {
-            true => "stdin".to_owned(),
-            false => crate::text::escape_lines(&self.file.display().to_string()),
+        if self.file == Path::new("-") {
+            "stdin".to_owned()
+        } else {
+            crate::text::escape_lines(&self.file.display().to_string())
         }
     }
 
     fn read(&self, name: &str) -> Result<Vec<u8>, Trouble> {
         let failed = |error: io::Error| Trouble::Usage(format!("{name}: {error}"));
-        let from: &mut dyn Read = match self.file == Path::new("-") {
-            true => &mut io::stdin().lock(),
-            false => &mut File::open(&self.file).map_err(failed)?,
+        let from: &mut dyn Read = if self.file == Path::new("-") {
+            &mut io::stdin().lock()
+        } else {
+            &mut File::open(&self.file).map_err(failed)?
         };
         let mut bytes = Vec::new();
         from.take(PROGRAM_MAX.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;

@@ -38,11 +38,13 @@ impl StreamProgress {
 
     /// Shows how much was accepted, if that is due, and why it waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
-        let due = match self.line.live {
+        let due = if !self.line.live {
+            ELSEWHERE
+        } else if waits.is_some() && !self.waited {
             // Nothing may come after it for long.
-            true if waits.is_some() && !self.waited => Duration::ZERO,
-            true => EVERY,
-            false => ELSEWHERE,
+            Duration::ZERO
+        } else {
+            EVERY
         };
         self.waited = waits.is_some();
         if !self.quiet && self.line.is_due(due) {

@@ -139,10 +139,7 @@ impl Sending<'_> {
 }
 
 fn range(first: usize, last: usize) -> String {
-    match first == last {
-        true => format!("line {first}"),
-        false => format!("lines {first} to {last}"),
-    }
+    if first == last { format!("line {first}") } else { format!("lines {first} to {last}") }
 }
 
 pub(super) fn acknowledge(sender: &mut Sender<'_>, ack: Ack) -> Result<(), Trouble> {

@@ -163,15 +163,17 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.com.many-two", &["COM-3"], "there are two descriptors at most, however many are asked for",
         |cnc, call| list(cnc, call, |records| records.truncate(2))),
     row("cnc.com.many-refused", &["COM-3"], "a read of more than one descriptor is refused",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.many-from-1", &["COM-3"],
         "several descriptors begin with the first object's, wherever they are asked for",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
-            true => cnc.at(call, group(call), 1),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
+            cnc.at(call, group(call), 1)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.many-padded", &["COM-3"], "several descriptors are 4 bytes apart", |cnc, call| {
         let answer = cnc.answer(call)?;

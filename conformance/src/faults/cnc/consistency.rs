@@ -29,9 +29,10 @@ fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u3
 
 /// Instances of a class behind an axis are not found.
 fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
-    match is(call, FIND) && group(call) & 0xF000 == of {
-        true if u32_at(call.data, 4) > Some(last) => cnc.answer(call).map(|_| vec![0; 8]),
-        _ => cnc.answer(call),
+    if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
+        cnc.answer(call).map(|_| vec![0; 8])
+    } else {
+        cnc.answer(call)
     }
 }
 
@@ -95,9 +96,10 @@ pub(super) const ROWS: &[CncSeed] = &[
         .at(call, group(call), offset(call).wrapping_add(1))
         .or_else(|_| cnc.answer(call))),
     row("cnc.sda.first-length", &["SDA-8"], "the length of the number of elements is that of element 1",
-        |cnc, call| match is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
-            true => cnc.at(call, group(call), offset(call) | 1),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
+            cnc.at(call, group(call), offset(call) | 1)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.flag-beyond", &["SDA-4"], "elements behind the last have a unit and a write flag",
         |cnc, call| {

@@ -167,12 +167,13 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.dyn.p1-value", &["DYN-7"], "the value of P1 is 4712",
-        |cnc, call| match is(call, VALUES) && offset(call) < 0x1E {
-            true => cnc.answer(call).map(|bytes| match real(&bytes) {
+        |cnc, call| if is(call, VALUES) && offset(call) < 0x1E {
+            cnc.answer(call).map(|bytes| match real(&bytes) {
                 4711.0 => 4712_f64.to_le_bytes().to_vec(),
                 _ => bytes,
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.dyn.p1-name", &["DYN-7"], "the name of P1 is V.P1, and it is found by that",
         |cnc, call| match (is(call, NAME), is(call, BY_NAME), offset(call)) {
@@ -186,17 +187,16 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.dyn.p1-count", &["DYN-7"], "the number of P is that of all kinds",
-        |cnc, call| match is(call, COUNT) && offset(call) == 2 {
-            true => {
-                let mut sum = cnc.answer(call)?;
-                for place in 3..=5 {
-                    let more = cnc.at(call, group(call), place)?;
-                    let total = u32_at(&sum, 0).unwrap_or_default();
-                    put(&mut sum, 0, total.wrapping_add(u32_at(&more, 0).unwrap_or_default()));
-                }
-                Ok(sum)
+        |cnc, call| if is(call, COUNT) && offset(call) == 2 {
+            let mut sum = cnc.answer(call)?;
+            for place in 3..=5 {
+                let more = cnc.at(call, group(call), place)?;
+                let total = u32_at(&sum, 0).unwrap_or_default();
+                put(&mut sum, 0, total.wrapping_add(u32_at(&more, 0).unwrap_or_default()));
             }
-            false => cnc.answer(call),
+            Ok(sum)
+        } else {
+            cnc.answer(call)
         }),
 ];
 

@@ -14,19 +14,22 @@ const FLAG: &[Function] = &[Function::ReadElementWriteFlag];
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.instance-name-missing", &["SDA-4"], "element 0 has no name",
-        |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
-            true => Err(AdsError::INVALID_OFFSET),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAME) && offset(call) & 0xFFF == 0 {
+            Err(AdsError::INVALID_OFFSET)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.instance-name-empty", &["SDA-4"], "the name of element 0 is empty",
-        |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
-            true => cnc.answer(call).map(|_| vec![0]),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAME) && offset(call) & 0xFFF == 0 {
+            cnc.answer(call).map(|_| vec![0])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.instance-name-of-element", &["SDA-4"], "the name of element 0 is that of element 1",
-        |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
-            true => cnc.at(call, group(call), offset(call) | 1),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAME) && offset(call) & 0xFFF == 0 {
+            cnc.at(call, group(call), offset(call) | 1)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.text-length-first", &["SDA-6"], "a text comes with its length, an UNS32, in front",
         |cnc, call| reply(cnc, call, ELEMENT_TEXTS, |bytes| {

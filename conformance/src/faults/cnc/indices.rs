@@ -66,9 +66,10 @@ pub(super) const ROWS: &[CncSeed] = &[
                     described(cnc, call).map(|found| dimensions(&found).0).unwrap_or_default();
                 indices(cnc, call, READ, |at| {
                     let bound = |(index, count): (u32, &u32)| index.min(count.saturating_sub(1));
-                    match at.len() == bounds.len() {
-                        true => at.into_iter().zip(&bounds).map(bound).collect(),
-                        false => at,
+                    if at.len() == bounds.len() {
+                        at.into_iter().zip(&bounds).map(bound).collect()
+                    } else {
+                        at
                     }
                 })
             }
@@ -123,11 +124,10 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     row("cnc.var.write-indices-ignored", &["VAR-12"],
         "a write by handle ignores the indices: it is to the first element",
-        |cnc, call| match is(call, WRITE)
-            && parts(call.data).is_some_and(|parts| !parts.1.is_empty())
-        {
-            true => indices(cnc, call, WRITE, |at| vec![0; at.len()]),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, WRITE) && parts(call.data).is_some_and(|parts| !parts.1.is_empty()) {
+            indices(cnc, call, WRITE, |at| vec![0; at.len()])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.write-indices-reversed", &["VAR-12"], "a write by handle has the indices in reverse order",
         |cnc, call| indices(cnc, call, WRITE, |at| at.into_iter().rev().collect())),

@@ -42,7 +42,7 @@ pub(in crate::faults) use self::bytes::{
 pub use self::faulty::Faulty;
 pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
-    first, function, functions, group, is, is_at, of_decoder, offset,
+    first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
 };
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;

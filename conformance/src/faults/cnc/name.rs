@@ -1,11 +1,12 @@
 //! Names of variables (VAR).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Function, Service};
+use ads_cnc::operation::Function;
 
 use super::variable::without_indices;
 use super::{
-    CncSeed, NAMED, at, behind, function, group, is, is_at, of_decoder, on, row, text, u32_at,
+    CncSeed, NAMED, at, behind, function, group, is, is_at, is_lookup, of_decoder, on, row, text,
+    u32_at,
 };
 use crate::edition::Edition;
 
@@ -18,28 +19,31 @@ const fn german(mut row: CncSeed) -> CncSeed {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.name-of-200", &["VAR-9"], "names of more than 200 characters are refused",
-        |cnc, call| match is(call, NAMED) && text(call.data).len() > 200 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).len() > 200 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.name-of-254", &["VAR-9"], "names take 254 characters at most",
-        |cnc, call| match is(call, NAMED) && text(call.data).len() > 254 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).len() > 254 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.name-of-256", &["VAR-9"], "names of more than 255 characters are cut and looked up",
-        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
-            true if call.data.len() > 256 => {
-                let name = text(call.data);
-                cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
-            }
-            _ => cnc.answer(call),
+        |cnc, call| if is_lookup(call) && call.data.len() > 256 {
+            let name = text(call.data);
+            cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.name-not-ended", &["VAR-9"], "names with a NUL are refused",
-        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
-            true if call.data.contains(&0) => Err(AdsError::SYMBOL_NOT_FOUND),
-            true => cnc.with(call, &[call.data, &[0]].concat()),
-            false => cnc.answer(call),
+        |cnc, call| if !is_lookup(call) {
+            cnc.answer(call)
+        } else if call.data.contains(&0) {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.with(call, &[call.data, &[0]].concat())
         }),
     row("cnc.var.name-one-character", &["VAR-9"],
         "a name that is not there stands for one with a character less",
@@ -87,9 +91,10 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.cycle-refused", &["VAR-18"], "V.CYC is not there at all",
-        |cnc, call| match is(call, NAMED) && text(call.data).starts_with(b"V.CYC.") {
-            true => Err(AdsError::SYMBOL_NOT_FOUND),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).starts_with(b"V.CYC.") {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.answer(call)
         }),
     german(row("cnc.var.dynamic-has-handle", &["VAR-18"], "V.P, V.L and V.S have handles",
         |cnc, call| match (function(call), call.data) {
@@ -157,9 +162,10 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     row("cnc.var.element-by-name-refused", &["VAR-20", "VAR-14"],
         "names with an index of an element are refused",
-        |cnc, call| match is(call, NAMED) && text(call.data).ends_with(b"]") {
-            true => Err(AdsError::SYMBOL_NOT_FOUND),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).ends_with(b"]") {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.element-by-name-from-1", &["VAR-20", "VAR-14"],
         "the index of an element in a name is counted from 1",

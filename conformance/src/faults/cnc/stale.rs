@@ -209,9 +209,10 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
     row("cnc.dyn.count-8-bytes", &["DYN-1"],
         "the number of parameters takes 8 bytes where a Read has room for them",
-        |cnc, call| match is(call, COUNT) && call.read_length >= 8 {
-            true => cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat()),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && call.read_length >= 8 {
+            cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.found-not-read", &["SDA-5", "ADR-7"],
         "of the position controller three axes are read, though all of them are found",

@@ -22,9 +22,10 @@ struct Narrow(StreamingInterface);
 
 impl Buffer for Narrow {
     fn write(&mut self, data: &[u8]) -> Ack {
-        match self.0.len().saturating_add(data.len()) > NARROW {
-            true => Ack::Busy,
-            false => self.0.write(data),
+        if self.0.len().saturating_add(data.len()) > NARROW {
+            Ack::Busy
+        } else {
+            self.0.write(data)
         }
     }
 
@@ -213,9 +214,10 @@ fn branches(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
 
 fn whole_branches(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let count = |word: &[u8]| lines(read).filter(|line| has(line, word)).count();
-    match count(b"$IF") == count(b"$ENDIF") && count(b"$SWITCH") == count(b"$ENDSWITCH") {
-        true => ProgramSegment::new(checker, read),
-        false => branches(checker, read),
+    if count(b"$IF") == count(b"$ENDIF") && count(b"$SWITCH") == count(b"$ENDSWITCH") {
+        ProgramSegment::new(checker, read)
+    } else {
+        branches(checker, read)
     }
 }
 

@@ -145,9 +145,10 @@ pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyDa
 /// The answer no longer than asked for.
 pub(in crate::faults) fn fits(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
-        match u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
-            true => Ok(bytes),
-            false => Err(AdsError::INVALID_SIZE),
+        if u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
+            Ok(bytes)
+        } else {
+            Err(AdsError::INVALID_SIZE)
         }
     })
 }
@@ -159,8 +160,5 @@ pub(in crate::faults) fn reply(
     of: &[Function],
     other: impl FnOnce(Vec<u8>) -> Vec<u8>,
 ) -> ReplyData {
-    match is(call, of) {
-        true => fits(call, cnc.whole(call).map(other)),
-        false => cnc.answer(call),
-    }
+    if is(call, of) { fits(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }

@@ -119,13 +119,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             let (at, old) = (value_at(call), old(cnc, call));
             let value = call.data.get(at..).unwrap_or_default();
             let text = text(value);
-            match value.len() == old.len() || text.len() == value.len() {
-                true => cnc.answer(call),
-                false => {
-                    let rest = old.get(text.len()..).unwrap_or_default();
-                    let head = call.data.get(..at).unwrap_or_default();
-                    cnc.with(call, &[head, text, rest].concat())
-                }
+            if value.len() == old.len() || text.len() == value.len() {
+                cnc.answer(call)
+            } else {
+                let rest = old.get(text.len()..).unwrap_or_default();
+                let head = call.data.get(..at).unwrap_or_default();
+                cnc.with(call, &[head, text, rest].concat())
             }
         }),
     row("cnc.var.extended-swapped", &["VAR-15"], "validity stands before synchronisation",

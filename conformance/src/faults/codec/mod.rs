@@ -59,19 +59,26 @@ impl CodecFault {
             Self::Longest(of) => {
                 let longest = Stream::by_name(of).map(|stream| stream.layout().max);
                 let len = question.hex.as_ref().and_then(|hex| u32::try_from(hex.len()).ok());
-                match of == stream && question.op == "decode" && len == longest {
-                    true => refused("too-long"),
-                    false => right(question),
+                if of == stream && question.op == "decode" && len == longest {
+                    refused("too-long")
+                } else {
+                    right(question)
                 }
             }
-            Self::Swaps(of, one, other) => match of == stream {
-                true => around_value(right, question, |value| swap(value, one, other)),
-                false => right(question),
-            },
-            Self::BigEndian(of) => match of.layout().name == stream {
-                true => big_endian(right, question, of),
-                false => right(question),
-            },
+            Self::Swaps(of, one, other) => {
+                if of == stream {
+                    around_value(right, question, |value| swap(value, one, other))
+                } else {
+                    right(question)
+                }
+            }
+            Self::BigEndian(of) => {
+                if of.layout().name == stream {
+                    big_endian(right, question, of)
+                } else {
+                    right(question)
+                }
+            }
             Self::Value(change) => around_value(right, question, |value| change(stream, value)),
             Self::Bytes(change) => match right(question) {
                 Answer::Ok(Output { hex: Some(bytes), .. }) if question.op == "encode" => {

@@ -33,9 +33,10 @@ fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
 fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
-    match question.op == "check" && text.windows(word.len()).any(|part| part == word) {
-        true => refused(clause),
-        false => right(question),
+    if question.op == "check" && text.windows(word.len()).any(|part| part == word) {
+        refused(clause)
+    } else {
+        right(question)
     }
 }
 

@@ -122,9 +122,10 @@ pub(super) const ROWS: &[CodecSeed] = &[
             let text = question.hex.as_deref().unwrap_or_default();
             let long =
                 |line: &[u8]| line.iter().filter(|byte| !b"\r\n".contains(byte)).count() == 990;
-            match question.op == "packets" && text.split(|byte| *byte == b'\n').any(long) {
-                true => refused("too-long"),
-                false => right(question),
+            if question.op == "packets" && text.split(|byte| *byte == b'\n').any(long) {
+                refused("too-long")
+            } else {
+                right(question)
             }
         })),
 ];

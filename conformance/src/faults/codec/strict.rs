@@ -16,9 +16,10 @@ fn strict(
     stream: &str,
     is: impl FnOnce(&Question) -> bool,
 ) -> Answer {
-    match question.op == "decode" && question.stream == stream && is(question) {
-        true => refused("truncated"),
-        false => right(question),
+    if question.op == "decode" && question.stream == stream && is(question) {
+        refused("truncated")
+    } else {
+        right(question)
     }
 }
 
@@ -52,9 +53,10 @@ pub(super) const ROWS: &[CodecSeed] = &[
         "a reply that ends behind a result that is not 0 is refused",
         CodecFault::Around(|right, question| {
             let alone = question.hex.as_ref().is_some_and(|hex| hex.len() == 4);
-            match question.op == "decode" && alone && question.stream.ends_with("read-reply") {
-                true => refused("truncated"),
-                false => strict(right, question, "read-write-reply", |_| alone),
+            if question.op == "decode" && alone && question.stream.ends_with("read-reply") {
+                refused("truncated")
+            } else {
+                strict(right, question, "read-write-reply", |_| alone)
             }
         })),
     row("codec.refuses.sum", &["VAR-1"], "the empty kind is refused", CodecFault::Around(|right, question| {

@@ -26,9 +26,10 @@ pub(super) const ROWS: &[CncSeed] = &[
             done
         }),
     row("different.instances-named-alike", &[], "the name of element 0 of an axis is that of its channel",
-        |cnc, call| match is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
-            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
+            cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call))
+        } else {
+            cnc.answer(call)
         }),
     sent("different.errors-in-both", "errors stand in both headers", |_, _, mut bytes| {
         if let Some(error @ 1..) = u32_at(&bytes, 38) {
@@ -55,9 +56,10 @@ pub(super) const ROWS: &[CncSeed] = &[
             measured(bytes)
         }),
     on("different.extended-external-only", &[], "an extended description of what has none is refused",
-        &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| match bytes.is_empty() {
-            true => Err(AdsError::INVALID_DATA),
-            false => Ok(bytes),
+        &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| if bytes.is_empty() {
+            Err(AdsError::INVALID_DATA)
+        } else {
+            Ok(bytes)
         })),
     unprinted(row("different.remains-behind-names", &[],
         "behind the NUL of names, types and units there are remains of others",

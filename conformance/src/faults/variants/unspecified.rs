@@ -102,17 +102,16 @@ pub(super) const ROWS: &[CncSeed] = &[
     }),
     row("different.stream-busy", &[],
         "every third write of a stream is refused for now, whatever room there is",
-        |cnc, call| match is(call, STREAM) && (1..=992).contains(&call.data.len()) {
-            true => {
-                let mut memory = cnc.memory();
-                memory.count = memory.count.wrapping_add(1);
-                if memory.count % 3 == 0 {
-                    return Err(AdsError::INVALID_DATA);
-                }
-                drop(memory);
-                cnc.answer(call)
+        |cnc, call| if is(call, STREAM) && (1..=992).contains(&call.data.len()) {
+            let mut memory = cnc.memory();
+            memory.count = memory.count.wrapping_add(1);
+            if memory.count % 3 == 0 {
+                return Err(AdsError::INVALID_DATA);
             }
-            false => cnc.answer(call),
+            drop(memory);
+            cnc.answer(call)
+        } else {
+            cnc.answer(call)
         }),
     sent("different.errors-with-zeros",
         "a refused Read or ReadWrite has as many zeros as were asked for, up to 64",
@@ -126,8 +125,8 @@ pub(super) const ROWS: &[CncSeed] = &[
             measured(bytes)
         }),
     row("different.descriptors-by-index", &[], "descriptors that are asked for by index have groups by index",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
+            cnc.answer(call).map(|mut bytes| {
                 for record in records_mut(&mut bytes) {
                     let own = u32_at(record, 12).unwrap_or_default() & 0x0F_FF00;
                     let asked = group(call) & 0xFF;
@@ -138,8 +137,9 @@ pub(super) const ROWS: &[CncSeed] = &[
                     }
                 }
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     on("different.platform-elsewhere", &[], "descriptors of the platform have the other of its two groups",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
