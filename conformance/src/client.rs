@@ -318,7 +318,7 @@ impl Client {
         let wire = match self.wire.take() {
             Some(wire) => wire,
             None => {
-                let wire = self.dial().map_err(ExchangeError::gone)?;
+                let wire = self.dial().map_err(ExchangeError::disconnected)?;
                 if let Some(capture) = &mut self.capture {
                     capture.opened(wire.local(), self.target.addr);
                 }

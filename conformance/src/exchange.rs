@@ -85,7 +85,7 @@ pub enum ExchangeError {
     /// The network failed.
     Io(String),
     /// Nobody listens any more.
-    Gone(String),
+    Disconnected(String),
 }
 
 impl ExchangeError {
@@ -93,8 +93,8 @@ impl ExchangeError {
         Self::Io(error.to_string())
     }
 
-    pub(crate) fn gone(error: io::Error) -> Self {
-        Self::Gone(error.to_string())
+    pub(crate) fn disconnected(error: io::Error) -> Self {
+        Self::Disconnected(error.to_string())
     }
 }
 
@@ -109,7 +109,7 @@ impl fmt::Display for ExchangeError {
             Self::Unseen => f.write_str("whatever it was: the request alone is judged"),
             Self::Malformed(error) => write!(f, "malformed answer: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
-            Self::Gone(error) => write!(f, "no connection: {error}"),
+            Self::Disconnected(error) => write!(f, "no connection: {error}"),
         }
     }
 }

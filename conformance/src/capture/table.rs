@@ -82,7 +82,7 @@ pub(super) struct ConnectionTable {
     ports: Ports,
     open: BTreeMap<(SocketAddr, SocketAddr), TcpConnection>,
     connections: u64,
-    held: usize,
+    buffered: usize,
     segments: u64,
     pub(super) repeated: u64,
     pub(super) early: u64,
@@ -91,7 +91,7 @@ pub(super) struct ConnectionTable {
 impl ConnectionTable {
     pub(super) const fn new(ports: Ports) -> Self {
         let open = BTreeMap::new();
-        Self { ports, open, connections: 0, held: 0, segments: 0, repeated: 0, early: 0 }
+        Self { ports, open, connections: 0, buffered: 0, segments: 0, repeated: 0, early: 0 }
     }
 
     pub(super) const fn connections(&self) -> u64 {
@@ -100,7 +100,7 @@ impl ConnectionTable {
 
     /// Whether the direction from here is waiting for something that comes too late.
     pub(super) fn waits(&self, way: &SegmentDirection) -> bool {
-        self.half(way).is_some_and(|half| half.held() > 0)
+        self.half(way).is_some_and(|half| half.memory_size() > 0)
     }
 
     /// Whether the direction from here has got as far as this.
@@ -147,16 +147,17 @@ impl ConnectionTable {
         }
         let Some(connection) = self.open.get_mut(&key) else { return };
         connection.last = self.segments;
-        let before = connection.held();
+        let before = connection.memory_size();
         let events = out.len();
         connection.push(segment, mark, self.ports == Ports::Any, out);
-        self.held = self.held.saturating_sub(before).saturating_add(connection.held());
+        self.buffered =
+            self.buffered.saturating_sub(before).saturating_add(connection.memory_size());
         let over = segment.rst || connection.halves.iter().all(Half::is_over);
         if connection.speaks && std::mem::take(&mut connection.joined) {
             out.insert(events, ConnectionEvent::Joined(connection.number));
         }
         // The last acknowledgement finds nothing to acknowledge.
-        if over || self.held > HELD_MAX {
+        if over || self.buffered > HELD_MAX {
             self.end(key, out);
         } else if !connection.speaks {
             // What is not AMS is not told of; if it becomes that, it is known what was missing.
@@ -179,7 +180,7 @@ impl ConnectionTable {
 
     fn end(&mut self, key: (SocketAddr, SocketAddr), out: &mut Vec<ConnectionEvent>) {
         let Some(mut connection) = self.open.remove(&key) else { return };
-        self.held = self.held.saturating_sub(connection.held());
+        self.buffered = self.buffered.saturating_sub(connection.memory_size());
         let events = out.len();
         connection.finish(out);
         if !connection.speaks {
@@ -218,9 +219,9 @@ impl TcpConnection {
         }
     }
 
-    fn held(&self) -> usize {
-        let halves = self.halves.iter().map(Half::held);
-        halves.chain(self.frames.iter().map(Frames::held)).fold(0, usize::saturating_add)
+    fn memory_size(&self) -> usize {
+        let halves = self.halves.iter().map(Half::memory_size);
+        halves.chain(self.frames.iter().map(Frames::memory_size)).fold(0, usize::saturating_add)
     }
 
     fn side(&self, from: SocketAddr) -> usize {
@@ -288,7 +289,7 @@ impl TcpConnection {
             };
             let speaks = &mut self.speaks;
             half.flush(&mut |piece| feed(frames, piece, way, speaks, out));
-            frames.end(&mut |found| tell(found, way, speaks, out));
+            frames.end(&mut |found| push_event(found, way, speaks, out));
         }
         let (connection, last) = (self.number, self.packet);
         let mut ways = [(one, other), (other, one)].into_iter().zip(&self.halves);
@@ -307,16 +308,16 @@ fn feed(
 ) {
     match piece {
         ReassembledPiece::Data(bytes, mark) => {
-            frames.push(bytes, mark, &mut |found| tell(found, way, speaks, out));
+            frames.push(bytes, mark, &mut |found| push_event(found, way, speaks, out));
         }
         ReassembledPiece::Gap(length, mark) => {
-            frames.gap(length, &mut |found| tell(found, way, speaks, out));
+            frames.gap(length, &mut |found| push_event(found, way, speaks, out));
             out.push(ConnectionEvent::Gap(length, way, mark));
         }
     }
 }
 
-fn tell(
+fn push_event(
     found: FramePiece,
     way: SegmentDirection,
     speaks: &mut bool,

@@ -64,7 +64,7 @@ pub(super) struct Half {
     place: u64,
     /// What came too early, by its place.
     ahead: BTreeMap<u64, EarlySegment>,
-    held: usize,
+    buffered: usize,
     /// How far the other side has acknowledged, and where it said so.
     acknowledged: u64,
     told: Option<Mark>,
@@ -132,9 +132,9 @@ impl Half {
     }
 
     /// Memory of what is held back: many small segments take more than their bytes.
-    pub(super) fn held(&self) -> usize {
+    pub(super) fn memory_size(&self) -> usize {
         let each = size_of::<(u64, EarlySegment)>();
-        self.held.saturating_add(self.ahead.len().saturating_mul(each))
+        self.buffered.saturating_add(self.ahead.len().saturating_mul(each))
     }
 
     /// Takes a segment and hands over what is in order.
@@ -242,12 +242,12 @@ impl Half {
     }
 
     fn hold(&mut self, place: u64, part: DirectedSegment<'_>) {
-        let known = self.ahead.get(&place).map_or(0, |held| held.bytes.len());
+        let known = self.ahead.get(&place).map_or(0, |early| early.bytes.len());
         if self.ahead.contains_key(&place) && known >= part.payload.len() {
             return;
         }
         let bytes = part.payload.to_vec();
-        self.held = self.held.saturating_sub(known).saturating_add(bytes.len());
+        self.buffered = self.buffered.saturating_sub(known).saturating_add(bytes.len());
         self.ahead.insert(place, EarlySegment { bytes, missing: part.missing, mark: part.mark });
     }
 
@@ -255,15 +255,15 @@ impl Half {
     fn follow(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while let Some((&place, _)) = self.ahead.first_key_value() {
             let Some(overlap) = self.place.checked_sub(place) else { return };
-            let Some(held) = self.ahead.remove(&place) else { return };
-            self.held = self.held.saturating_sub(held.bytes.len());
+            let Some(early) = self.ahead.remove(&place) else { return };
+            self.buffered = self.buffered.saturating_sub(early.bytes.len());
             let overlap = usize::try_from(overlap).unwrap_or(usize::MAX);
-            let fresh = held.bytes.get(overlap..).unwrap_or_default();
-            let missing = match overlap.checked_sub(held.bytes.len()) {
-                Some(more) => held.missing.saturating_sub(more),
-                None => held.missing,
+            let fresh = early.bytes.get(overlap..).unwrap_or_default();
+            let missing = match overlap.checked_sub(early.bytes.len()) {
+                Some(more) => early.missing.saturating_sub(more),
+                None => early.missing,
             };
-            self.take(fresh, missing, held.mark, out);
+            self.take(fresh, missing, early.mark, out);
             self.waiting = 0;
         }
     }
@@ -271,7 +271,7 @@ impl Half {
     /// Gives up what is missing if the other side has it, or if too much is held back.
     fn lose_patience(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         self.waiting = self.waiting.saturating_add(1);
-        let too_much = self.held > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;
+        let too_much = self.buffered > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;
         let first = self.ahead.first_key_value().map_or(u64::MAX, |(&place, _)| place);
         if too_much || (self.acknowledged >= first && self.waiting > PATIENCE) {
             self.leap(out);
@@ -282,9 +282,9 @@ impl Half {
     fn leap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         let from = Bound::Included(self.place);
         let first = self.ahead.range((from, Bound::Unbounded)).next();
-        if let Some((&place, held)) = first {
+        if let Some((&place, early)) = first {
             let gap = place.saturating_sub(self.place);
-            out(ReassembledPiece::Gap(gap, held.mark));
+            out(ReassembledPiece::Gap(gap, early.mark));
             self.advance(usize::try_from(gap).unwrap_or(usize::MAX));
         }
         self.waiting = 0;

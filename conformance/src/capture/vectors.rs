@@ -125,7 +125,7 @@ impl Collector {
             let prefix = format!("{}.", stream.layout().name.replace('-', "_"));
             segments.extend(self::segments(stream, bytes, &prefix));
         }
-        self.keep(
+        self.record(
             "ams-frame",
             way,
             Context::default(),
@@ -146,10 +146,10 @@ impl Collector {
     ) -> Option<String> {
         let layout = stream.layout();
         let segments = segments(stream, bytes, "");
-        self.keep(layout.name, way, context, bytes, segments, &[clause, layout.clause])
+        self.record(layout.name, way, context, bytes, segments, &[clause, layout.clause])
     }
 
-    fn keep(
+    fn record(
         &mut self,
         stream: &str,
         direction: Direction,

@@ -128,7 +128,7 @@ impl Browse {
         };
         let mut progress = ProgressLine::new();
         let mut found = walk(&mut session, &options, &mut |seen| {
-            progress.tell(|| {
+            progress.update(|| {
                 format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
             });
         })?;
@@ -201,7 +201,7 @@ fn read_all(
     let mut contents = Vec::with_capacity(objects.len());
     let mut enough = None;
     for (place, object) in objects.iter().enumerate() {
-        progress.tell(|| format!("values: {place} of {}", objects.len()));
+        progress.update(|| format!("values: {place} of {}", objects.len()));
         if let Some(why) = &enough {
             contents.push(Err(String::clone(why)));
             continue;

@@ -122,9 +122,9 @@ fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io:
 
 /// Does what the environment says, and no more.
 fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
-    let told =
+    let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));
-    let line = told("ADS_CNC_DO")?;
+    let line = env_variable("ADS_CNC_DO")?;
     let line = match line.as_str() {
         "hello" => {
             serde_json::to_string(&ClientHello { stays: false, ..ReferenceClient::hello() })?
@@ -132,9 +132,9 @@ fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
         line => {
             let wrong = || io::Error::other("what it is told makes no sense");
             let place = CncAddress {
-                addr: told("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
-                net_id: told("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
-                port: told("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,
+                addr: env_variable("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
+                net_id: env_variable("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
+                port: env_variable("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,
             };
             done(flaw, &place, &Action::parse(line).ok_or_else(wrong)?)?
         }

@@ -22,7 +22,7 @@ impl ProgressLine {
     }
 
     /// Shows this on a terminal, unless something was shown just now.
-    pub(super) fn tell(&mut self, text: impl FnOnce() -> String) {
+    pub(super) fn update(&mut self, text: impl FnOnce() -> String) {
         if self.live && self.is_due(EVERY) {
             self.show(&text());
         }

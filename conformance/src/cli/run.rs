@@ -250,7 +250,7 @@ impl Run {
             None if self.is_simulated() => self.simulated(seed, waivers, profile, defect),
             None => self.device(seed, waivers, profile, changes),
         };
-        if interrupt.came() && !self.client.waits() {
+        if interrupt.is_requested() && !self.client.waits() {
             complain("interrupted: the reports have what was done until then");
         }
         match report {

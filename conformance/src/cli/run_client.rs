@@ -77,12 +77,12 @@ impl ClientArgs {
         check_address(addr, self.allow_remote)?;
         let server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
         match &self.client {
-            Some(command) => Ok(self.told(command, &server, plan, deadline)),
+            Some(command) => Ok(self.run_command(command, &server, plan, deadline)),
             None => waited(&server, deadline, interrupt),
         }
     }
 
-    fn told(
+    fn run_command(
         &self,
         command: &str,
         server: &TestServer,
@@ -123,7 +123,7 @@ fn waited(
             ));
             told = true;
         }
-        !(interrupt.came() || deadline.is_over())
+        !(interrupt.is_requested() || deadline.is_over())
     };
     let (outcome, frames) = clients::listen(server, go_on).map_err(|error| error.to_string())?;
     if deadline.is_over() {

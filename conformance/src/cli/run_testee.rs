@@ -66,7 +66,7 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
     let mut process = TesteeProcess::new(command, timeout);
     let mut faults = 0_usize;
     let findings = check_protocol(&mut process);
-    if interrupt::came() {
+    if interrupt::is_requested() {
         writeln!(out, "Interrupted: the protocol was not gone through.")?;
         return Ok(Exit::Nothing);
     }

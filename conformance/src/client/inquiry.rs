@@ -92,11 +92,14 @@ impl Client {
         let (sent, received, violations) = (Vec::new(), Vec::new(), Vec::new());
         let mut inquired =
             Inquired { port, sent, received, outcome: Err(ExchangeError::NotSent), violations };
-        inquired.outcome = self.said(&mut inquired);
+        inquired.outcome = self.exchange_inquiry(&mut inquired);
         inquired
     }
 
-    fn said<R: Inquiry>(&mut self, inquired: &mut Inquired<R>) -> Result<Said<R>, ExchangeError> {
+    fn exchange_inquiry<R: Inquiry>(
+        &mut self,
+        inquired: &mut Inquired<R>,
+    ) -> Result<Said<R>, ExchangeError> {
         let header = self.next_header(inquired.port, R::COMMAND);
         let bytes = super::whole(header, &[])?;
         let Inquired { received, violations: broken, .. } = inquired;
@@ -104,7 +107,7 @@ impl Client {
         inquired.sent = bytes;
         let said = came.and_then(|got| {
             inquired.violations.extend(violations(&header, &got));
-            said(&got, &inquired.received)
+            decode_reply(&got, &inquired.received)
         });
         if let Err(fault) = &said {
             if let ExchangeError::Malformed(error) = fault {
@@ -120,7 +123,7 @@ impl Client {
 }
 
 /// What the one frame that was received says.
-fn said<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, ExchangeError> {
+fn decode_reply<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, ExchangeError> {
     let data = received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if !header.error.is_ok() {
         return Ok(Said::Ams(header.error));

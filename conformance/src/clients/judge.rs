@@ -39,7 +39,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
     let place = |port| CncAddress { addr: server.addr(), net_id: server.net_id(), port };
     let hello = match actor.hello(&place(552)) {
         Ok(hello) => hello,
-        Err(_) if interrupt::came() => {
+        Err(_) if interrupt::is_requested() => {
             let all = scenarios.iter().map(Scenario::case);
             let outcomes = all.map(CaseOutcome::interrupted).collect();
             return JudgedClient { hello: None, outcomes, requests };
@@ -66,7 +66,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
     let mut lost = 0_usize;
     for scenario in scenarios {
         let case = scenario.case();
-        if interrupt::came() {
+        if interrupt::is_requested() {
             outcomes.push(CaseOutcome::interrupted(case));
             continue;
         }
@@ -92,7 +92,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
         };
         let played =
             caught(|| play(actor, server, scenario, &place(port))).and_then(|played| played);
-        if interrupt::came() {
+        if interrupt::is_requested() {
             // Whether it would have answered is not known.
             outcomes.push(CaseOutcome::interrupted(case));
             continue;
@@ -114,7 +114,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
         outcomes.push(outcome);
         one_line(actor, &mut manners);
     }
-    if interrupt::came() {
+    if interrupt::is_requested() {
         outcomes.push(CaseOutcome::interrupted(of_manners(manners).case));
         return JudgedClient { hello: Some(hello), outcomes, requests };
     }
@@ -165,7 +165,7 @@ fn play(
     let file = scenario.program.as_deref().map(ProgramFile::new).transpose();
     let file = file.map_err(|error| format!("the NC program: {error}"))?;
     let name = file.as_ref().and_then(|file| file.0.to_str());
-    let action = scenario.told(name).ok_or("no word of the vocabulary")?;
+    let action = scenario.action_with(name).ok_or("no word of the vocabulary")?;
     let cnc = Cnc::with_default_model().map_err(|error| error.to_string())?;
     let mut script = ScenarioScript::new(cnc);
     script.tamper = scenario.tamper;
@@ -186,7 +186,7 @@ fn play(
     if let Some(watch) = scenario.watch {
         ordering::judge(watch, scenario, &script, &turns, &mut findings);
     }
-    let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
+    let stop = judge_reaction(scenario, &script, &reaction, turns.last(), &mut findings);
     let stop = stop.or(beyond.stop());
     let is_lost = matches!(
         reaction,
@@ -209,7 +209,7 @@ fn may_write(scenario: &Scenario) -> bool {
 }
 
 /// Judges what the client says.
-fn said(
+fn judge_reaction(
     scenario: &Scenario,
     script: &ScenarioScript,
     reaction: &ClientReaction,

@@ -36,7 +36,8 @@ pub struct CncAddress {
     pub port: u16,
 }
 
-pub(super) fn told(place: &CncAddress, scenario: &str, action: &Action) -> Value {
+/// The line that tells a running client to do an action.
+pub(super) fn action_command(place: &CncAddress, scenario: &str, action: &Action) -> Value {
     json!({
         "cmd": "do",
         "scenario": scenario,
@@ -50,7 +51,7 @@ pub(super) fn told(place: &CncAddress, scenario: &str, action: &Action) -> Value
     })
 }
 
-/// The same for one that is started for each action.
+/// The environment of a client that is started for each action.
 pub(super) fn environment(
     place: &CncAddress,
     scenario: &str,

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::message::{
-    ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL, environment, told,
+    ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL, action_command, environment,
 };
 use super::{Action, Actor};
 use crate::deadline::Deadline;
@@ -59,7 +59,7 @@ impl ClientProcess {
             }
         }
         if self.stays {
-            self.process.send(told(place, scenario, action).to_string().into_bytes());
+            self.process.send(action_command(place, scenario, action).to_string().into_bytes());
         }
         let line = self.recv(self.process.timeout)?;
         if !self.stays {

@@ -255,7 +255,7 @@ impl Scenario {
     }
 
     /// What the client is told, with the file of the program behind it.
-    pub(super) fn told(&self, file: Option<&str>) -> Option<Action> {
+    pub(super) fn action_with(&self, file: Option<&str>) -> Option<Action> {
         match file {
             Some(file) => Action::parse(&format!("{} {file}", self.action)),
             None => Action::parse(&self.action),

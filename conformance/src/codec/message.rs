@@ -254,13 +254,13 @@ fn weight(value: &Value) -> usize {
 #[derive(Deserialize)]
 struct Keys {
     seq: Option<u64>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     ok: Option<Output>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     reject: Option<Rejection>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     unsupported: Option<Unsupported>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     error: Option<OwnError>,
 }
 
@@ -275,7 +275,7 @@ struct OwnError {
 }
 
 /// A key that is there has a value; null is none of these.
-fn there<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
+fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
     T::deserialize(from).map(Some)
 }
 

@@ -10,9 +10,9 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Upstream, behind, dimensions,
-    fault, first, fits, function, group, is, measured, number, offset, on, put, records_mut, row,
-    text, u32_at,
+    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Upstream, after_nul, dimensions,
+    fault, first, function, group, is, measured, number, offset, on, records_mut, row, set_u32,
+    text, u32_at, within_length,
 };
 
 /// A row about something that does not answer as printed.
@@ -37,7 +37,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
         Some((b"handle", _)) => {
             let mut data = call.data.to_vec();
             let handle = u32_at(&data, 0).unwrap_or_default();
-            put(&mut data, 0, other(handle));
+            set_u32(&mut data, 0, other(handle));
             cnc.with(call, &data)
         }
         _ => cnc.answer(call),
@@ -53,7 +53,7 @@ fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
 
 /// If it is too long for the client, as it was.
 fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: ReplyData) -> ReplyData {
-    fits(call, answer).or_else(|_| cnc.answer(call))
+    within_length(call, answer).or_else(|_| cnc.answer(call))
 }
 
 pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
@@ -119,7 +119,7 @@ const ROWS: &[CncSeed] = &[
     sent("different.errors-in-header", "errors stand in the AMS header, and there is no data",
         |_, _, mut bytes| match u32_at(&bytes, 38) {
             Some(error @ 1..) => {
-                put(&mut bytes, 30, error);
+                set_u32(&mut bytes, 30, error);
                 bytes.truncate(38);
                 measured(bytes)
             }
@@ -174,7 +174,7 @@ const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     unprinted(on("different.length-1-byte", &[], "the length of an element takes 1 byte",
-        &[Function::ReadElementLength], |cnc, call| fits(
+        &[Function::ReadElementLength], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 bytes.truncate(1);
@@ -182,7 +182,7 @@ const ROWS: &[CncSeed] = &[
             }),
         ))),
     unprinted(on("different.length-2-bytes", &[], "the length of an element takes 2 bytes",
-        &[Function::ReadElementLength], |cnc, call| fits(
+        &[Function::ReadElementLength], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 bytes.truncate(2);

@@ -90,7 +90,7 @@ impl Selection {
             judged: HashMap::new(),
         };
         for case in cases {
-            let wanted = self.wanted(&case);
+            let wanted = self.selected_requirements(&case);
             if wanted.is_empty() {
                 plan.left_out.push(case);
                 continue;
@@ -109,7 +109,7 @@ impl Selection {
     }
 
     /// What of a case is to be judged.
-    fn wanted(&self, case: &Case) -> Vec<&'static str> {
+    fn selected_requirements(&self, case: &Case) -> Vec<&'static str> {
         let whole = self.only.is_empty()
             || self.only.iter().any(|word| word.eq_ignore_ascii_case(&case.id));
         let selected = |id: &&str| whole || self.only.iter().any(|word| names(word, id));

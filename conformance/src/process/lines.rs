@@ -32,7 +32,7 @@ impl Stderr {
         escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
     }
 
-    fn keep(&self, mut from: impl Read) {
+    fn collect(&self, mut from: impl Read) {
         let mut chunk = [0; 4096];
         while let Ok(len @ 1..) = from.read(&mut chunk) {
             let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -90,7 +90,7 @@ impl LineProcess {
         }
         if let Some(from) = child.take_stderr() {
             let kept = stderr.clone();
-            spawn("command's stderr", move || kept.keep(from))?;
+            spawn("command's stderr", move || kept.collect(from))?;
         }
         Ok(Self { child, to, from })
     }
@@ -110,7 +110,7 @@ impl LineProcess {
                 Ok(Ok(line)) => return text(line),
                 Ok(Err(why)) => return Err(RecvError::Garbled(why)),
                 Err(RecvTimeoutError::Disconnected) => return Err(RecvError::Closed),
-                Err(RecvTimeoutError::Timeout) if interrupt::came() => {
+                Err(RecvTimeoutError::Timeout) if interrupt::is_requested() => {
                     return Err(RecvError::Interrupted);
                 }
                 Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(RecvError::Silence),
@@ -240,7 +240,7 @@ fn wait(
     loop {
         match child.try_wait() {
             Ok(Some(status)) => return Some(status),
-            Ok(None) if Instant::now() < until && !interrupt::came() => meanwhile(),
+            Ok(None) if Instant::now() < until && !interrupt::is_requested() => meanwhile(),
             _ => return None,
         }
     }

@@ -108,7 +108,7 @@ impl BytesReport {
     }
 
     /// The fields, without most items of a long list; those that differ are always shown.
-    pub(super) fn shown(&self) -> Vec<ShownField<'_>> {
+    pub(super) fn visible_fields(&self) -> Vec<ShownField<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);
         for list in self.fields.chunk_by(|one, next| one.field == next.field) {
             let last = list.len().saturating_sub(1);
@@ -186,7 +186,7 @@ mod tests {
         other[8 + 4 * 20] = 0;
         let stream = Some("variable-handle-read");
         let report = BytesReport::new(stream, &bytes, Some(&other), &ValueFormat::default());
-        let shown = report.shown();
+        let shown = report.visible_fields();
         let more: Vec<_> = shown.iter().filter(|one| matches!(one, ShownField::More(_))).collect();
         if report.faults.is_empty() {
             assert_eq!(more, [&ShownField::More(14), &ShownField::More(18)]);

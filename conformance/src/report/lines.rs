@@ -22,7 +22,7 @@ fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
         ShownField::More(more) => vec![format!("     …  {more} more")],
     };
     let mut all: Vec<String> = if fold {
-        bytes.shown().into_iter().flat_map(of_shown).collect()
+        bytes.visible_fields().into_iter().flat_map(of_shown).collect()
     } else {
         bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect()
     };

@@ -113,7 +113,7 @@ impl Session {
     pub fn simulated_to_try(cnc: impl Responder + 'static) -> Result<Self, Trouble> {
         let session = Self::simulated(cnc, Gate::queries())?;
         match session.simulated.as_ref().map(Gate::of_server) {
-            Some(gate) => session.behind(gate),
+            Some(gate) => session.with_gate(gate),
             None => Ok(session),
         }
     }
@@ -131,7 +131,7 @@ impl Session {
     ///
     /// # Errors
     /// [`Trouble::Usage`] for anything but a simulated CNC.
-    pub fn behind(self, gate: Gate) -> Result<Self, Trouble> {
+    pub fn with_gate(self, gate: Gate) -> Result<Self, Trouble> {
         let Self { client, simulated: Some(server), .. } = self else {
             return Err(Trouble::Usage("only a simulated CNC can have another gate".to_owned()));
         };

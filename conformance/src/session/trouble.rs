@@ -140,7 +140,9 @@ impl Trouble {
                  NetId, and is there {route}?",
                 timeout.as_millis()
             ),
-            ExchangeError::Gone(error) => format!("no connection to {addr} any more: {error}."),
+            ExchangeError::Disconnected(error) => {
+                format!("no connection to {addr} any more: {error}.")
+            }
         })
     }
 

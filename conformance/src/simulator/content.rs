@@ -97,7 +97,7 @@ pub(super) fn write(
         (Meaning::Value, _) => {
             let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
             // Where no axis is there is nothing to be written.
-            put(content.ok_or(AdsError::INVALID_DATA)?, bytes);
+            copy_padded(content.ok_or(AdsError::INVALID_DATA)?, bytes);
             Ok(())
         }
     }
@@ -111,7 +111,7 @@ pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(),
 }
 
 /// The bytes, and zeros behind them.
-pub(super) fn put(place: &mut [u8], bytes: &[u8]) {
+pub(super) fn copy_padded(place: &mut [u8], bytes: &[u8]) {
     let bytes = bytes.iter().copied().chain(std::iter::repeat(0));
     place.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = new);
 }

@@ -65,7 +65,7 @@ pub(crate) struct HeldParameter {
 impl Cnc {
     /// All contents that are what was put there last: none that says something of the
     /// configuration, none where no axis is.
-    pub(crate) fn held(&self) -> Vec<StoredContent> {
+    pub(crate) fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
             let elements = elements(self.model(), owner);
@@ -216,7 +216,7 @@ mod tests {
     #[test]
     fn what_is_put_there_is_held() {
         let cnc = Cnc::with_default_model().unwrap();
-        let all = cnc.held();
+        let all = cnc.stored_contents();
         let of = |holder: Holder, name: &str| {
             all.iter().find(|one| one.holder == holder && one.name.as_cnc_str() == name).unwrap()
         };
@@ -236,7 +236,7 @@ mod tests {
         cnc.hold(speed, &[7; 8]);
         cnc.hold(cycle, &[1; 3]);
         let changed: Vec<(Holder, Vec<u8>)> = cnc
-            .held()
+            .stored_contents()
             .into_iter()
             .zip(&all)
             .filter(|(new, old)| new.value != old.value)

@@ -82,7 +82,7 @@ fn within(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let addresses = Addresses::new(probe)?;
     let mut any = false;
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     for held in &all {
         let Some(element) = addresses.element(held)? else { continue };
         any = true;

@@ -48,7 +48,7 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
     let Some(target) = target else {
         return CaseOutcome::untried(case, Verdict::NotRun, "no target");
     };
-    if interrupt::came() {
+    if interrupt::is_requested() {
         return CaseOutcome::interrupted(case);
     }
     // Frames are judged by what there was of them, whatever became of the target.

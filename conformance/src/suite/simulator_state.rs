@@ -89,7 +89,7 @@ fn judge(
 /// Every content with its values over the rounds; they are put back whatever comes of it.
 fn is_read(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     if all.is_empty() {
         return Err(Stop::not_applicable("the CNC holds nothing"));
     }
@@ -121,7 +121,7 @@ fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &StoredContent, valu
 
 fn is_held(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
     for (number, held) in (1..).zip(&all).filter(|(_, held)| held.writable) {
@@ -157,7 +157,7 @@ fn write(
             continue;
         }
         let mut others = Vec::new();
-        for (now, before) in cnc.held().iter().zip(all) {
+        for (now, before) in cnc.stored_contents().iter().zip(all) {
             if (now.holder, now.element) == (held.holder, held.element) {
                 judge(probe, &rules, held, (value, Some(&now.value)), "");
             } else if now.value != before.value {
@@ -187,7 +187,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let addresses = Addresses::new(probe)?;
     let objects = addresses.objects();
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     for held in &all {
         let mine = |object: &&Object| is_list_of(held.holder, object.list.parts());
         // What instances there are is judged elsewhere.
@@ -237,7 +237,7 @@ mod tests {
     /// What is read in place of another, or in another order, is not taken for it.
     #[test]
     fn values_are_told_apart() {
-        let all = Cnc::with_default_model().unwrap().held();
+        let all = Cnc::with_default_model().unwrap().stored_contents();
         let sequence = |number: u32, held: &StoredContent| {
             let rounds = if is_bit(held) { ROUNDS } else { ROUNDS_OF_NUMBERS };
             (0..rounds).map(|round| value(held, number, round)).collect::<Vec<_>>()

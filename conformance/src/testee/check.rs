@@ -117,7 +117,7 @@ impl Steps<'_> {
         if !capabilities.claim("decode", &vector.stream) {
             return;
         }
-        let Some(question) = asked("decode", vector) else { return };
+        let Some(question) = question_of("decode", vector) else { return };
         let fault = match self.ask(&question) {
             Ok(Output { value: Some(value), .. }) => {
                 match compare::compare(&accept.value, &value) {
@@ -136,7 +136,7 @@ impl Steps<'_> {
         if !capabilities.claim("encode", &vector.stream) {
             return;
         }
-        let Some(question) = asked("encode", vector) else { return };
+        let Some(question) = question_of("encode", vector) else { return };
         let fault = match self.ask(&question) {
             Ok(Output { hex: Some(hex), .. }) => {
                 let right = forms(vector, accept).contains(&hex);
@@ -155,7 +155,7 @@ impl Steps<'_> {
         }
         let mut bytes = vector.bytes();
         bytes.pop();
-        let Some(question) = asked("decode", vector) else { return };
+        let Some(question) = question_of("decode", vector) else { return };
         let question = Question { hex: Some(bytes), ..question };
         let fault = match self.process.ask(&question) {
             TesteeReaction::Answer(Answer::Reject(_)) => None,
@@ -182,6 +182,6 @@ impl Steps<'_> {
 }
 
 /// What is asked of a vector by this op.
-fn asked(op: &str, vector: &Vector) -> Option<Question> {
+fn question_of(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
 }

@@ -32,7 +32,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
         Ok(hello) => hello,
-        Err(_) if interrupt::came() => return untried(cases, CaseOutcome::interrupted),
+        Err(_) if interrupt::is_requested() => return untried(cases, CaseOutcome::interrupted),
         // Whether it would have answered is not known.
         Err(reaction) => {
             return match testee.over() {
@@ -79,7 +79,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             }
             (Err(_), Purpose::MadeUp) => continue,
         };
-        if interrupt::came() {
+        if interrupt::is_requested() {
             // Whether it would have answered is not known.
             gone = Some(Stop::Interrupted);
             break;
@@ -140,7 +140,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     // Our own codec is asked without a protocol in between.
     if terms.subject != CaseSubject::Codec {
         let protocol = protocol.outcome(terms.subject);
-        outcomes.push(if interrupt::came() {
+        outcomes.push(if interrupt::is_requested() {
             CaseOutcome::interrupted(protocol.case)
         } else {
             protocol

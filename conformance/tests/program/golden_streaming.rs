@@ -34,7 +34,7 @@ impl StreamActor for Direct {
     }
 
     fn held(&mut self) -> Done<usize> {
-        Ok(self.0.held())
+        Ok(self.0.buffered())
     }
 
     fn write(&mut self, data: &[u8], _: StreamAck, _: &StreamStep, now: Duration) -> Done<Ack> {

@@ -59,7 +59,7 @@ fn ten_megabytes_arrive() {
     let executed = program.executed();
     assert_eq!(executed.line_count(), text.line_count() as u64);
     assert_eq!((executed.byte_count(), executed.digest()), (wire.len() as u64, digest(&wire)));
-    assert!(wire.ends_with(executed.kept()) && executed.kept().len() <= 20_100);
+    assert!(wire.ends_with(executed.recent()) && executed.recent().len() <= 20_100);
     // It never ran dry for long: 10 MB take it 100 s.
     let seconds = now.as_secs_f64();
     assert!((99.0..102.0).contains(&seconds), "{seconds}");

@@ -56,10 +56,10 @@ impl Early {
     }
 
     /// The number of the first that fits, of the first with this invoke ID.
-    fn find(&self, id: u32, fits: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
+    fn find(&self, id: u32, matches: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
         let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let alike = alike.filter_map(|(_, number)| self.all.get(number));
-        alike.into_iter().find(|reply| fits(reply)).map(|reply| reply.number)
+        alike.into_iter().find(|reply| matches(reply)).map(|reply| reply.number)
     }
 
     fn first_of(&self, connection: u64) -> Option<u64> {
@@ -167,26 +167,26 @@ impl TrafficJudge {
     }
 
     pub(super) fn reply(&mut self, reply: CapturedFrame) {
-        match self.asked(&reply) {
+        match self.request_of(&reply) {
             Some(asked) => self.exchange(&asked, &reply),
             None => self.early.push(reply),
         }
     }
 
     /// The request that a reply answers, from whom it goes to.
-    fn asked(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
+    fn request_of(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
         let key = (reply.way.connection, reply.header.invoke_id);
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
-        let fits = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
+        let matches = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
         let here = self.waiting.get(&key).and_then(|all| {
             // Whoever uses an invoke ID once more has got the answer before, which was lost.
             if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
-                latest.into_iter().find(|&place| all.get(place).is_some_and(fits))
+                latest.into_iter().find(|&place| all.get(place).is_some_and(matches))
             } else {
                 let mut first = all.iter().take(ALIKE_MAX);
                 let mirrored = || all.iter().take(ALIKE_MAX).position(|one| one.mirrors(reply));
-                first.position(fits).or_else(mirrored)
+                first.position(matches).or_else(mirrored)
             }
         });
         if let Some(place) = here {
@@ -198,7 +198,7 @@ impl TrafficJudge {
         let mut others = others.map(|(id, connection)| (*connection, *id));
         let (key, place) = others.find_map(|key| {
             let all = self.waiting.get(&key)?;
-            Some((key, all.iter().take(ALIKE_MAX).position(fits)?))
+            Some((key, all.iter().take(ALIKE_MAX).position(matches)?))
         })?;
         self.forget(key, place)
     }

@@ -65,7 +65,7 @@ fn what_never_came_is_a_gap() {
     assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"fg")], false), "ab");
     assert_eq!((half.ahead.len(), half.early), (1, 1));
     assert_eq!(joined(&mut half, &[], true), "___fg");
-    assert_eq!(half.held(), 0);
+    assert_eq!(half.memory_size(), 0);
 }
 
 /// The other side has it: it was sent, and not captured.
@@ -112,7 +112,7 @@ fn no_more_is_held_back_than_a_limit() {
             DirectedSegment { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
             &mut out,
         );
-        assert!(half.held() <= AHEAD_MAX + 60_000);
+        assert!(half.memory_size() <= AHEAD_MAX + 60_000);
     }
 }
 

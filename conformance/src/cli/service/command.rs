@@ -54,7 +54,7 @@ impl ServiceCommand<'_> {
                 // With all that it has started and that still runs.
                 drop(child);
                 stdout.closes();
-                let mut answer = answer(&ended, &stdout.kept());
+                let mut answer = answer(&ended, &stdout.bytes());
                 if !closed {
                     let warning = "a process that the command has started still had its stdout, \
                                    and was ended unless it has a session of its own";
@@ -134,7 +134,7 @@ impl CapturedOutput {
         self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
     }
 
-    fn kept(&self) -> Vec<u8> {
+    fn bytes(&self) -> Vec<u8> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }

@@ -52,7 +52,7 @@ impl Sending<'_> {
         progress: &mut StreamProgress,
     ) -> SendEnd {
         loop {
-            if interrupt.came() {
+            if interrupt.is_requested() {
                 return SendEnd::Interrupted;
             }
             let Some(packet) = self.sender.packet() else { return SendEnd::Done };

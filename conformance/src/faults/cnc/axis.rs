@@ -119,7 +119,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
             let handle = u32_at(&bytes, 0).unwrap_or_default();
             if handle & 0xFF00_FF00 == 0x0100_0000 {
-                super::put(&mut bytes, 0, handle.wrapping_add(0x1_0000));
+                super::set_u32(&mut bytes, 0, handle.wrapping_add(0x1_0000));
             }
             bytes
         })),

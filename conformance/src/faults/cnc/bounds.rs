@@ -7,8 +7,8 @@ use ads_cnc::service::ServiceVariable;
 use super::handle::{joined, parts};
 use super::lookup::{indexed, instance, with_indices};
 use super::{
-    CncSeed, DESCRIPTIONS, LOGICAL, behind, dimensions, fits, function, group, is, number, offset,
-    on, records, reply, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, LOGICAL, after_nul, dimensions, function, group, is, number, offset, on,
+    records, reply, row, text, u32_at, within_length,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -132,7 +132,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let (numbers, end) = dimensions(&bytes);
             if numbers.len() > 2 {
                 bytes.drain(28..end);
-                super::put(&mut bytes, 16, 2);
+                super::set_u32(&mut bytes, 16, 2);
             }
             bytes
         })),
@@ -163,7 +163,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         STREAM, |cnc, call| {
             let channel = u8::try_from(instance(call)).unwrap_or_default();
             let held =
-                cnc.cnc.with_program(channel, |program| program.held()).unwrap_or_default();
+                cnc.cnc.with_program(channel, |program| program.buffered()).unwrap_or_default();
             if held.saturating_add(call.data.len()) == 4094 {
                 Err(AdsError::INVALID_DATA)
             } else {
@@ -193,7 +193,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
             let is_response = is(call, &[Function::WriteByName]) && text(call.data) == name;
-            if is_response && behind(call.data).len() == 128 {
+            if is_response && after_nul(call.data).len() == 128 {
                 Err(AdsError::INVALID_SIZE)
             } else {
                 cnc.answer(call)
@@ -201,7 +201,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     row("cnc.svc.uuid-35", &["SVC-1", "SVC-2"], "UUID is read without its 36th character",
         |cnc, call| if is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
-            fits(
+            within_length(
                 call,
                 cnc.answer(call).map(|mut bytes| {
                     bytes.iter_mut().skip(35).for_each(|byte| *byte = 0);

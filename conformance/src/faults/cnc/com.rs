@@ -58,7 +58,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         "the number takes a place among the descriptors: the first is at index 2",
         |cnc, call| match (is(call, &[Function::ReadDescriptors]), offset(call)) {
             (true, 1) => Err(AdsError::INVALID_OFFSET),
-            (true, behind) => cnc.at(call, group(call), behind.wrapping_sub(1)),
+            (true, index) => cnc.at(call, group(call), index.wrapping_sub(1)),
             _ => cnc.answer(call),
         }),
     on("cnc.com.descriptor-of-first", &["COM-2"], "every descriptor is that of the first object",

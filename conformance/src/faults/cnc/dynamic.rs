@@ -4,8 +4,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    CncSeed, ReplyData, Upstream, fits, group, is, number, of_decoder, offset, on, put, row, text,
-    u32_at,
+    CncSeed, ReplyData, Upstream, group, is, number, of_decoder, offset, on, row, set_u32, text,
+    u32_at, within_length,
 };
 
 const COUNT: &[Function] = &[Function::CountDynamic];
@@ -97,7 +97,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             bytes
         })),
     on("cnc.dyn.name-256", &["DYN-2", "DYN-6"], "names are padded to 256 bytes",
-        NAME, |cnc, call| fits(
+        NAME, |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 bytes.resize(256, 0);
@@ -105,7 +105,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }),
         )),
     on("cnc.dyn.name-index-first", &["DYN-2"], "the index is repeated in front of the name",
-        NAME, |cnc, call| fits(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))),
+        NAME, |cnc, call| within_length(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))),
     on("cnc.dyn.name-upper-case", &["DYN-2", "DYN-3"], "names are told in upper case, and not found so",
         NAME, |cnc, call| cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase())),
     on("cnc.dyn.by-name-first", &["DYN-3"],
@@ -178,7 +178,7 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.dyn.p1-name", &["DYN-7"], "the name of P1 is V.P1, and it is found by that",
         |cnc, call| match (is(call, NAME), is(call, BY_NAME), offset(call)) {
             (true, _, 0x1B) => {
-                fits(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))
+                within_length(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))
             }
             (_, true, 0x1C) => match call.data.strip_prefix(b"V.") {
                 Some(name) => cnc.with(call, name),
@@ -192,7 +192,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             for place in 3..=5 {
                 let more = cnc.at(call, group(call), place)?;
                 let total = u32_at(&sum, 0).unwrap_or_default();
-                put(&mut sum, 0, total.wrapping_add(u32_at(&more, 0).unwrap_or_default()));
+                set_u32(&mut sum, 0, total.wrapping_add(u32_at(&more, 0).unwrap_or_default()));
             }
             Ok(sum)
         } else {

@@ -3,7 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 
-use super::{CncSeed, ELEMENT_TEXTS, group, is, offset, on, put, reply, row, text, u32_at};
+use super::{CncSeed, ELEMENT_TEXTS, group, is, offset, on, reply, row, set_u32, text, u32_at};
 
 const NAME: &[Function] = &[Function::ReadElementName];
 const TYPE: &[Function] = &[Function::ReadElementType];
@@ -73,19 +73,19 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.length-one-more", &["SDA-8"], "the length is one more than that of the content",
         |cnc, call| reply(cnc, call, LENGTH, |mut bytes| {
             let length = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, length.wrapping_add(1));
+            set_u32(&mut bytes, 0, length.wrapping_add(1));
             bytes
         })),
     row("cnc.sda.length-in-bits", &["SDA-8"], "the length is in bits",
         |cnc, call| reply(cnc, call, LENGTH, |mut bytes| {
             let length = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, length.wrapping_mul(8));
+            set_u32(&mut bytes, 0, length.wrapping_mul(8));
             bytes
         })),
     row("cnc.sda.length-aligned", &["SDA-8"], "the length is 4 at least",
         |cnc, call| reply(cnc, call, LENGTH, |mut bytes| {
             let length = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, length.max(4));
+            set_u32(&mut bytes, 0, length.max(4));
             bytes
         })),
     row("cnc.sda.length-text", &["SDA-8"], "the length is a text",

@@ -5,7 +5,9 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
 use super::variable::{described, element, first_element};
-use super::{CncSeed, ReplyData, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
+use super::{
+    CncSeed, ReplyData, Upstream, dimensions, is, of_decoder, row, set_u32, u32_at, within_length,
+};
 
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
@@ -29,7 +31,7 @@ fn indices(
 pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-unknown", &["VAR-11"], "a handle of no variable reads as 0",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
-            (true, Err(_)) if described(cnc, call).is_none() => fits(call, Ok(vec![0; 4])),
+            (true, Err(_)) if described(cnc, call).is_none() => within_length(call, Ok(vec![0; 4])),
             (_, answer) => answer,
         }),
     row("cnc.var.whole-by-handle-first", &["VAR-11", "VAR-14"], "n = 0 reads the first element of an array",
@@ -78,7 +80,7 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.indices-beyond", &["VAR-11"], "an index that is out of bounds reads as 0",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => match described(cnc, call) {
-                Some(found) => fits(call, Ok(vec![0; element(&found)])),
+                Some(found) => within_length(call, Ok(vec![0; element(&found)])),
                 None => Err(AdsError::INVALID_DATA),
             },
             (_, answer) => answer,
@@ -108,7 +110,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             Some(0x47) => {
                 let mut data = call.data.to_vec();
                 let bytes = u32_at(&data, 4).unwrap_or_default();
-                put(&mut data, 4, bytes >> 2);
+                set_u32(&mut data, 4, bytes >> 2);
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),

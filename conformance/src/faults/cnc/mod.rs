@@ -37,7 +37,7 @@ mod write;
 mod write_sequence;
 
 pub(in crate::faults) use self::bytes::{
-    behind, dimensions, fours, number, put, records, records_mut, u32_at,
+    after_nul, dimensions, fours, number, records, records_mut, set_u32, u32_at,
 };
 pub use self::faulty::Faulty;
 pub(in crate::faults) use self::request::{
@@ -46,7 +46,7 @@ pub(in crate::faults) use self::request::{
 };
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;
-pub(in crate::faults) use self::upstream::{Key, fits, later, put_off, reply};
+pub(in crate::faults) use self::upstream::{Key, later, put_off, reply, within_length};
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
 

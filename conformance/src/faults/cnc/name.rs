@@ -5,8 +5,8 @@ use ads_cnc::operation::Function;
 
 use super::variable::without_indices;
 use super::{
-    CncSeed, NAMED, at, behind, function, group, is, is_at, is_lookup, of_decoder, on, row, text,
-    u32_at,
+    CncSeed, NAMED, after_nul, at, function, group, is, is_at, is_lookup, of_decoder, on, row,
+    text, u32_at,
 };
 use crate::edition::Edition;
 
@@ -81,7 +81,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (Some(Function::HandleByName), _) if text(call.data).starts_with(b"V.CYC.") => {
                 cnc.answer(&at(call, group(call), 0x48))
                     .or_else(|_| cnc.ask(group(call), 0x48, call.data))?;
-                cnc.memory().keep((0x7C00_0001, 0, Vec::new()), call.data.to_vec());
+                cnc.memory().store((0x7C00_0001, 0, Vec::new()), call.data.to_vec());
                 Ok(0x7C00_0001_u32.to_le_bytes().to_vec())
             }
             (Some(Function::ReadByHandle), Some(0x7C00_0001)) => {
@@ -201,7 +201,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             let name: Vec<u8> =
                 name.iter().map(|byte| if *byte == b':' { b'.' } else { *byte }).collect();
-            cnc.with(call, &[head, &name, &[0], behind(call.data)].concat())
+            cnc.with(call, &[head, &name, &[0], after_nul(call.data)].concat())
         }),
     row("cnc.var.by-name-unavailable", &["VAR-28"],
         "there is no description by name, though the version has it",

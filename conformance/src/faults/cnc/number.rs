@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    CncSeed, INDEXED, ReplyData, Upstream, group, is, number, of_decoder, offset, on, put, row,
+    CncSeed, INDEXED, ReplyData, Upstream, group, is, number, of_decoder, offset, on, row, set_u32,
     text, u32_at,
 };
 
@@ -47,7 +47,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             cnc.answer(call).map(|mut bytes| {
                 let sum = count(cnc, call, b"V.E").wrapping_add(count(cnc, call, b"V.G"));
-                put(&mut bytes, 0, sum);
+                set_u32(&mut bytes, 0, sum);
                 bytes
             })
         } else {
@@ -129,7 +129,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| match of_decoder(call) {
             Some(0x45 | 0x4B) => {
                 let kind = text(call.data);
-                let index = super::behind(call.data);
+                let index = super::after_nul(call.data);
                 match index.len() {
                     4 => cnc.with(call, &[index, kind, &[0]].concat()),
                     _ => Err(AdsError::INVALID_SIZE),

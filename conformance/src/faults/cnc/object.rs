@@ -110,7 +110,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }
         match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => {
-                cnc.memory().keep(key(call), call.data.to_vec());
+                cnc.memory().store(key(call), call.data.to_vec());
                 Ok(Vec::new())
             }
             (_, answer) => answer,

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
 use super::{
-    CncSeed, LOGICAL, ReplyData, Upstream, behind, dimensions, function, group, is, number, offset,
-    on, put, records_mut, reply, row, text, u32_at,
+    CncSeed, LOGICAL, ReplyData, Upstream, after_nul, dimensions, function, group, is, number,
+    offset, on, records_mut, reply, row, set_u32, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -32,7 +32,7 @@ fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let (name, indices) = indexed(text(call.data));
     let described = described(cnc, group(call), name).unwrap_or_default();
     if let (true, [before @ .., last], 1) =
-        (!is_string(&described), &indices[..], behind(call.data).len())
+        (!is_string(&described), &indices[..], after_nul(call.data).len())
     {
         for next in 1..4 {
             let other = [before, &[last.wrapping_add(next)]].concat();
@@ -97,7 +97,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 for record in records_mut(&mut bytes) {
                     let same = all.iter().find(|other| other.get(20..52) == record.get(20..52));
                     let id = same.and_then(|other| u32_at(other, 0)).unwrap_or_default();
-                    put(record, 0, id);
+                    set_u32(record, 0, id);
                 }
                 bytes
             })
@@ -123,7 +123,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             };
             let writable = (1..=count).filter(flag).count();
             number(cnc.answer(call), 0, |_| 0).map(|mut bytes| {
-                put(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
+                set_u32(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
                 bytes
             })
         }),
@@ -147,7 +147,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             all.sort();
             let place = u32_at(call.data, 0).and_then(|index| usize::try_from(index).ok());
             let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
-            super::fits(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
+            super::within_length(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
         }),
     on("cnc.var.write-element-4-bytes", &["VAR-13"],
         "an element of one byte is written by name as 4 bytes: the three behind it become 0",
@@ -216,7 +216,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let more = u32::try_from(there.count()).unwrap_or_default();
             cnc.answer(call).map(|mut bytes| {
                 let sum = u32_at(&bytes, 0).unwrap_or_default();
-                put(&mut bytes, 0, sum.wrapping_add(more));
+                set_u32(&mut bytes, 0, sum.wrapping_add(more));
                 bytes
             })
         } else {
@@ -225,7 +225,7 @@ pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.stm.room-of-all", &["STM-3"],
         "what the interfaces of all channels hold counts against the 4094 bytes of each",
         STREAM, |cnc, call| {
-            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.held());
+            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.buffered());
             let held: usize = cnc.channels().into_iter().filter_map(|one| held(one).ok()).sum();
             if held.saturating_add(call.data.len()) > 4094 {
                 Err(AdsError::INVALID_DATA)
@@ -242,7 +242,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                     let name = [text(call.data), &[0]].concat();
                     let old = cnc.ask(group(call), offset(call).wrapping_sub(1), &name);
                     let done = cnc.answer(call)?;
-                    cnc.memory().keep(key, behind(call.data).to_vec());
+                    cnc.memory().store(key, after_nul(call.data).to_vec());
                     let _ = cnc.with(call, &[&name[..], &old?].concat());
                     Ok(done)
                 }

@@ -6,8 +6,9 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, behind, dimensions, fits, function, group,
-    is, number, of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, after_nul, dimensions, function, group,
+    is, number, of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at,
+    within_length,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -33,7 +34,7 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
         (true, Some(Function::WriteElement)) => {
             let old = cnc.read(call.port, group(call), offset(call));
             let done = cnc.answer(call)?;
-            cnc.memory().keep(key, call.data.to_vec());
+            cnc.memory().store(key, call.data.to_vec());
             let _ = cnc.with(call, &old?);
             Ok(done)
         }
@@ -67,7 +68,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     row("cnc.gen.real32-8-bytes", &["GEN-5", "SDA-7", "SDA-8"], "a REAL32 of SDA and GEO is read as 8 bytes",
         |cnc, call| if is(call, &[Function::ReadElement]) && element_is(cnc, call, b"REAL32") {
-            fits(
+            within_length(
                 call,
                 cnc.whole(call).map(|bytes| match bytes.first_chunk::<4>() {
                     Some(real) => f64::from(f32::from_le_bytes(*real)).to_le_bytes().to_vec(),
@@ -92,7 +93,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 row.resize(row.len().next_multiple_of(4), 0);
                 row
             });
-            fits(call, Ok(padded.collect()))
+            within_length(call, Ok(padded.collect()))
         } else {
             cnc.answer(call)
         }),
@@ -120,7 +121,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             for record in records_mut(&mut bytes) {
                 if text(record.get(52..).unwrap_or_default()) == b"STRING" {
                     let size = u32_at(record, 4).unwrap_or_default();
-                    put(record, 4, size.saturating_sub(1));
+                    set_u32(record, 4, size.saturating_sub(1));
                 }
             }
             bytes
@@ -150,7 +151,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let content = cnc.read(call.port, group(call) & !0xF00 | 0x300, offset(call))?;
             let len = u32::try_from(text(&content).len()).unwrap_or_default();
             cnc.answer(call).map(|mut bytes| {
-                put(&mut bytes, 0, len);
+                set_u32(&mut bytes, 0, len);
                 bytes
             })
         } else {
@@ -179,7 +180,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 match cnc.answer(call) {
                     Err(AdsError::INVALID_ACCESS) => {
                         let key = (group(call) & 0xFF, handle, format!("{indices:?}").into_bytes());
-                        cnc.memory().keep(key, value.to_vec());
+                        cnc.memory().store(key, value.to_vec());
                         Ok(Vec::new())
                     }
                     answer => answer,
@@ -204,8 +205,8 @@ pub(super) const ROWS: &[CncSeed] = &[
             let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
             let room = cnc.ask(group(call), 0x48, &name).unwrap_or_default().len();
             let service = name.starts_with(b"V.G.SERVICE.");
-            if is_string(&described) && behind(call.data).len() <= room && !service {
-                let mut value = text(behind(call.data)).to_vec();
+            if is_string(&described) && after_nul(call.data).len() <= room && !service {
+                let mut value = text(after_nul(call.data)).to_vec();
                 value.resize(room.saturating_sub(1), b' ');
                 cnc.with(call, &[&name[..], &value, &[0]].concat())
             } else {

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    CncSeed, ReplyData, Upstream, behind, dimensions, function, group, is, number, offset, on,
+    CncSeed, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
     program, row, text, u32_at,
 };
 use crate::simulator::program::Policy;
@@ -58,21 +58,21 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)
         }),
     row("cnc.svc.response-20", &["SVC-1"], "RESPONSE takes 20 characters, and what is more is lost",
-        |cnc, call| if writes(call, RESPONSE) && behind(call.data).len() > 21 {
-            let response = behind(call.data).get(..20).unwrap_or_default();
+        |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 21 {
+            let response = after_nul(call.data).get(..20).unwrap_or_default();
             cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
         } else {
             cnc.answer(call)
         }),
     row("cnc.svc.response-64", &["SVC-1"], "a RESPONSE of more than 64 bytes is refused",
-        |cnc, call| if writes(call, RESPONSE) && behind(call.data).len() > 64 {
+        |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 64 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
     row("cnc.svc.response-129", &["SVC-1"], "a RESPONSE of more than 128 bytes is cut and taken",
-        |cnc, call| if writes(call, RESPONSE) && behind(call.data).len() > 128 {
-            let response = behind(call.data).get(..127).unwrap_or_default();
+        |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 128 {
+            let response = after_nul(call.data).get(..127).unwrap_or_default();
             cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
         } else {
             cnc.answer(call)
@@ -143,7 +143,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             if writes(call, REQUEST_STATE) {
                 let before = read(cnc, call, RESPONSE_STATE)?;
                 if before.iter().any(|byte| *byte != 0) {
-                    cnc.memory().keep(key(call), before);
+                    cnc.memory().store(key(call), before);
                 }
             } else if writes(call, RESPONSE_STATE) {
                 cnc.memory().forget();
@@ -157,7 +157,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             if writes(call, REQUEST_STATE) {
                 let kept = read(cnc, call, RESPONSE_STATE)?;
                 let mut memory = cnc.memory();
-                memory.keep(key(call), kept);
+                memory.store(key(call), kept);
                 memory.count = 1;
             } else if writes(call, RESPONSE_STATE) || writes(call, RESPONSE) {
                 let mut memory = cnc.memory();
@@ -182,7 +182,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             if writes(call, RESPONSE_STATE) {
                 let before = read(cnc, call, REQUEST_STATE)?;
-                cnc.memory().keep(key(call), before);
+                cnc.memory().store(key(call), before);
             } else if writes(call, REQUEST_STATE) {
                 cnc.memory().forget();
             }
@@ -211,7 +211,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let name = text(call.data);
             match name.strip_prefix(b"V.G.SERVICE_") {
                 Some(rest) => {
-                    let data = [b"V.G.SERVICE.", rest, &[0], behind(call.data)].concat();
+                    let data = [b"V.G.SERVICE.", rest, &[0], after_nul(call.data)].concat();
                     cnc.with(call, &data)
                 }
                 None if of_service(call) => Err(AdsError::SYMBOL_NOT_FOUND),

@@ -182,7 +182,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 .rposition(|byte| *byte == b'\n')
                 .map_or(0, |at| at.saturating_add(1));
             let (lines, rest) = data.split_at_checked(end).unwrap_or_default();
-            cnc.memory().keep(key, rest.to_vec());
+            cnc.memory().store(key, rest.to_vec());
             if lines.is_empty() { Ok(Vec::new()) } else { cnc.with(call, lines) }
         } else {
             cnc.answer(call)

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule};
 
 use super::variable::{described, element, first_element};
 use super::{
-    CncSeed, VALUES, dimensions, fits, function, functions, group, is, is_at, number, offset, on,
-    put, reply, row, text, u32_at,
+    CncSeed, VALUES, dimensions, function, functions, group, is, is_at, number, offset, on, reply,
+    row, set_u32, text, u32_at, within_length,
 };
 
 const BY_NAME: &[Function] = &[Function::DescribeByName];
@@ -87,9 +87,9 @@ pub(super) const ROWS: &[CncSeed] = &[
                 Some(Function::ReadByHandle) => {
                     let kept = cnc.memory().get(&key(call));
                     match kept {
-                        Some(kept) => fits(call, Ok(kept)),
+                        Some(kept) => within_length(call, Ok(kept)),
                         None => cnc.answer(call).inspect(|bytes| {
-                            cnc.memory().keep(key(call), bytes.clone());
+                            cnc.memory().store(key(call), bytes.clone());
                         }),
                     }
                 }
@@ -110,7 +110,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| reply(cnc, call, EXTENDED, |mut bytes| {
             for place in [0, 4] {
                 let code = u32_at(&bytes, place).unwrap_or_default();
-                put(&mut bytes, place, code.saturating_sub(1));
+                set_u32(&mut bytes, place, code.saturating_sub(1));
             }
             bytes
         })),
@@ -127,13 +127,13 @@ pub(super) const ROWS: &[CncSeed] = &[
         EXTENDED, |_, _| Err(AdsError::SERVICE_NOT_SUPPORTED)),
     row("cnc.var.extended-of-global", &["VAR-16"], "V.G has an extended description",
         |cnc, call| if is(call, EXTENDED) && text(call.data.get(4..).unwrap_or_default()) == b"V.G" {
-            fits(call, cnc.answer(call).map(|_| vec![2, 0, 0, 0, 2, 0, 0, 0]))
+            within_length(call, cnc.answer(call).map(|_| vec![2, 0, 0, 0, 2, 0, 0, 0]))
         } else {
             cnc.answer(call)
         }),
     row("cnc.var.extended-of-axis", &["VAR-16"], "V.A has an extended description of zeros",
         |cnc, call| if is(call, EXTENDED) && text(call.data.get(4..).unwrap_or_default()) == b"V.A" {
-            fits(call, cnc.answer(call).map(|_| vec![0; 8]))
+            within_length(call, cnc.answer(call).map(|_| vec![0; 8]))
         } else {
             cnc.answer(call)
         }),
@@ -149,7 +149,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             })
         }),
     on("cnc.var.by-name-with-name", &["VAR-28"], "a description by name has the name behind it",
-        BY_NAME, |cnc, call| fits(
+        BY_NAME, |cnc, call| within_length(
             call,
             cnc.whole(call).map(|bytes| [bytes.as_slice(), text(call.data), &[0]].concat()),
         )),
@@ -165,7 +165,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)?;
             let mut first = cnc.ask(group(call), 0x45, b"\0\0\0\0V.E\0")?;
             first.truncate(dimensions(&first).1);
-            fits(call, Ok(first))
+            within_length(call, Ok(first))
         }),
     row("cnc.var.channel-ignored", &["VAR-14", "VAR-2"],
         "variables are those of channel 1, whatever the channel",

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 use super::handle::{joined, parts};
 use super::number::count;
 use super::{
-    CncSeed, NAMED, Upstream, WRITES, behind, dimensions, fits, function, group, is, of_decoder,
-    offset, on, reply, row, text, u32_at,
+    CncSeed, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
+    offset, on, reply, row, text, u32_at, within_length,
 };
 
 /// Whether it asks about a variable by its name.
@@ -36,7 +36,7 @@ fn value_at(call: &Call<'_>) -> usize {
             let len = parts(call.data).map_or(0, |(.., value)| value.len());
             call.data.len().saturating_sub(len)
         }
-        _ => call.data.len().saturating_sub(behind(call.data).len()),
+        _ => call.data.len().saturating_sub(after_nul(call.data).len()),
     }
 }
 
@@ -103,7 +103,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             match function(call) {
                 Some(Function::WriteByName) => cnc.answer(call).inspect_err(|error| {
                     if *error == AdsError::INVALID_ACCESS {
-                        cnc.memory().keep(key, behind(call.data).to_vec());
+                        cnc.memory().store(key, after_nul(call.data).to_vec());
                     }
                 }),
                 Some(Function::ReadByName) => {
@@ -139,8 +139,8 @@ pub(super) const ROWS: &[CncSeed] = &[
             let own = cnc.answer(call)?;
             let key = (0, 0, b"before".to_vec());
             let before = cnc.memory().get(&key).unwrap_or_else(|| own.clone());
-            cnc.memory().keep(key, own);
-            fits(call, Ok(before))
+            cnc.memory().store(key, own);
+            within_length(call, Ok(before))
         }),
     on("cnc.var.axis-write-all", &["VAR-26"],
         "a write on the axis interface is one to all axes of the channel",
@@ -169,9 +169,9 @@ pub(super) const ROWS: &[CncSeed] = &[
             let key = (group(call), 1, text(call.data).to_vec());
             let kept = cnc.memory().get(&key);
             match kept {
-                Some(kept) => fits(call, Ok(kept)),
+                Some(kept) => within_length(call, Ok(kept)),
                 None => cnc.answer(call).inspect(|bytes| {
-                    cnc.memory().keep(key, bytes.clone());
+                    cnc.memory().store(key, bytes.clone());
                 }),
             }
         }),
@@ -180,7 +180,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 0x100..)) => {
                 let mut data = call.data.to_vec();
-                super::put(&mut data, 4, count & 0xFF);
+                super::set_u32(&mut data, 4, count & 0xFF);
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),

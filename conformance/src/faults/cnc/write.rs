@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
 use super::{
-    CncSeed, ReplyData, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off,
+    CncSeed, ReplyData, Upstream, WRITES, after_nul, function, group, is, of_decoder, on, put_off,
     row, text,
 };
 
@@ -51,7 +51,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         match function(call) {
             Some(Function::WriteByName) => match cnc.answer(call) {
                 Err(AdsError::INVALID_ACCESS) => {
-                    cnc.memory().keep(key, behind(call.data).to_vec());
+                    cnc.memory().store(key, after_nul(call.data).to_vec());
                     Ok(Vec::new())
                 }
                 answer => answer,
@@ -81,7 +81,7 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.write-element-whole", &["VAR-13"], "a write by name of an element is one of every element",
         |cnc, call| if is(call, BY_NAME) && text(call.data).ends_with(b"]") {
             let name = without_indices(text(call.data));
-            let value = behind(call.data);
+            let value = after_nul(call.data);
             let old = cnc.ask(group(call), 0x48, &[name, &[0]].concat());
             let done = cnc.answer(call)?;
             let len = old.map(|old| old.len()).unwrap_or_default();
@@ -97,7 +97,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let path = without_indices(name);
             let places = name.iter().skip(path.len()).filter(|byte| **byte == b'[').count();
             let first = b"[0]".repeat(places);
-            cnc.with(call, &[path, &first, &[0], behind(call.data)].concat())
+            cnc.with(call, &[path, &first, &[0], after_nul(call.data)].concat())
         } else {
             cnc.answer(call)
         }),
@@ -108,8 +108,8 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     row("cnc.var.write-big-endian", &["GEN-1", "VAR-13"],
         "values of 2 to 8 bytes are written with the most significant byte first",
-        |cnc, call| if is(call, BY_NAME) && behind(call.data).len() <= 8 {
-            let value: Vec<u8> = behind(call.data).iter().rev().copied().collect();
+        |cnc, call| if is(call, BY_NAME) && after_nul(call.data).len() <= 8 {
+            let value: Vec<u8> = after_nul(call.data).iter().rev().copied().collect();
             cnc.with(call, &[text(call.data), &[0], &value].concat())
         } else {
             cnc.answer(call)

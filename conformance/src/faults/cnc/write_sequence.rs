@@ -7,7 +7,7 @@ use ads_cnc::service::ServiceVariable;
 use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
 use super::{
-    CncSeed, ReplyData, Upstream, behind, function, group, is, offset, on, row, text, u32_at,
+    CncSeed, ReplyData, Upstream, after_nul, function, group, is, offset, on, row, text, u32_at,
 };
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
@@ -32,7 +32,7 @@ fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     if now {
         let before = read(cnc, group(call), RESPONSE_STATE)?;
         let known = cnc.memory().get(&key).unwrap_or(before);
-        cnc.memory().keep(key, known);
+        cnc.memory().store(key, known);
         return cnc.answer(call);
     }
     if writes(call, RESPONSE_STATE) || writes(call, REQUEST_STATE) {
@@ -80,7 +80,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 return Err(AdsError::INVALID_ACCESS);
             }
             let done = cnc.answer(call)?;
-            cnc.memory().keep(key, Vec::new());
+            cnc.memory().store(key, Vec::new());
             Ok(done)
         }),
     row("cnc.sda.blank-written", &["SDA-11"],
@@ -89,7 +89,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let key = (group(call), offset(call), Vec::new());
             match (function(call), cnc.answer(call)) {
                 (Some(Function::WriteElement), Err(AdsError::INVALID_DATA)) => {
-                    cnc.memory().keep(key, call.data.to_vec());
+                    cnc.memory().store(key, call.data.to_vec());
                     Ok(Vec::new())
                 }
                 (Some(Function::ReadElement), Ok(bytes)) => {
@@ -118,7 +118,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 return Ok(Vec::new());
             }
             let done = cnc.answer(call)?;
-            cnc.memory().keep(one(instance(call)), call.data.to_vec());
+            cnc.memory().store(one(instance(call)), call.data.to_vec());
             Ok(done)
         }),
     on("cnc.stm.again-lost", &["STM-6"],
@@ -159,7 +159,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             if other {
                 return stays(cnc, call, true);
             }
-            cnc.memory().keep(key, Vec::new());
+            cnc.memory().store(key, Vec::new());
             cnc.answer(call)
         } else if writes(call, RESPONSE_STATE) {
             let (stay, once) =
@@ -171,7 +171,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 memory.forget();
             }
             if known {
-                memory.keep(once, Vec::new());
+                memory.store(once, Vec::new());
             }
             drop(memory);
             cnc.answer(call)
@@ -182,7 +182,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         "a RESPONSE that is shorter than the one before runs on with the rest of that",
         |cnc, call| if writes(call, RESPONSE) {
             let old = read(cnc, group(call), RESPONSE)?;
-            let new = over(text(behind(call.data)), text(&old));
+            let new = over(text(after_nul(call.data)), text(&old));
             cnc.with(call, &[RESPONSE.as_bytes(), &[0], &new, &[0]].concat())
         } else {
             cnc.answer(call)

@@ -50,7 +50,7 @@ fn every_defect_of_a_cnc_shows() {
                 None,
             ),
         });
-        if !Transcript::new(Some(seed), Some(&right.said)).differs {
+        if !Transcript::new(Some(seed), Some(&right.replies)).differs {
             hidden.push(seed.id.as_str());
         }
     }
@@ -68,7 +68,7 @@ fn questions() -> Vec<Question> {
 fn every_defect_of_a_codec_shows() {
     let questions = questions();
     let right: Vec<Answer> = questions.iter().map(|one| Own::default().answer(one)).collect();
-    let cnc = Transcript::new(None, None).said;
+    let cnc = Transcript::new(None, None).replies;
     let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
         let own = Own { defect: Some((*seed).clone()) };
         let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;

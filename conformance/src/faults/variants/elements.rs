@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    CncFault, CncSeed, ReplyData, Upstream, class, fault, fits, function, group, is, number,
-    offset, on, put, row, text, u32_at,
+    CncFault, CncSeed, ReplyData, Upstream, class, fault, function, group, is, number, offset, on,
+    row, set_u32, text, u32_at, within_length,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -53,7 +53,7 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
         (false, _) => cnc.answer(call),
         (true, Some(Function::FindInstance)) => cnc.answer(call).map(|mut bytes| {
             let offset = u32_at(&bytes, 4).unwrap_or_default();
-            put(&mut bytes, 4, offset >> 4);
+            set_u32(&mut bytes, 4, offset >> 4);
             bytes
         }),
         (true, _) => {
@@ -74,7 +74,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         })),
     unprinted(row("different.number-2-bytes", &[], "the number of elements takes 2 bytes",
         |cnc, call| match (is_number(call), function(call), offset(call) & 0xFFF) {
-            (true, ..) => fits(
+            (true, ..) => within_length(
                 call,
                 cnc.whole(call).map(|mut bytes| {
                     bytes.truncate(2);

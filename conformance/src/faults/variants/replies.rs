@@ -8,8 +8,8 @@ use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, put, row, sent,
-    text, u32_at, unprinted,
+    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, row, sent,
+    set_u32, text, u32_at, unprinted,
 };
 
 #[rustfmt::skip]
@@ -33,7 +33,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     sent("different.errors-in-both", "errors stand in both headers", |_, _, mut bytes| {
         if let Some(error @ 1..) = u32_at(&bytes, 38) {
-            put(&mut bytes, 30, error);
+            set_u32(&mut bytes, 30, error);
         }
         bytes
     }),
@@ -51,7 +51,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let inquiries = [Command::READ_DEVICE_INFO, Command::READ_STATE];
             if inquiries.contains(&request.header().command) {
                 bytes.truncate(42);
-                put(&mut bytes, 38, AdsError::SERVICE_NOT_SUPPORTED.0);
+                set_u32(&mut bytes, 38, AdsError::SERVICE_NOT_SUPPORTED.0);
             }
             measured(bytes)
         }),
@@ -89,7 +89,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 if let Ok(bytes) = &answer
                     && is_text(bytes)
                 {
-                    cnc.memory().keep(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
+                    cnc.memory().store(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
                 }
                 false
             }

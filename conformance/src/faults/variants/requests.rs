@@ -7,7 +7,7 @@ use ads_cnc::operation::{Function, OffsetRule, Service};
 use super::unprinted;
 use crate::faults::cnc::{
     CncSeed, INDEXED, NAMED, WRITES, function, functions, group, is, is_at, is_lookup, number,
-    of_decoder, offset, put, row, text, u32_at,
+    of_decoder, offset, row, set_u32, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -83,7 +83,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 let handle = u32_at(&data, 0).unwrap_or_default();
                 // Those of axes begin with 1.
                 if handle >> 24 == (OF_AXIS_INTERFACE >> 24) | 1 {
-                    put(&mut data, 0, handle & !OF_AXIS_INTERFACE);
+                    set_u32(&mut data, 0, handle & !OF_AXIS_INTERFACE);
                 }
                 cnc.with(call, &data)
             }

@@ -4,8 +4,8 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    CncFault, CncSeed, NAMED, ReplyData, Upstream, fault, function, group, is, offset, on, put,
-    records_mut, row, text, u32_at, unprinted,
+    CncFault, CncSeed, NAMED, ReplyData, Upstream, fault, function, group, is, offset, on,
+    records_mut, row, set_u32, text, u32_at, unprinted,
 };
 use super::{measured, sent};
 
@@ -86,7 +86,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
             for record in records_mut(&mut bytes) {
                 let id = u32_at(record, 0).unwrap_or_default();
-                put(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
+                set_u32(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
             }
             bytes
         }))),
@@ -119,7 +119,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
             let refused = matches!(u32_at(&bytes, 38), Some(1..));
             if refused && bytes.len() == 46 && matches!(request.header().command.0, 2 | 9) {
-                put(&mut bytes, 42, asked);
+                set_u32(&mut bytes, 42, asked);
                 bytes.resize(usize::try_from(asked).unwrap_or_default().saturating_add(46), 0);
             }
             measured(bytes)
@@ -133,7 +133,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                     let all = u32_at(record, 12).unwrap_or_default();
                     // The platform's stay where they are.
                     if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
-                        put(record, 12, own | asked);
+                        set_u32(record, 12, own | asked);
                     }
                 }
                 bytes
@@ -146,7 +146,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             for record in records_mut(&mut bytes) {
                 let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
                 if matches!(offset, Some(0x251 | 0x252)) {
-                    put(record, 12, at.unwrap_or_default() ^ 1);
+                    set_u32(record, 12, at.unwrap_or_default() ^ 1);
                 }
             }
             bytes
@@ -178,12 +178,12 @@ pub(super) const ROWS: &[CncSeed] = &[
         })),
     row("different.texts-whole", &[], "a STRING is written with all its bytes, and refused with fewer",
         |cnc, call| match writes_text(cnc, call) {
-            Some(size) if super::behind(call.data).len() < size => Err(AdsError::INVALID_SIZE),
+            Some(size) if super::after_nul(call.data).len() < size => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
     row("different.texts-ended", &[], "a STRING is written with a NUL, and refused without",
         |cnc, call| match writes_text(cnc, call) {
-            Some(_) if !super::behind(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
+            Some(_) if !super::after_nul(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
     unprinted(fault("different.model-numbers", &[],

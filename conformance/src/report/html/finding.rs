@@ -117,7 +117,7 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
     BytesView {
         stream: bytes.stream.clone(),
         length: bytes.length,
-        rows: bytes.shown().into_iter().map(row_of).collect(),
+        rows: bytes.visible_fields().into_iter().map(row_of).collect(),
         faults: bytes.faults.clone(),
     }
 }

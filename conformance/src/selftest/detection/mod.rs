@@ -146,7 +146,7 @@ impl Device {
     }
 
     /// The answers of the CNC without a defect to every request that a mode may send.
-    fn right(&self, mode: Mode) -> Result<&[u64], Trouble> {
+    fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
         let [queries, writes, all] = &self.right;
         let right = match mode {
             Mode::ReadOnly | Mode::Profiled => queries,
@@ -225,7 +225,7 @@ pub fn hash(seed: &Seed) -> Result<String, Trouble> {
     let Seed { id, requirements, what, edition, .. } = seed;
     let mut text = format!("{id} {requirements:?} {what} {edition:?}");
     for device in devices.iter().take(1) {
-        let right = device.right(Mode::All)?;
+        let right = device.correct_answers(Mode::All)?;
         let answers = witness::answers(device, Some(seed), Mode::All, Some(right))?.answers;
         text = format!("{text} {answers:?}");
     }

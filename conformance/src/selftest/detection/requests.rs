@@ -210,7 +210,7 @@ impl Dialogue<'_> {
         };
         let violations = exchange.violations.iter().map(|one| one.what.as_str());
         let said: Vec<&str> = violations.chain([fault.as_str()]).collect();
-        self.heard(&exchange.received, &said.join("\n"), || {
+        self.record(&exchange.received, &said.join("\n"), || {
             let spec = call.dispatch().map(|request| request.function().spec().name);
             let data = compact::show(call.data);
             format!("{} to port {}: {exchange} [{data}]", spec.unwrap_or("no function"), call.port)
@@ -222,11 +222,11 @@ impl Dialogue<'_> {
         if self.difference.is_none() {
             let inquired = self.client.inquire::<R>(port);
             let said = inquired.outcome.as_ref().err().map(ToString::to_string);
-            self.heard(&inquired.received, &said.unwrap_or_default(), || inquired.to_string());
+            self.record(&inquired.received, &said.unwrap_or_default(), || inquired.to_string());
         }
     }
 
-    fn heard(&mut self, received: &[u8], said: &str, request: impl FnOnce() -> String) {
+    fn record(&mut self, received: &[u8], said: &str, request: impl FnOnce() -> String) {
         let answer = digest(&[received, said.as_bytes()].concat());
         let right = self.right.is_none_or(|right| right.get(self.answers.len()) == Some(&answer));
         if !right {
@@ -566,7 +566,7 @@ impl Dialogue<'_> {
             for value in others(&before).into_iter().chain([before]) {
                 if let Ok(op) = WriteByName::new(*channel, name, &value) {
                     self.ask(op);
-                    self.look(*channel, &text, *handle);
+                    self.read_back(*channel, &text, *handle);
                 }
             }
         }
@@ -580,13 +580,13 @@ impl Dialogue<'_> {
             };
             for value in others(&before).into_iter().chain([before]) {
                 self.ask(WriteByHandle::new(*channel, handle, indices, &value));
-                self.look(*channel, &text, Some(handle));
+                self.read_back(*channel, &text, Some(handle));
             }
         }
     }
 
     /// A variable after a write: whole, by name and by handle, and in all other channels.
-    fn look(&mut self, channel: Channel, name: &str, handle: Option<Handle>) {
+    fn read_back(&mut self, channel: Channel, name: &str, handle: Option<Handle>) {
         let others = [Channel::new(1).ok(), Channel::new(2).ok()].into_iter().flatten();
         for channel in [channel].into_iter().chain(others) {
             if let Ok(op) = ReadByName::new(channel, name) {

@@ -57,7 +57,7 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
     let mut shown = None;
     let mut witnesses: Vec<&str> = Vec::new();
     for device in devices {
-        let right = device.right(mode)?;
+        let right = device.correct_answers(mode)?;
         let RecordedAnswers { answers: mine, difference } =
             answers(device, Some(seed), mode, Some(right))?;
         let Some(request) = difference else { continue };
@@ -112,7 +112,8 @@ fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
     let different = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
     for seed in different.filter(|seed| seed.own_model().is_none()) {
         if seed.edition.is_none_or(|edition| Some(edition) == device.settings.edition) {
-            let answers = answers(device, Some(seed), mode, Some(device.right(mode)?))?.answers;
+            let answers =
+                answers(device, Some(seed), mode, Some(device.correct_answers(mode)?))?.answers;
             variants.entry(first_difference(&answers)).or_default().push(seed);
         }
     }

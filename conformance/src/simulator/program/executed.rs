@@ -15,7 +15,7 @@
 /// assert_eq!((executed.line_count(), executed.byte_count()), (6, 48));
 /// assert_eq!(executed.digest(), digest(text));
 /// assert!(executed.lines().eq([&b"N40 X4"[..], b"N50 X5", b"N60 X6"]));
-/// assert_eq!(executed.first_kept(), 4);
+/// assert_eq!(executed.first_recent(), 4);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Executed {
@@ -50,12 +50,12 @@ impl Executed {
     }
 
     /// The latest lines, as they came: each with its line end.
-    pub fn kept(&self) -> &[u8] {
+    pub fn recent(&self) -> &[u8] {
         &self.kept
     }
 
     /// Number of the first line that is kept, from 1; one past the last if none is.
-    pub fn first_kept(&self) -> u64 {
+    pub fn first_recent(&self) -> u64 {
         self.lines.saturating_sub(self.kept_lines).saturating_add(1)
     }
 

@@ -212,7 +212,7 @@ impl StreamingProgram {
     }
 
     /// Bytes that the interface holds, as of the last access.
-    pub fn held(&self) -> usize {
+    pub fn buffered(&self) -> usize {
         self.interface.len()
     }
 

@@ -204,7 +204,7 @@ impl<'s> Probe<'s> {
 
     /// Whether there is a target left.
     pub(crate) fn target(&mut self) -> Step {
-        if interrupt::came() {
+        if interrupt::is_requested() {
             self.interrupted = true;
             return Err(Stop::Interrupted);
         }
@@ -233,7 +233,7 @@ impl<'s> Probe<'s> {
             Some(ExchangeError::Refused(why)) => {
                 return Err(Stop::Refused(format!("{what}: {why}")));
             }
-            Some(ExchangeError::Gone(why)) => {
+            Some(ExchangeError::Disconnected(why)) => {
                 state.gone = Some(why.clone());
                 return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
             }

@@ -108,7 +108,7 @@ pub fn take(
     program.forget_executed();
     program.set_pace(Pace::Fast, now);
     program.set_pace(Pace::Hold, now);
-    let executed = program.executed().kept();
+    let executed = program.executed().recent();
     let Some(behind) = stated.strip_prefix(executed) else { return Ok(Some("outcome")) };
     match program.state() {
         State::Aborted(Message { number, line, column, text, .. }) => {

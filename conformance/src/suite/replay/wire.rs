@@ -158,7 +158,7 @@ impl StreamActor for StreamPlayer<'_, '_> {
     }
 
     fn held(&mut self) -> Done<usize> {
-        self.with(|program| program.held())
+        self.with(|program| program.buffered())
     }
 
     /// Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what

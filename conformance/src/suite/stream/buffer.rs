@@ -61,11 +61,11 @@ impl StreamProgram<'_> {
     }
 
     pub(super) fn held(&self) -> Step<usize> {
-        self.with(|program| program.held())
+        self.with(|program| program.buffered())
     }
 
     pub(super) fn executed(&self) -> Step<Vec<u8>> {
-        self.with(|program| program.executed().kept().to_vec())
+        self.with(|program| program.executed().recent().to_vec())
     }
 
     pub(super) fn state(&self) -> Step<State> {
