@@ -31,6 +31,7 @@ mod judge;
 mod link;
 mod table;
 mod tally;
+mod target;
 mod tcp;
 mod time;
 mod vectors;

@@ -15,7 +15,7 @@ use ads_cnc_vectors::{
 };
 use serde_json::json;
 
-use super::judge::TargetVariable;
+use super::target::TargetVariable;
 use crate::client::frame;
 use crate::codec::decode_stream;
 use crate::text::json as json_text;

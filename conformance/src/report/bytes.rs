@@ -4,7 +4,7 @@ use ads_cnc::layout::Stream;
 use serde::{Deserialize, Serialize};
 
 use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, explain};
-use crate::text::hex::spaced;
+use crate::text::hex::{compact, spaced};
 
 /// Bytes field by field.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -83,7 +83,7 @@ impl BytesReport {
 
     fn mark(&mut self, bytes: &[u8], other: &[u8]) {
         for field in &mut self.fields {
-            let mine = bytes.iter().enumerate().skip(field.offset).take(field.bytes().count());
+            let mine = bytes.iter().enumerate().skip(field.offset).take(field.bytes().len());
             let differs = mine.filter(|(at, byte)| other.get(*at) != Some(byte));
             let begin = field.offset;
             field.differs = differs.map(|(at, _)| at.saturating_sub(begin)).collect();
@@ -134,8 +134,8 @@ impl FieldReport {
         Self { offset, hex, field: field.to_owned(), value, meaning, differs: Vec::new() }
     }
 
-    pub fn bytes(&self) -> impl Iterator<Item = u8> {
-        self.hex.split(' ').filter_map(|byte| u8::from_str_radix(byte, 16).ok())
+    pub fn bytes(&self) -> Vec<u8> {
+        compact::parse(&self.hex).unwrap_or_default()
     }
 }
 

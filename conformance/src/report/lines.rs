@@ -36,7 +36,7 @@ pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
 }
 
 fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
-    let bytes: Vec<u8> = field.bytes().collect();
+    let bytes = field.bytes();
     let (mut all, mut zeros) = (Vec::new(), 0_usize);
     for (begin, chunk) in (0_usize..).step_by(hex::LINE).zip(bytes.chunks(hex::LINE)) {
         let end = begin + hex::LINE;

@@ -5,8 +5,9 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::{CncString, VariablePath, VariableType};
 
 use super::Cnc;
-use super::content::{self, Owner};
+use super::content;
 use super::model::{Meaning, Model};
+use super::owner::Owner;
 
 /// Whose content it is: channels by their numbers, axes and places from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -31,6 +31,7 @@ mod control;
 mod in_process;
 mod inspect;
 mod model;
+mod owner;
 mod parameters;
 pub mod program;
 mod respond;

@@ -6,8 +6,8 @@ use ads_cnc::address::{Addressing, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
 
-use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
+use super::owner::Owner;
 use super::parameters::{ParameterState, ParameterStates};
 use super::program::service::ServiceInterface;
 use super::program::{Policy, Script, StreamingProgram};

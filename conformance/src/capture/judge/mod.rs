@@ -9,11 +9,8 @@ mod replies;
 mod requests;
 mod service;
 mod streaming;
-mod target;
 mod values;
 mod variables;
-
-pub(super) use target::TargetVariable;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;

@@ -4,8 +4,8 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
 
 use super::super::findings::{Observation, Topic};
+use super::super::target::TargetVariable;
 use super::Bench;
-use super::target::TargetVariable;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.

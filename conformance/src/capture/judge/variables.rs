@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::findings::{Observation, Topic};
-use super::target::TargetVariable;
+use super::super::target::TargetVariable;
 use super::{Bench, Room};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;

@@ -1,5 +1,5 @@
-//! Every request that a mode may send, to tell two CNCs apart: how each is sent, also malformed, and
-//! its answer recorded.
+//! Every request that a mode may send, to tell two CNCs apart: how each is sent, also malformed,
+//! and its answer recorded.
 //!
 //! The requests follow from the function table, from what the asked CNC says it has, from boundary
 //! values and from short sequences; never from the cases of the suite. Two CNCs that answer all of

@@ -9,8 +9,9 @@ use ads_cnc::sda::{ElementCount, ElementLength, ElementTextRef, ElementWriteFlag
 use ads_cnc::{CncStr, ContentRef, TextRef};
 
 use super::{AnsweringCnc, ReplyData, encode};
-use crate::simulator::content::{self, Owner};
+use crate::simulator::content;
 use crate::simulator::model::Item;
+use crate::simulator::owner::Owner;
 use crate::simulator::{to_len, to_u32};
 
 /// What the first element of an instance says of itself: the number of the others.

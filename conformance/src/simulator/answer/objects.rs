@@ -6,7 +6,8 @@ use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject, 
 use ads_cnc::{ContentRef, Descriptors, DescriptorsRef, ObjectCount};
 
 use super::{AnsweringCnc, ReplyData, encode};
-use crate::simulator::content::{self, Owner};
+use crate::simulator::content;
+use crate::simulator::owner::Owner;
 use crate::simulator::{to_len, to_u32};
 
 impl AnsweringCnc<'_> {

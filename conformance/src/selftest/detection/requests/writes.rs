@@ -1,5 +1,5 @@
-//! Writes of each writable value, of NC programs and of the Service Interface, each with reads after
-//! it.
+//! Writes of each writable value, of NC programs and of the Service Interface, each with reads
+//! after it.
 
 use std::time::Duration;
 
