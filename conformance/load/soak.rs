@@ -104,7 +104,7 @@ fn client(addr: SocketAddr, name: &str, end: Instant) -> Result<u64> {
     let mut count = 0_u64;
     while Instant::now() < end {
         let value = (count as i32).to_le_bytes();
-        cnc.call(&WriteByName::new(channel, name, &value)?).map_err(failed)?;
+        cnc.call(&WriteByName::new(channel, name, &value[..])?).map_err(failed)?;
         let read = cnc.call(&ReadByName::new(channel, name)?).map_err(failed)?;
         if read.bytes != value {
             return Err(format!("{name}: {value:?} written, {:?} read", read.bytes).into());

@@ -14,7 +14,7 @@ use ads_cnc::Encode;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{Call, Service};
 
-use crate::exchange::{Answer, Exchange, Fault, Violation};
+use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
 use crate::gate::{Gate, Permit};
 use crate::net::Wire;
 use crate::simulator::{InProcess, Responder, Server};
@@ -203,11 +203,11 @@ impl Client {
     /// Whether the gate would let a call pass now; nothing is sent.
     ///
     /// # Errors
-    /// [`Fault::Refused`], [`Fault::Unsendable`].
-    pub fn check(&self, call: &Call<'_>) -> Result<(), Fault> {
+    /// [`ExchangeError::Refused`], [`ExchangeError::Unsendable`].
+    pub fn check(&self, call: &Call<'_>) -> Result<(), ExchangeError> {
         let bytes = frame(self.header(call.port, call.service.command()), call)?;
         let permit = self.gate.check(&bytes, Moment::now());
-        permit.map(drop).map_err(|refusal| Fault::Refused(Box::new(refusal)))
+        permit.map(drop).map_err(|refusal| ExchangeError::Refused(Box::new(refusal)))
     }
 
     /// Sends a call and waits for its answer.
@@ -224,7 +224,11 @@ impl Client {
     }
 
     /// Sends a call if it may be, and keeps what comes of it; the header it went out with.
-    fn sent(&mut self, call: &Call<'_>, exchange: &mut Exchange) -> Result<AmsHeader, Fault> {
+    fn sent(
+        &mut self,
+        call: &Call<'_>,
+        exchange: &mut Exchange,
+    ) -> Result<AmsHeader, ExchangeError> {
         let header = self.next_header(call.port, call.service.command());
         let bytes = frame(header, call)?;
         let Exchange { received, violations, .. } = exchange;
@@ -234,7 +238,7 @@ impl Client {
             answer(header, got, data).map(|answer| (answer, got))
         });
         exchange.sent = bytes;
-        if let Some(data) = exchange.answer().and_then(Answer::success) {
+        if let Some(data) = exchange.answer().and_then(AdsReply::success) {
             self.gate.learn(call, data);
         }
         Ok(header)
@@ -248,15 +252,15 @@ impl Client {
         header: AmsHeader,
         received: &mut Vec<u8>,
         violations: &mut Vec<Violation>,
-    ) -> Result<Result<AmsHeader, Fault>, Fault> {
+    ) -> Result<Result<AmsHeader, ExchangeError>, ExchangeError> {
         let permit = self.gate.check(bytes, Moment::now());
-        let permit = permit.map_err(|refusal| Fault::Refused(Box::new(refusal)))?;
+        let permit = permit.map_err(|refusal| ExchangeError::Refused(Box::new(refusal)))?;
         if self.dry {
-            return Err(Fault::NotSent);
+            return Err(ExchangeError::NotSent);
         }
         let mut strays = 0;
         let mut came = self.exchange(permit, header, received, violations, &mut strays);
-        let lost = matches!(came, Err(Fault::Closed | Fault::Io(_)));
+        let lost = matches!(came, Err(ExchangeError::Closed | ExchangeError::Io(_)));
         if lost && permit.is_repeatable() {
             // A connection may have been closed for being idle. Whether a write was done before
             // that nobody knows: it is not sent twice.
@@ -309,12 +313,12 @@ impl Client {
         received: &mut Vec<u8>,
         violations: &mut Vec<Violation>,
         strays: &mut u64,
-    ) -> Result<AmsHeader, Fault> {
+    ) -> Result<AmsHeader, ExchangeError> {
         self.keep_pace();
         let wire = match self.wire.take() {
             Some(wire) => wire,
             None => {
-                let wire = self.dial().map_err(Fault::gone)?;
+                let wire = self.dial().map_err(ExchangeError::disconnected)?;
                 if let Some(capture) = &mut self.capture {
                     capture.opened(wire.local(), self.target.addr);
                 }
@@ -326,14 +330,14 @@ impl Client {
             Some(piece) => wire.send_in_pieces(permit, piece, PAUSE),
             None => wire.send(permit),
         };
-        sent_all.map_err(Fault::io)?;
+        sent_all.map_err(ExchangeError::io)?;
         if let Some(capture) = &mut self.capture {
             capture.sent(permit.frame());
         }
         let asked = Instant::now();
         let mut chunk = [0; 4096];
         loop {
-            let split = FrameRef::split(received, u32::MAX).map_err(Fault::Malformed)?;
+            let split = FrameRef::split(received, u32::MAX).map_err(ExchangeError::Malformed)?;
             if let Some((frame, len)) = split {
                 let header = frame.header();
                 if header.invoke_id == sent.invoke_id {
@@ -353,16 +357,16 @@ impl Client {
                 }
                 received.drain(..len);
                 if asked.elapsed() >= self.target.timeout {
-                    return Err(Fault::Silence(self.target.timeout));
+                    return Err(ExchangeError::Silence(self.target.timeout));
                 }
                 continue;
             }
             let left = self.target.timeout.saturating_sub(asked.elapsed());
             if left.is_zero() {
-                return Err(Fault::Silence(self.target.timeout));
+                return Err(ExchangeError::Silence(self.target.timeout));
             }
             match wire.receive(&mut chunk, left) {
-                Ok(0) => return Err(Fault::Closed),
+                Ok(0) => return Err(ExchangeError::Closed),
                 Ok(len) => {
                     let came = chunk.get(..len).unwrap_or_default();
                     received.extend(came);
@@ -376,32 +380,36 @@ impl Client {
                         io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut
                     ) =>
                 {
-                    return Err(Fault::Silence(self.target.timeout));
+                    return Err(ExchangeError::Silence(self.target.timeout));
                 }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(Fault::io(error)),
+                Err(error) => return Err(ExchangeError::io(error)),
             }
         }
     }
 }
 
-pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
-    whole(header, &call.encode_to_vec().map_err(Fault::Unsendable)?)
+pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, ExchangeError> {
+    whole(header, &call.encode_to_vec().map_err(ExchangeError::Unsendable)?)
 }
 
-fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, Fault> {
+fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, ExchangeError> {
     FrameRef::new(header, payload)
         .and_then(|frame| frame.encode_to_vec())
-        .map_err(Fault::Unsendable)
+        .map_err(ExchangeError::Unsendable)
 }
 
 /// What a frame with this header and data answers.
-pub(crate) fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Result<Answer, Fault> {
+pub(crate) fn answer(
+    sent: AmsHeader,
+    header: AmsHeader,
+    payload: &[u8],
+) -> Result<AdsReply, ExchangeError> {
     if !header.error.is_ok() && payload.is_empty() {
-        return Ok(Answer { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
+        return Ok(AdsReply { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
     // Whatever else is asked has a result in its reply as a Write has, and maybe more.
     let service = service_of(sent.command).unwrap_or(Service::Write);
-    let (result, data) = decode_reply(service, payload).map_err(Fault::Malformed)?;
-    Ok(Answer { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })
+    let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
+    Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })
 }

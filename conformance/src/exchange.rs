@@ -27,14 +27,14 @@ pub struct Exchange {
     /// The whole frame received, or as much as came.
     pub received: Vec<u8>,
     /// The answer with its header, or why there is none.
-    pub outcome: Result<(Answer, AmsHeader), Fault>,
+    pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
     /// What is wrong with the frame itself.
     pub violations: Vec<Violation>,
 }
 
 /// What a target answered.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Answer {
+pub struct AdsReply {
     /// Error of the AMS header.
     pub ams_error: AdsError,
     /// Result of the service.
@@ -43,7 +43,7 @@ pub struct Answer {
     pub data: Option<Vec<u8>>,
 }
 
-impl Answer {
+impl AdsReply {
     /// The data of a success; none if the answer is an error.
     pub fn success(&self) -> Option<&[u8]> {
         match (self.ams_error.is_ok(), self.result.is_ok()) {
@@ -53,7 +53,7 @@ impl Answer {
     }
 }
 
-impl fmt::Display for Answer {
+impl fmt::Display for AdsReply {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.ams_error, self.result, &self.data) {
             (AdsError::NO_ERROR, AdsError::NO_ERROR, Some(data)) => {
@@ -68,7 +68,7 @@ impl fmt::Display for Answer {
 
 /// Why there is no answer.
 #[derive(Debug)]
-pub enum Fault {
+pub enum ExchangeError {
     /// The gate did not let the request through.
     Refused(Box<Refusal>),
     /// It was only shown.
@@ -85,20 +85,20 @@ pub enum Fault {
     /// The network failed.
     Io(String),
     /// Nobody listens any more.
-    Gone(String),
+    Disconnected(String),
 }
 
-impl Fault {
+impl ExchangeError {
     pub(crate) fn io(error: io::Error) -> Self {
         Self::Io(error.to_string())
     }
 
-    pub(crate) fn gone(error: io::Error) -> Self {
-        Self::Gone(error.to_string())
+    pub(crate) fn disconnected(error: io::Error) -> Self {
+        Self::Disconnected(error.to_string())
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for ExchangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Refused(why) => write!(f, "not sent, refused for safety: {why}"),
@@ -109,7 +109,7 @@ impl fmt::Display for Fault {
             Self::Unseen => f.write_str("whatever it was: the request alone is judged"),
             Self::Malformed(error) => write!(f, "malformed answer: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
-            Self::Gone(error) => write!(f, "no connection: {error}"),
+            Self::Disconnected(error) => write!(f, "no connection: {error}"),
         }
     }
 }
@@ -132,19 +132,19 @@ impl Exchange {
             data: call.data.to_vec(),
             sent: Vec::new(),
             received: Vec::new(),
-            outcome: Err(Fault::Closed),
+            outcome: Err(ExchangeError::Closed),
             violations: Vec::new(),
         }
     }
 
     /// The answer, if one came.
-    pub fn answer(&self) -> Option<&Answer> {
+    pub fn answer(&self) -> Option<&AdsReply> {
         self.outcome.as_ref().ok().map(|(answer, _)| answer)
     }
 
     /// The data of a success; none if an error was answered, or nothing.
     pub fn success(&self) -> Option<&[u8]> {
-        self.answer().and_then(Answer::success)
+        self.answer().and_then(AdsReply::success)
     }
 
     /// Whether an error was answered.

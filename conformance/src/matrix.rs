@@ -31,7 +31,7 @@ pub use sections::to_sections;
 /// A requirement with everything that leads from it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
-pub struct Row {
+pub struct RequirementRow {
     /// The requirement.
     pub id: String,
     /// In a few words.
@@ -59,13 +59,13 @@ pub struct Row {
 }
 
 /// All requirements in the catalogue's order.
-pub fn matrix() -> Vec<Row> {
+pub fn matrix() -> Vec<RequirementRow> {
     let mut cases = suite::cases();
     cases.extend(clients::scenarios().iter().map(clients::Scenario::case));
     requirements().iter().map(|requirement| row(requirement, &cases)).collect()
 }
 
-fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> Row {
+fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRow {
     let id = requirement.id.as_str();
     let (mut accepted, mut rejected) = (Vec::new(), Vec::new());
     let (mut streams, mut names) = (BTreeSet::new(), BTreeSet::new());
@@ -90,7 +90,7 @@ fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> Row {
     if dispatched.count() > 0 {
         fuzz_targets.extend(fuzzed::FUNCTIONS);
     }
-    Row {
+    RequirementRow {
         id: requirement.id.clone(),
         title: requirement.title.clone(),
         basis: format!("{:?}", requirement.basis).to_lowercase(),
@@ -117,7 +117,7 @@ fn joined(names: &BTreeSet<&str>, between: &str) -> String {
 }
 
 /// For people: each requirement with its lists below it.
-pub fn to_text(rows: &[Row]) -> String {
+pub fn to_text(rows: &[RequirementRow]) -> String {
     let mut text = String::new();
     for row in rows {
         // Writing to a String does not fail.
@@ -144,7 +144,7 @@ pub fn to_text(rows: &[Row]) -> String {
 }
 
 /// One table; of vectors and cases the numbers.
-pub fn to_markdown(rows: &[Row]) -> String {
+pub fn to_markdown(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| requirement | level | basis | sources | errata | accepted | rejected | cases | fuzzed |\n\
          |---|---|---|---|---|---|---|---|---|\n",

@@ -26,9 +26,10 @@ fn show_tagged(one: &Tagged) -> String {
     };
     if let Some(tail) = &one.tail {
         // What fills up a field would hide what follows it.
-        match tail.len() > 4 && tail.iter().all(|&byte| byte == 0) {
-            true => text.push_str(&format!(" and behind its NUL {} × 00", tail.len())),
-            false => text.push_str(&format!(" and behind its NUL {tail}")),
+        if tail.len() > 4 && tail.iter().all(|&byte| byte == 0) {
+            text.push_str(&format!(" and behind its NUL {} × 00", tail.len()))
+        } else {
+            text.push_str(&format!(" and behind its NUL {tail}"))
         }
     }
     if one.open {

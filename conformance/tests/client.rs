@@ -5,8 +5,8 @@ use std::net::SocketAddr;
 use std::thread;
 
 use ads_cnc_conformance::clients::{
-    Defect, Flaw, Judged, ReferenceClient, Scenario, TestServer, VOCABULARY, defects, find_defect,
-    habits, judge, scenarios, trial,
+    ClientDefect, Flaw, JudgedClient, ReferenceClient, Scenario, TestServer, VOCABULARY, defects,
+    find_defect, habits, judge, scenarios, trial,
 };
 use ads_cnc_conformance::judge::{CLIENT, Verdict};
 use ads_cnc_vectors::{Level, clause, requirement};
@@ -31,7 +31,7 @@ fn habits_raise_nothing() {
     });
 }
 
-fn raises_nothing(flaw: Option<Flaw>) -> Judged {
+fn raises_nothing(flaw: Option<Flaw>) -> JudgedClient {
     let judged = judge(&mut ReferenceClient { flaw }, &stage(), &scenarios());
     let mut raised = Vec::new();
     for outcome in &judged.outcomes {
@@ -60,7 +60,7 @@ fn every_defect_is_seen_by_its_requirement() {
 
 const PARTS: usize = 8;
 
-fn missed(defect: &&Defect) -> bool {
+fn missed(defect: &&ClientDefect) -> bool {
     let outcomes = trial(defect, &stage());
     let mut verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
     let level = clause(defect.requirement).map_or(Level::Must, |clause| clause.level());
@@ -70,11 +70,11 @@ fn missed(defect: &&Defect) -> bool {
 }
 
 /// The requirement that it breaks, or breaks a part of.
-fn whole(defect: &Defect) -> &'static str {
+fn whole(defect: &ClientDefect) -> &'static str {
     clause(defect.requirement).map_or(defect.requirement, |clause| &clause.requirement.id)
 }
 
-fn id(defect: &Defect) -> &'static str {
+fn id(defect: &ClientDefect) -> &'static str {
     defect.id
 }
 

@@ -6,16 +6,16 @@ use std::sync::Arc;
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::edition::Edition;
-use ads_cnc_conformance::faults::{Change, Defect, Faulty, Seed};
+use ads_cnc_conformance::faults::{Faulty, FieldChange, FieldDefect, Seed};
 use ads_cnc_conformance::gate::Gate;
-use ads_cnc_conformance::judge::{Case, Judgement, Needs, Outcome, Verdict};
+use ads_cnc_conformance::judge::{Case, CaseOutcome, Judgement, Needs, Verdict};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
 use ads_cnc_conformance::suite::{self, TargetState};
 
 /// Runs the suite against a simulated CNC with this defect, or its vectors against the codec.
-fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> {
+fn run(defect: Option<&FieldDefect>, wanted: impl Fn(&Case) -> bool) -> Vec<CaseOutcome> {
     run_against(Cnc::with_default_model().unwrap(), profile(), defect, wanted)
 }
 
@@ -27,9 +27,9 @@ fn profile() -> Profile {
 fn run_against(
     cnc: Cnc,
     profile: Profile,
-    defect: Option<&Defect>,
+    defect: Option<&FieldDefect>,
     wanted: impl Fn(&Case) -> bool,
-) -> Vec<Outcome> {
+) -> Vec<CaseOutcome> {
     let cases = suite::cases().into_iter().filter(wanted).collect();
     let seed = defect.cloned().map(Seed::from);
     let faulty = Faulty::new(cnc, seed.as_ref());
@@ -42,19 +42,19 @@ fn run_against(
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 
-fn failed(outcomes: &[Outcome]) -> Vec<&str> {
+fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     let failed = outcomes.iter().filter(|outcome| outcome.verdict() == Verdict::Fail);
     failed.map(|outcome| outcome.case.id.as_str()).collect()
 }
 
 /// What is tried of a field: both changes alter any bytes there can be.
-fn defects(field: Field) -> impl Iterator<Item = Defect> {
+fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     let all = field
         .stream()
         .into_iter()
-        .flat_map(Defect::of_stream)
+        .flat_map(FieldDefect::of_stream)
         .filter(move |one| one.field == field);
-    all.filter(|defect| matches!(defect.change, Change::FlipLow | Change::Invert))
+    all.filter(|defect| matches!(defect.change, FieldChange::FlipLow | FieldChange::Invert))
 }
 
 /// Every defect of every field of `stream` fails a vector and a case of the target that is not

@@ -8,8 +8,8 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Function, OffsetRule, Service};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
-    Explanation, Outcome, Question, ServiceAddress, Subject, Values, explain, parse_hex,
-    type_by_name,
+    ExplainQuery, ExplainSubject, Explanation, ExplanationOutcome, ServiceAddress, ValueFormat,
+    explain, parse_hex, type_by_name,
 };
 use ads_cnc_vectors::{Expect, vectors};
 use jsonschema::Validator;
@@ -29,10 +29,10 @@ fn schema() -> Validator {
 }
 
 /// Explains, and holds the explanation to the laws.
-fn check(question: &Question, bytes: &[u8], schema: &Validator) -> Explanation {
+fn check(question: &ExplainQuery, bytes: &[u8], schema: &Validator) -> Explanation {
     let explanation = explain(question, bytes);
     // An address alone has no bytes.
-    let bytes = if matches!(question.subject, Subject::Address(_)) { &[] } else { bytes };
+    let bytes = if matches!(question.subject, ExplainSubject::Address(_)) { &[] } else { bytes };
     check_explanation(&Explanation { length: bytes.len(), ..explanation.clone() }, bytes);
     check_printed(&printed(&explanation));
     let document = serde_json::to_value(&explanation).unwrap();
@@ -42,14 +42,14 @@ fn check(question: &Question, bytes: &[u8], schema: &Validator) -> Explanation {
     explanation
 }
 
-fn stream(stream: Stream) -> Question {
-    Question { subject: Subject::Stream(stream), values: Values::default() }
+fn stream(stream: Stream) -> ExplainQuery {
+    ExplainQuery { subject: ExplainSubject::Stream(stream), values: ValueFormat::default() }
 }
 
-fn values() -> impl Strategy<Value = Values> {
+fn values() -> impl Strategy<Value = ValueFormat> {
     let ty = proptest::option::of(select(DataType::ALL.to_vec()));
     let dimensions = proptest::collection::vec(prop_oneof![0..6_u32, any::<u32>()], 0..4);
-    (ty, dimensions).prop_map(|(ty, dimensions)| Values { ty, dimensions })
+    (ty, dimensions).prop_map(|(ty, dimensions)| ValueFormat { ty, dimensions })
 }
 
 fn services() -> impl Strategy<Value = Option<Service>> {
@@ -85,12 +85,12 @@ fn places() -> impl Strategy<Value = ServiceAddress> {
     )
 }
 
-fn subjects() -> impl Strategy<Value = Subject> {
+fn subjects() -> impl Strategy<Value = ExplainSubject> {
     prop_oneof![
-        select(Stream::all().collect::<Vec<_>>()).prop_map(Subject::Stream),
-        places().prop_map(Subject::Place),
-        places().prop_map(Subject::Address),
-        proptest::option::of(places()).prop_map(Subject::Frames),
+        select(Stream::all().collect::<Vec<_>>()).prop_map(ExplainSubject::Stream),
+        places().prop_map(ExplainSubject::Place),
+        places().prop_map(ExplainSubject::Address),
+        proptest::option::of(places()).prop_map(ExplainSubject::Frames),
     ]
 }
 
@@ -159,13 +159,13 @@ proptest! {
 
     #[test]
     fn any_bytes_to_any_question(subject in subjects(), values in values(), bytes in bytes()) {
-        SCHEMA.with(|schema| check(&Question { subject, values }, &bytes, schema));
+        SCHEMA.with(|schema| check(&ExplainQuery { subject, values }, &bytes, schema));
     }
 
     #[test]
     fn any_frames(place in proptest::option::of(places()), values in values(), bytes in frames()) {
         SCHEMA.with(|schema| {
-            check(&Question { subject: Subject::Frames(place), values }, &bytes, schema)
+            check(&ExplainQuery { subject: ExplainSubject::Frames(place), values }, &bytes, schema)
         });
     }
 
@@ -177,7 +177,7 @@ proptest! {
             let walked = named.walk(&bytes, |_| ());
             // NC text has findings beyond its table.
             if named != Stream::ProgramStream {
-                prop_assert_eq!(walked.is_err(), explanation.outcome == Outcome::Faulty);
+                prop_assert_eq!(walked.is_err(), explanation.outcome == ExplanationOutcome::Faulty);
             }
         }
     }
@@ -205,8 +205,8 @@ fn vectors_are_explained_as_they_say() {
         let ty = context.kind.map(|kind| serde_json::to_value(kind).unwrap());
         let ty = ty.and_then(|name| type_by_name(name.as_str().unwrap()).ok());
         let dimensions = context.dimensions.clone().unwrap_or_default();
-        let values = Values { ty, dimensions };
-        let question = Question { subject: Subject::Stream(named), values };
+        let values = ValueFormat { ty, dimensions };
+        let question = ExplainQuery { subject: ExplainSubject::Stream(named), values };
         let explanation = check(&question, &vector.bytes(), &schema);
         let fault = explanation.parts[0].faults.first();
         match (&vector.expect, fault) {
@@ -230,7 +230,8 @@ fn what_an_unasked_answer_brings_is_shown() {
     frame.extend([192, 0, 2, 20, 1, 1, 0, 0x80, 192, 0, 2, 10, 1, 1, 0x28, 2]);
     frame.extend([2, 0, 5, 0, 12, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0]);
     frame.extend([0, 0, 0, 0, 4, 0, 0, 0, 0xA1, 0xB2, 0xC3, 0xD4]);
-    let question = Question { subject: Subject::Frames(None), values: Values::default() };
+    let question =
+        ExplainQuery { subject: ExplainSubject::Frames(None), values: ValueFormat::default() };
     let explanation = check(&question, &frame, &schema());
     assert_eq!(explanation.parts.len(), 3);
     let shown = String::from_utf8(printed(&explanation)).unwrap();

@@ -1,9 +1,10 @@
 //! Codecs that do otherwise what no manual says: each is minimal but right, and fails nothing.
 
-use ads_cnc_conformance::judge::{Body, Case, Exit, Needs, Subject, Verdict};
+use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Exit, Needs, Verdict};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
-    Answer, Hello, Output, Own, Question, Reaction, Rejection, Terms, Testee, judge, questions,
+    Answer, Output, Own, Question, Rejection, Terms, Testee, TesteeHello, TesteeReaction, judge,
+    questions,
 };
 use ads_cnc_vectors::{Level, sequence, vector};
 
@@ -11,12 +12,12 @@ use ads_cnc_vectors::{Level, sequence, vector};
 struct Otherwise<F>(F);
 
 impl<F: Fn(&Own, &Question) -> Answer> Testee for Otherwise<F> {
-    fn hello(&mut self) -> Result<Hello, Reaction> {
+    fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
         Ok(Own::default().hello())
     }
 
-    fn ask(&mut self, question: &Question) -> Reaction {
-        Reaction::Answer((self.0)(&Own::default(), question))
+    fn ask(&mut self, question: &Question) -> TesteeReaction {
+        TesteeReaction::Answer((self.0)(&Own::default(), question))
     }
 
     fn bye(&mut self) -> Result<(), String> {
@@ -30,7 +31,7 @@ fn cases() -> Vec<Case> {
 
 /// How the judgement of such a codec ends, and what it is not the same in.
 fn judged(codec: impl Fn(&Own, &Question) -> Answer) -> (Exit, Vec<String>) {
-    let terms = Terms { seed: 3, subject: Subject::Testee, edition: None, strict: false };
+    let terms = Terms { seed: 3, subject: CaseSubject::Testee, edition: None, strict: false };
     let outcomes = judge(&mut Otherwise(codec), cases(), terms).outcomes;
     let verdicts = outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict);
     let noticed = |verdict| matches!(verdict, Verdict::Warning | Verdict::Differs);
@@ -263,7 +264,7 @@ fn what_another_edition_prints_fails_nobody() {
             Some(bytes) if bytes == b"V.E.trajectory.vector.x" => rejected(),
             _ => own.answer(question),
         });
-        let (seed, subject) = (3, Subject::Testee);
+        let (seed, subject) = (3, CaseSubject::Testee);
         let terms = Terms { seed, subject, edition: Some(edition), strict: false };
         let outcomes = judge(&mut codec, cases(), terms).outcomes;
         let one = outcomes.iter().find(|one| one.case.id == "vec-path-trajectory-x").unwrap();

@@ -46,7 +46,7 @@ const WRITABLE: &str = "V.E.test";
 fn what_is_allowed_is_written_and_nothing_else() {
     let mut session = simulated(allowing(&variable(WRITABLE)));
     let value = [7, 0, 0, 0];
-    let write = |name| WriteByName::new(channel(), name, &value).unwrap();
+    let write = |name| WriteByName::new(channel(), name, &value[..]).unwrap();
     session.call(&write("V.E.test[4]")).unwrap();
     let read = ReadByName::new(channel(), "V.E.test[4]").unwrap();
     assert_eq!(session.call(&read).unwrap().bytes, value);
@@ -62,7 +62,8 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let mut session = simulated(allowing(&variable(WRITABLE)));
     let handle = session.call(&HandleByName::new(channel(), WRITABLE).unwrap()).unwrap();
     let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
-    let write = |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0]);
+    let write =
+        |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0][..]);
     // A description has to have it too.
     assert!(matches!(session.call(&write(handle)), Err(Trouble::Refused(_))));
     session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();
@@ -81,10 +82,10 @@ fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
     let objects = objects.as_ref();
     let object = objects.iter().find(|object| object.name() == NAME).unwrap();
     let (group, offset) = (object.index_group(), object.index_offset());
-    session.call(&WriteObject::new(group, offset, &[1]).unwrap()).unwrap();
+    session.call(&WriteObject::new(group, offset, &[1][..]).unwrap()).unwrap();
 
     let mut session = simulated(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
-    let write = WriteObject::new(group, offset, &[1]).unwrap();
+    let write = WriteObject::new(group, offset, &[1][..]).unwrap();
     assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
 }
 
@@ -103,7 +104,7 @@ fn a_dry_run_goes_through_writes_and_stops_at_questions() {
     let gate = allowing(&variable(WRITABLE));
     let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
     let mut session = Session::dry(nobody, gate).unwrap();
-    let write = |name| WriteByName::new(channel(), name, &[1]).unwrap();
+    let write = |name| WriteByName::new(channel(), name, &[1][..]).unwrap();
     for _ in 0..3 {
         session.call(&write(WRITABLE)).unwrap();
     }
@@ -186,7 +187,7 @@ fn a_write_is_not_repeated() {
         (len, listener.accept().is_ok())
     });
     let mut session = Session::connect(target, allowing(&variable(WRITABLE))).unwrap();
-    let write = WriteByName::new(channel(), WRITABLE, &[1]).unwrap();
+    let write = WriteByName::new(channel(), WRITABLE, &[1][..]).unwrap();
     assert!(matches!(session.call(&write), Err(Trouble::NoAnswer(_))));
     let (len, again) = taken.join().unwrap();
     assert!(len > 38 && !again);

@@ -4,12 +4,14 @@
 use std::time::Duration;
 
 use ads_cnc_conformance::faults;
-use ads_cnc_conformance::judge::{Case, Exit, Needs, Outcome, Subject, TESTEE, Verdict};
+use ads_cnc_conformance::judge::{Case, CaseOutcome, CaseSubject, Exit, Needs, TESTEE, Verdict};
 use ads_cnc_conformance::suite;
-use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, Terms, Testee, judge};
+use ads_cnc_conformance::testee::{
+    JudgedTestee, Miniature, Own, Terms, Testee, TesteeProcess, judge,
+};
 
 const OF_A_TESTEE: Terms<'static> =
-    Terms { seed: 7, subject: Subject::Testee, edition: None, strict: false };
+    Terms { seed: 7, subject: CaseSubject::Testee, edition: None, strict: false };
 
 fn cases() -> Vec<Case> {
     suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
@@ -28,15 +30,15 @@ fn own() -> String {
 /// A machine that does much else answers late.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-fn process(arguments: &str) -> Process {
+fn process(arguments: &str) -> TesteeProcess {
     within(PATIENCE, arguments)
 }
 
-fn within(timeout: Duration, arguments: &str) -> Process {
-    Process::new(format!("{} {arguments}", own()), timeout)
+fn within(timeout: Duration, arguments: &str) -> TesteeProcess {
+    TesteeProcess::new(format!("{} {arguments}", own()), timeout)
 }
 
-fn failed(outcomes: &[Outcome]) -> Vec<&str> {
+fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     let mut failed: Vec<&str> = outcomes
         .iter()
         .flat_map(|outcome| &outcome.verdicts)
@@ -48,7 +50,7 @@ fn failed(outcomes: &[Outcome]) -> Vec<&str> {
     failed
 }
 
-fn exit(judged: &Judged) -> Exit {
+fn exit(judged: &JudgedTestee) -> Exit {
     Exit::of(judged.outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict))
 }
 
@@ -62,7 +64,7 @@ fn the_own_codec_passes_over_pipes_as_in_the_process() {
     assert_eq!(piped.asked, direct.asked);
     assert!(piped.asked > 1800, "{}", piped.asked);
     assert_eq!((piped.restarts, over_pipes.starts), (0, 1));
-    let verdicts = |judged: &Judged| -> Vec<(String, Verdict)> {
+    let verdicts = |judged: &JudgedTestee| -> Vec<(String, Verdict)> {
         judged.outcomes.iter().map(|one| (one.case.id.clone(), one.verdict())).collect()
     };
     assert_eq!(verdicts(&piped), verdicts(&direct));
@@ -160,7 +162,7 @@ fn a_field_done_wrong_fails_its_requirement() {
 #[test]
 fn what_cannot_be_started_fails_by_the_protocol_alone() {
     for command in ["ads-cnc-no-such-command", "exit 3"] {
-        let mut process = Process::new(command, Duration::from_millis(500));
+        let mut process = TesteeProcess::new(command, Duration::from_millis(500));
         assert!(process.hello().is_err());
         let judged = judge(&mut process, some(), OF_A_TESTEE);
         assert_eq!(failed(&judged.outcomes), [TESTEE]);
@@ -173,22 +175,24 @@ fn what_cannot_be_started_fails_by_the_protocol_alone() {
 /// Testees that are a line of shell.
 #[cfg(unix)]
 mod shell {
-    use ads_cnc_conformance::testee::{Process, Question, Reaction, Testee as _, check_protocol};
+    use ads_cnc_conformance::testee::{
+        Question, Testee as _, TesteeProcess, TesteeReaction, check_protocol,
+    };
 
     use super::PATIENCE;
 
     /// A testee in shell that claims these ops and says a line to each case.
-    fn shell(ops: &str, line: &str) -> Process {
+    fn shell(ops: &str, line: &str) -> TesteeProcess {
         let testee = r#""testee":{"name":"sh"}"#;
         let hello =
             format!(r#"{{"protocol":1,{testee},"capabilities":{{"ops":[{ops}],"streams":[]}}}}"#);
         let command =
             format!("read l; printf '%s\\n' '{hello}'; while read l; do printf '{line}\\n'; done");
-        Process::new(command, PATIENCE)
+        TesteeProcess::new(command, PATIENCE)
     }
 
     /// What it makes of the first case, whose number is 1.
-    fn says(line: &str) -> Reaction {
+    fn says(line: &str) -> TesteeReaction {
         shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
     }
 
@@ -209,7 +213,7 @@ mod shell {
     /// An answer is one of the four, and text.
     #[test]
     fn two_answers_in_one_are_none() {
-        assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), Reaction::Answer(_)));
+        assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), TesteeReaction::Answer(_)));
         for (line, why) in [
             (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are there"),
             (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are there"),
@@ -223,7 +227,7 @@ mod shell {
             (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is there"),
             (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
         ] {
-            let Reaction::Garbled(found) = says(line) else { panic!("{line}") };
+            let TesteeReaction::Garbled(found) = says(line) else { panic!("{line}") };
             assert!(found.contains(why), "{line}: {found}");
         }
     }
@@ -236,7 +240,7 @@ mod shell {
         {
             let mut testee = shell("", &format!("{line}\\n' ; exit ; printf '"));
             let answer = testee.ask(&Question::new("decode", "object-count", "en-1.05"));
-            assert!(matches!(answer, Reaction::Answer(_)), "{answer:?}");
+            assert!(matches!(answer, TesteeReaction::Answer(_)), "{answer:?}");
             let bye = testee.bye();
             assert_eq!(bye.is_ok(), is_right, "{bye:?}");
             assert!(is_right || bye.unwrap_err().contains("nobody asked for"));

@@ -1,7 +1,7 @@
 //! What is asked of a CNC to find what it has: not more than there is to find, and an end however
 //! the CNC answers.
 
-use ads_cnc_conformance::faults::{Defect, Faulty};
+use ads_cnc_conformance::faults::{Faulty, FieldDefect};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::objects::{Options, Pattern, WalkResult, walk};
 use ads_cnc_conformance::session::Session;
@@ -48,7 +48,7 @@ fn wrong_answers_end() {
         "dynamic-",
     ];
     let mut tried = 0;
-    for defect in Defect::all() {
+    for defect in FieldDefect::all() {
         let stream = defect.stream.layout().name;
         if !streams.iter().any(|part| stream.starts_with(part)) {
             continue;

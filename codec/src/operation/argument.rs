@@ -3,6 +3,9 @@
 use core::fmt;
 use core::hash::{Hash, Hasher};
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
 use crate::content::ContentRef;
 use crate::error::Error;
 use crate::text::{CncStr, TextRef};
@@ -79,8 +82,8 @@ impl<'a> IntoName<'a> for &'a Text {
 /// A value to write: a number, a `bool`, or the bytes of a value.
 ///
 /// An array or a text is first encoded into a buffer of the caller, by
-/// [`EncodeValue`](crate::value::EncodeValue). Only a slice is taken as the bytes of a value: `&[1, 2]`
-/// would be two bytes, whatever the type of the variable, and does not compile.
+/// [`EncodeValue`](crate::value::EncodeValue). Bytes are a slice or a vector, not an array: `&[1, 2]` would be
+/// two bytes, whatever the type of the variable, and does not compile.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
 ///
@@ -150,6 +153,13 @@ impl From<bool> for WriteValue<'_> {
 
 impl<'a> From<&'a [u8]> for WriteValue<'a> {
     fn from(bytes: &'a [u8]) -> Self {
+        Self(Source::Bytes(bytes))
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<'a> From<&'a Vec<u8>> for WriteValue<'a> {
+    fn from(bytes: &'a Vec<u8>) -> Self {
         Self(Source::Bytes(bytes))
     }
 }

@@ -31,7 +31,7 @@ pub(super) struct Packet<'p> {
 
 /// How a file ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum FileEnd {
     /// With its last record.
     Whole,
     /// Inside a record, or where what follows is none.
@@ -52,7 +52,7 @@ pub enum FileError {
 }
 
 /// What says how packets are to be read.
-struct Interface {
+struct CaptureInterface {
     link: Linktype,
     /// Units of time in a second.
     resolution: u64,
@@ -62,7 +62,7 @@ struct Interface {
 #[derive(Default)]
 struct Interfaces {
     /// Of pcapng, of the section that is read.
-    all: Vec<Interface>,
+    all: Vec<CaptureInterface>,
     packets: u64,
 }
 
@@ -70,7 +70,7 @@ struct Interfaces {
 pub(super) fn packets(
     input: impl Read + Send,
     mut each: impl FnMut(Packet<'_>),
-) -> Result<End, FileError> {
+) -> Result<FileEnd, FileError> {
     let mut reader = create_reader(BUFFER, Patient(input)).map_err(|error| match error {
         PcapError::Eof => FileError::Empty,
         PcapError::ReadError => FileError::Io(std::io::Error::other("it cannot be read")),
@@ -85,13 +85,13 @@ pub(super) fn packets(
                 reader.consume(length);
                 continue;
             }
-            Err(PcapError::Eof) => return Ok(End::Whole),
+            Err(PcapError::Eof) => return Ok(FileEnd::Whole),
             Err(PcapError::Incomplete(_)) => false,
             Err(PcapError::BufferTooSmall) => true,
             Err(PcapError::UnexpectedEof) => {
                 let left = reader.data().len();
                 let whole = if left == 0 { "inside a record" } else { "in the middle of a record" };
-                return Ok(End::Cut(format!("it ends {whole}, {left} bytes into it")));
+                return Ok(FileEnd::Cut(format!("it ends {whole}, {left} bytes into it")));
             }
             Err(error) => {
                 let what = match error {
@@ -99,14 +99,14 @@ pub(super) fn packets(
                     _ => "what follows is no record",
                 };
                 let number = interfaces.packets;
-                return Ok(End::Cut(format!("{what}, after packet {number}")));
+                return Ok(FileEnd::Cut(format!("{what}, after packet {number}")));
             }
         };
         if more {
             if capacity >= RECORD_MAX {
                 let number = interfaces.packets.saturating_add(1);
                 let what = format!("record {number} is longer than {RECORD_MAX} bytes");
-                return Ok(End::Cut(what));
+                return Ok(FileEnd::Cut(what));
             }
             capacity = capacity.saturating_mul(2);
             reader.grow(capacity);
@@ -114,7 +114,7 @@ pub(super) fn packets(
         let before = reader.data().len();
         let failed = reader.refill().is_err();
         if failed || (reader.data().len() == before && !reader.reader_exhausted()) {
-            return Ok(End::Cut("it cannot be read any further".to_owned()));
+            return Ok(FileEnd::Cut("it cannot be read any further".to_owned()));
         }
     }
 }
@@ -145,7 +145,7 @@ impl Interfaces {
                 let resolution = if nanoseconds { 1_000_000_000 } else { 1_000_000 };
                 // The upper bits say something about checksums at the end of frames.
                 let link = Linktype(header.network.0 & 0xFFFF);
-                self.all = vec![Interface { link, resolution, offset: 0 }];
+                self.all = vec![CaptureInterface { link, resolution, offset: 0 }];
             }
             PcapBlockOwned::Legacy(block) => {
                 let Some(interface) = self.all.first() else { return };
@@ -162,7 +162,7 @@ impl Interfaces {
         match block {
             Block::SectionHeader(_) => self.all.clear(),
             Block::InterfaceDescription(interface) if self.all.len() < INTERFACES_MAX => {
-                self.all.push(Interface {
+                self.all.push(CaptureInterface {
                     link: interface.linktype,
                     resolution: interface.ts_resolution().unwrap_or(1_000_000).max(1),
                     offset: interface.ts_offset(),

@@ -12,8 +12,8 @@ use super::frames::Span;
 use super::time::Time;
 use crate::exchange::Exchange;
 use crate::judge::{
-    Body, Case, Checks, Describe, Evidence, Needs, Outcome, Record, Rule, Rules, Stop, Subject,
-    Verdict,
+    Body, Case, CaseOutcome, CaseSubject, Checks, Describe, Evidence, Needs, Record, Rule, Rules,
+    Stop, Verdict,
 };
 
 /// Declares [`Topic`].
@@ -30,11 +30,11 @@ macro_rules! topics {
                 match self { $(
                     Self::$topic => {
                         let requirements = vec![$($requirement),*];
-                        $( let requirements = of_area($area, Subject::$subject, requirements); )?
+                        $( let requirements = of_area($area, CaseSubject::$subject, requirements); )?
                         Case {
                             id: $id.to_owned(),
                             title: $title.to_owned(),
-                            subject: Subject::$subject,
+                            subject: CaseSubject::$subject,
                             requirements,
                             needs: Needs::Frames,
                             body: Body::Traffic,
@@ -117,13 +117,13 @@ impl Topic {
 }
 
 /// The requirements that the function table and the field tables name for an area.
-fn of_area(area: &str, subject: Subject, also: Vec<&'static str>) -> Vec<&'static str> {
+fn of_area(area: &str, subject: CaseSubject, also: Vec<&'static str>) -> Vec<&'static str> {
     let mut all = also;
     for spec in Function::ALL.iter().map(|function| function.spec()) {
         if !spec.clause.starts_with(area) {
             continue;
         }
-        let stream = if subject == Subject::CapturedClient { spec.request } else { spec.reply };
+        let stream = if subject == CaseSubject::CapturedClient { spec.request } else { spec.reply };
         all.push(spec.clause);
         all.extend(stream.into_iter().flat_map(clauses));
     }
@@ -227,12 +227,12 @@ impl TopicRecords {
         }
     }
 
-    pub(super) fn finish(self) -> Vec<Outcome> {
+    pub(super) fn finish(self) -> Vec<CaseOutcome> {
         let outcomes = self.records.into_iter().map(|(case, record, notes)| {
             let Record { judgements, checks } = record;
-            let outcome = Outcome::tried(case, judgements, checks, None::<Stop>);
+            let outcome = CaseOutcome::tried(case, judgements, checks, None::<Stop>);
             let note = (!notes.is_empty()).then(|| notes.join("; "));
-            Outcome { note: note.or(outcome.note), ..outcome }
+            CaseOutcome { note: note.or(outcome.note), ..outcome }
         });
         outcomes.collect()
     }

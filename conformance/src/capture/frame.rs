@@ -16,12 +16,12 @@ const HOPS: u8 = 64;
 /// One connection: its ends, and how many bytes each has sent.
 #[derive(Clone, Debug)]
 pub(super) struct Flow {
-    local: End,
-    remote: End,
+    local: Endpoint,
+    remote: Endpoint,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct End {
+struct Endpoint {
     addr: SocketAddr,
     mac: [u8; 6],
     /// Number of the next byte.
@@ -31,15 +31,16 @@ struct End {
 impl Flow {
     pub(super) fn new(local: SocketAddr, remote: SocketAddr) -> Self {
         // Locally administered addresses, which nobody has.
-        let end = |addr, last| End { addr, mac: [2, 0, 0, 0, 0, last], next: 0 };
+        let end = |addr, last| Endpoint { addr, mac: [2, 0, 0, 0, 0, last], next: 0 };
         Self { local: end(local, 1), remote: end(remote, 2) }
     }
 
     /// The whole packet, from Ethernet on.
     pub(super) fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) -> io::Result<Vec<u8>> {
-        let (from, to) = match outgoing {
-            true => (&mut self.local, &self.remote),
-            false => (&mut self.remote, &self.local),
+        let (from, to) = if outgoing {
+            (&mut self.local, &self.remote)
+        } else {
+            (&mut self.remote, &self.local)
         };
         let builder = PacketBuilder::ethernet2(from.mac, to.mac);
         let builder = match (from.addr.ip(), to.addr.ip()) {

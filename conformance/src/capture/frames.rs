@@ -48,7 +48,7 @@ pub(super) struct Frames {
 
 impl Frames {
     /// Memory of what is held: many small segments take more than their bytes.
-    pub(super) fn held(&self) -> usize {
+    pub(super) fn memory_size(&self) -> usize {
         let marks = self.marks.capacity().saturating_mul(size_of::<(usize, Mark)>());
         self.bytes.capacity().saturating_add(marks)
     }

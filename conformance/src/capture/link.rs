@@ -9,7 +9,7 @@ use super::file::Packet;
 
 /// A TCP segment.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Segment<'p> {
+pub(super) struct TcpSegment<'p> {
     pub(super) from: SocketAddr,
     pub(super) to: SocketAddr,
     pub(super) sequence: u32,
@@ -24,8 +24,8 @@ pub(super) struct Segment<'p> {
 
 /// What is in a packet.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Content<'p> {
-    Tcp(Segment<'p>),
+pub(super) enum PacketContent<'p> {
+    Tcp(TcpSegment<'p>),
     /// Another protocol.
     Other,
     /// A piece of an IP packet, which is not put together.
@@ -36,7 +36,7 @@ pub(super) enum Content<'p> {
     Link(i32),
 }
 
-pub(super) fn segment<'p>(packet: &Packet<'p>) -> Content<'p> {
+pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     let bytes = packet.bytes;
     let behind = |length: usize| bytes.get(length..).unwrap_or_default();
     let typed = |at: usize| match bytes.get(at..) {
@@ -53,27 +53,31 @@ pub(super) fn segment<'p>(packet: &Packet<'p>) -> Content<'p> {
         Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(behind(4)).ok(),
         Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), behind(16))),
         Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), behind(20))),
-        Linktype(other) => return Content::Link(other),
+        Linktype(other) => return PacketContent::Link(other),
     };
-    read.map_or(Content::Unreadable, |read| of_ip(&read, packet.missing))
+    read.map_or(PacketContent::Unreadable, |read| of_ip(&read, packet.missing))
 }
 
-fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> Content<'p> {
+fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     let Some((from, to, missing)) = read.net.as_ref().and_then(|net| ends(net, missing)) else {
         // What stops inside of IP is no other protocol.
-        return if read.stop_err.is_some() { Content::Unreadable } else { Content::Other };
+        return if read.stop_err.is_some() {
+            PacketContent::Unreadable
+        } else {
+            PacketContent::Other
+        };
     };
     let is_fragment = read.ip_payload().is_some_and(|payload| payload.fragmented);
     let is_tcp = read.ip_payload().is_some_and(|payload| payload.ip_number.0 == 6);
     match &read.transport {
         _ if is_fragment => {
             if is_tcp {
-                Content::Fragment
+                PacketContent::Fragment
             } else {
-                Content::Other
+                PacketContent::Other
             }
         }
-        Some(TransportSlice::Tcp(tcp)) => Content::Tcp(Segment {
+        Some(TransportSlice::Tcp(tcp)) => PacketContent::Tcp(TcpSegment {
             from: SocketAddr::new(from, tcp.source_port()),
             to: SocketAddr::new(to, tcp.destination_port()),
             sequence: tcp.sequence_number(),
@@ -84,8 +88,8 @@ fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> Content<'p> {
             payload: tcp.payload(),
             missing,
         }),
-        _ if is_tcp => Content::Unreadable,
-        _ => Content::Other,
+        _ if is_tcp => PacketContent::Unreadable,
+        _ => PacketContent::Other,
     }
 }
 

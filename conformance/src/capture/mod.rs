@@ -13,11 +13,11 @@
 //! be has a limit everywhere.
 //!
 //! ```
-//! use ads_cnc_conformance::capture::{Options, check};
+//! use ads_cnc_conformance::capture::{CaptureOptions, check};
 //!
 //! // The beginning of a pcap file without a packet.
 //! let file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x01\0\0\0";
-//! let checked = check(&file[..], Options::default())?;
+//! let checked = check(&file[..], CaptureOptions::default())?;
 //! assert_eq!(checked.tally.packets, 0);
 //! assert!(checked.outcomes.iter().all(|outcome| !outcome.verdict().is_judged()));
 //! # Ok::<(), ads_cnc_conformance::capture::FileError>(())
@@ -31,6 +31,7 @@ mod judge;
 mod link;
 mod table;
 mod tally;
+mod target;
 mod tcp;
 mod time;
 mod vectors;
@@ -39,32 +40,32 @@ mod writer;
 use std::io::Read;
 use std::net::SocketAddr;
 
-pub use file::{End, FileError, RECORD_MAX};
+pub use file::{FileEnd, FileError, RECORD_MAX};
 pub use table::Ports;
-pub use tally::Tally;
+pub use tally::CaptureTally;
 pub use time::Time;
 pub use vectors::{Collector, VECTORS_MAX};
 pub use writer::Capture;
 
 use self::file::Packet;
-use self::judge::Judge;
-use self::link::Content;
-use self::table::{Event, Table};
+use self::judge::TrafficJudge;
+use self::link::PacketContent;
+use self::table::{ConnectionEvent, ConnectionTable};
 use self::tally::{count, count_of};
 use self::tcp::Mark;
-use crate::judge::Outcome;
+use crate::judge::CaseOutcome;
 
 pub const AMS_TCP_PORT: u16 = 48898;
 
 #[derive(Debug)]
-pub struct Options {
+pub struct CaptureOptions {
     /// TCP ports.
     pub ports: Ports,
     /// Where golden vectors are to be kept, if they are wanted.
     pub vectors: Option<Collector>,
 }
 
-impl Default for Options {
+impl Default for CaptureOptions {
     fn default() -> Self {
         Self { ports: Ports::Of(vec![AMS_TCP_PORT]), vectors: None }
     }
@@ -72,15 +73,15 @@ impl Default for Options {
 
 #[derive(Debug)]
 pub struct Checked {
-    pub outcomes: Vec<Outcome>,
-    pub tally: Tally,
+    pub outcomes: Vec<CaseOutcome>,
+    pub tally: CaptureTally,
     /// Golden vectors, if they were wanted.
     pub vectors: Option<Collector>,
 }
 
 /// What comes out of a capture before it is judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Piece {
+pub enum CapturePiece {
     /// A whole frame.
     Frame {
         from: SocketAddr,
@@ -105,12 +106,12 @@ pub enum Piece {
 /// in it and what is missing between them. Nothing is judged.
 ///
 /// ```
-/// use ads_cnc_conformance::capture::{End, Ports, frames};
+/// use ads_cnc_conformance::capture::{FileEnd, Ports, frames};
 ///
 /// let file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x01\0\0\0";
 /// let mut pieces = Vec::new();
 /// let end = frames(&file[..], Ports::Any, |piece| pieces.push(piece))?;
-/// assert_eq!((end, pieces.len()), (End::Whole, 0));
+/// assert_eq!((end, pieces.len()), (FileEnd::Whole, 0));
 /// # Ok::<(), ads_cnc_conformance::capture::FileError>(())
 /// ```
 ///
@@ -119,27 +120,35 @@ pub enum Piece {
 pub fn frames(
     input: impl Read + Send,
     ports: Ports,
-    mut each: impl FnMut(Piece),
-) -> Result<End, FileError> {
-    let mut table = Table::new(ports);
+    mut each: impl FnMut(CapturePiece),
+) -> Result<FileEnd, FileError> {
+    let mut table = ConnectionTable::new(ports);
     read(input, &mut table, |step| {
         if let ReadStep::Event(event, _) = step
-            && let Some(piece) = Piece::of(event)
+            && let Some(piece) = CapturePiece::of(event)
         {
             each(piece);
         }
     })
 }
 
-impl Piece {
-    fn of(event: Event) -> Option<Self> {
+impl CapturePiece {
+    fn of(event: ConnectionEvent) -> Option<Self> {
         Some(match event {
-            Event::Frame(bytes, way, _) => Self::Frame { from: way.from, to: way.to, bytes },
-            Event::Gap(length, way, _) => Self::Gap { from: way.from, to: way.to, length },
-            Event::Cut(bytes, ..) | Event::Broken(_, bytes, ..) => Self::Rest(bytes.len()),
-            Event::Skipped(length) => Self::Rest(length),
-            Event::Unfinished => Self::Rest(0),
-            Event::Router | Event::Joined(_) | Event::Ended(_) => return None,
+            ConnectionEvent::Frame(bytes, way, _) => {
+                Self::Frame { from: way.from, to: way.to, bytes }
+            }
+            ConnectionEvent::Gap(length, way, _) => {
+                Self::Gap { from: way.from, to: way.to, length }
+            }
+            ConnectionEvent::Cut(bytes, ..) | ConnectionEvent::Broken(_, bytes, ..) => {
+                Self::Rest(bytes.len())
+            }
+            ConnectionEvent::Skipped(length) => Self::Rest(length),
+            ConnectionEvent::Unfinished => Self::Rest(0),
+            ConnectionEvent::Router | ConnectionEvent::Joined(_) | ConnectionEvent::Ended(_) => {
+                return None;
+            }
         })
     }
 }
@@ -147,22 +156,22 @@ impl Piece {
 /// What is found while a file is read.
 enum ReadStep<'s> {
     /// The next packet; whether its segment is looked at.
-    Packet(&'s Packet<'s>, Content<'s>, bool),
+    Packet(&'s Packet<'s>, PacketContent<'s>, bool),
     /// Something on a connection.
-    Event(Event, &'s Table),
+    Event(ConnectionEvent, &'s ConnectionTable),
 }
 
 fn read(
     input: impl Read + Send,
-    table: &mut Table,
+    table: &mut ConnectionTable,
     mut each: impl FnMut(ReadStep<'_>),
-) -> Result<End, FileError> {
+) -> Result<FileEnd, FileError> {
     let mut events = Vec::new();
     let end = file::packets(input, |packet| {
         let content = link::segment(&packet);
-        let wanted = matches!(&content, Content::Tcp(segment) if table.wants(segment));
+        let wanted = matches!(&content, PacketContent::Tcp(segment) if table.wants(segment));
         each(ReadStep::Packet(&packet, content, wanted));
-        if let (Content::Tcp(segment), true) = (content, wanted) {
+        if let (PacketContent::Tcp(segment), true) = (content, wanted) {
             let Packet { number, time, .. } = packet;
             let mark = Mark { packet: number, time, acknowledged: None };
             table.push(&segment, mark, &mut events);
@@ -178,20 +187,20 @@ fn read(
 ///
 /// # Errors
 /// If it is no such file. One that ends too early is judged as far as it goes.
-pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileError> {
-    let mut table = Table::new(options.ports);
-    let mut judge = Judge::new(options.vectors);
+pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked, FileError> {
+    let mut table = ConnectionTable::new(options.ports);
+    let mut judge = TrafficJudge::new(options.vectors);
     let end = read(input, &mut table, |step| match step {
         ReadStep::Packet(packet, content, wanted) => {
             count(&mut judge.tally.packets);
             judge.at(packet.time);
             match content {
-                Content::Tcp(_) if wanted => count(&mut judge.tally.segments),
-                Content::Tcp(_) => count(&mut judge.tally.elsewhere),
-                Content::Other => {}
-                Content::Fragment => count(&mut judge.tally.fragments),
-                Content::Unreadable => count(&mut judge.tally.unreadable),
-                Content::Link(link) => count_of(&mut judge.tally.links, link),
+                PacketContent::Tcp(_) if wanted => count(&mut judge.tally.segments),
+                PacketContent::Tcp(_) => count(&mut judge.tally.elsewhere),
+                PacketContent::Other => {}
+                PacketContent::Fragment => count(&mut judge.tally.fragments),
+                PacketContent::Unreadable => count(&mut judge.tally.unreadable),
+                PacketContent::Link(link) => count_of(&mut judge.tally.links, link),
             }
         }
         ReadStep::Event(event, table) => judge.take(event, table),

@@ -6,8 +6,8 @@ use std::net::SocketAddr;
 use ads_cnc::Error;
 
 use super::frames::{FramePiece, Frames, Span};
-use super::link::Segment;
-use super::tcp::{Half, Mark, Part, Piece};
+use super::link::TcpSegment;
+use super::tcp::{DirectedSegment, Half, Mark, ReassembledPiece};
 
 /// Connections that are followed at the same time; of more, those that were silent longest end.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
@@ -34,7 +34,7 @@ pub(super) struct SegmentDirection {
 }
 
 #[derive(Debug)]
-pub(super) enum Event {
+pub(super) enum ConnectionEvent {
     Frame(Vec<u8>, SegmentDirection, Span),
     Router,
     Broken(Error, Vec<u8>, SegmentDirection, Span),
@@ -61,7 +61,7 @@ pub(super) struct Ending {
 }
 
 #[derive(Debug)]
-struct Connection {
+struct TcpConnection {
     number: u64,
     ends: [SocketAddr; 2],
     halves: [Half; 2],
@@ -78,20 +78,20 @@ struct Connection {
 }
 
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct ConnectionTable {
     ports: Ports,
-    open: BTreeMap<(SocketAddr, SocketAddr), Connection>,
+    open: BTreeMap<(SocketAddr, SocketAddr), TcpConnection>,
     connections: u64,
-    held: usize,
+    buffered: usize,
     segments: u64,
     pub(super) repeated: u64,
     pub(super) early: u64,
 }
 
-impl Table {
+impl ConnectionTable {
     pub(super) const fn new(ports: Ports) -> Self {
         let open = BTreeMap::new();
-        Self { ports, open, connections: 0, held: 0, segments: 0, repeated: 0, early: 0 }
+        Self { ports, open, connections: 0, buffered: 0, segments: 0, repeated: 0, early: 0 }
     }
 
     pub(super) const fn connections(&self) -> u64 {
@@ -100,7 +100,7 @@ impl Table {
 
     /// Whether the direction from here is waiting for something that comes too late.
     pub(super) fn waits(&self, way: &SegmentDirection) -> bool {
-        self.half(way).is_some_and(|half| half.held() > 0)
+        self.half(way).is_some_and(|half| half.memory_size() > 0)
     }
 
     /// Whether the direction from here has got as far as this.
@@ -114,7 +114,7 @@ impl Table {
     }
 
     /// Whether a segment is on one of the ports.
-    pub(super) fn wants(&self, segment: &Segment<'_>) -> bool {
+    pub(super) fn wants(&self, segment: &TcpSegment<'_>) -> bool {
         match &self.ports {
             Ports::Any => true,
             Ports::Of(ports) => {
@@ -123,7 +123,12 @@ impl Table {
         }
     }
 
-    pub(super) fn push(&mut self, segment: &Segment<'_>, mark: Mark, out: &mut Vec<Event>) {
+    pub(super) fn push(
+        &mut self,
+        segment: &TcpSegment<'_>,
+        mark: Mark,
+        out: &mut Vec<ConnectionEvent>,
+    ) {
         self.segments = self.segments.saturating_add(1);
         let key = key(segment.from, segment.to);
         if segment.syn && self.open.get(&key).is_some_and(|known| !known.is_same(segment)) {
@@ -138,30 +143,32 @@ impl Table {
             self.connections = self.connections.saturating_add(1);
             let ends = [segment.from, segment.to];
             let speaks = self.ports != Ports::Any;
-            self.open.insert(key, Connection::new(self.connections, ends, speaks));
+            self.open.insert(key, TcpConnection::new(self.connections, ends, speaks));
         }
         let Some(connection) = self.open.get_mut(&key) else { return };
         connection.last = self.segments;
-        let before = connection.held();
+        let before = connection.memory_size();
         let events = out.len();
         connection.push(segment, mark, self.ports == Ports::Any, out);
-        self.held = self.held.saturating_sub(before).saturating_add(connection.held());
+        self.buffered =
+            self.buffered.saturating_sub(before).saturating_add(connection.memory_size());
         let over = segment.rst || connection.halves.iter().all(Half::is_over);
         if connection.speaks && std::mem::take(&mut connection.joined) {
-            out.insert(events, Event::Joined(connection.number));
+            out.insert(events, ConnectionEvent::Joined(connection.number));
         }
         // The last acknowledgement finds nothing to acknowledge.
-        if over || self.held > HELD_MAX {
+        if over || self.buffered > HELD_MAX {
             self.end(key, out);
         } else if !connection.speaks {
             // What is not AMS is not told of; if it becomes that, it is known what was missing.
-            let lost = out.iter().skip(events).any(|event| matches!(event, Event::Gap(..)));
+            let lost =
+                out.iter().skip(events).any(|event| matches!(event, ConnectionEvent::Gap(..)));
             connection.joined |= lost && std::mem::take(&mut connection.is_whole);
             out.truncate(events);
         }
     }
 
-    fn make_room(&mut self, out: &mut Vec<Event>) {
+    fn make_room(&mut self, out: &mut Vec<ConnectionEvent>) {
         if self.open.len() < CONNECTIONS_MAX {
             return;
         }
@@ -171,9 +178,9 @@ impl Table {
         }
     }
 
-    fn end(&mut self, key: (SocketAddr, SocketAddr), out: &mut Vec<Event>) {
+    fn end(&mut self, key: (SocketAddr, SocketAddr), out: &mut Vec<ConnectionEvent>) {
         let Some(mut connection) = self.open.remove(&key) else { return };
-        self.held = self.held.saturating_sub(connection.held());
+        self.buffered = self.buffered.saturating_sub(connection.memory_size());
         let events = out.len();
         connection.finish(out);
         if !connection.speaks {
@@ -186,7 +193,7 @@ impl Table {
     }
 
     /// Nothing more comes of any.
-    pub(super) fn finish(&mut self, out: &mut Vec<Event>) {
+    pub(super) fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         while let Some((&key, _)) = self.open.first_key_value() {
             self.end(key, out);
         }
@@ -197,7 +204,7 @@ fn key(one: SocketAddr, other: SocketAddr) -> (SocketAddr, SocketAddr) {
     if one <= other { (one, other) } else { (other, one) }
 }
 
-impl Connection {
+impl TcpConnection {
     fn new(number: u64, ends: [SocketAddr; 2], speaks: bool) -> Self {
         Self {
             number,
@@ -212,9 +219,9 @@ impl Connection {
         }
     }
 
-    fn held(&self) -> usize {
-        let halves = self.halves.iter().map(Half::held);
-        halves.chain(self.frames.iter().map(Frames::held)).fold(0, usize::saturating_add)
+    fn memory_size(&self) -> usize {
+        let halves = self.halves.iter().map(Half::memory_size);
+        halves.chain(self.frames.iter().map(Frames::memory_size)).fold(0, usize::saturating_add)
     }
 
     fn side(&self, from: SocketAddr) -> usize {
@@ -222,12 +229,18 @@ impl Connection {
     }
 
     /// Whether a SYN is that of this connection, once more or of the other side.
-    fn is_same(&self, segment: &Segment<'_>) -> bool {
+    fn is_same(&self, segment: &TcpSegment<'_>) -> bool {
         let half = self.halves.get(self.side(segment.from));
         half.is_none_or(|half| half.is_new() || half.begins_with(segment.sequence))
     }
 
-    fn push(&mut self, segment: &Segment<'_>, mark: Mark, any: bool, out: &mut Vec<Event>) {
+    fn push(
+        &mut self,
+        segment: &TcpSegment<'_>,
+        mark: Mark,
+        any: bool,
+        out: &mut Vec<ConnectionEvent>,
+    ) {
         let side = self.side(segment.from);
         let other = 1_usize.saturating_sub(side);
         self.packet = self.packet.max(mark.packet);
@@ -243,7 +256,7 @@ impl Connection {
             frames.begin_anywhere();
         }
         let way = SegmentDirection { connection: self.number, from: segment.from, to: segment.to };
-        let part = Part {
+        let part = DirectedSegment {
             sequence: segment.sequence,
             syn: segment.syn,
             payload: segment.payload,
@@ -266,7 +279,7 @@ impl Connection {
     }
 
     /// What is held back comes out.
-    fn finish(&mut self, out: &mut Vec<Event>) {
+    fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         let [one, other] = self.ends;
         for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {
             let way = SegmentDirection { connection: self.number, from, to };
@@ -276,42 +289,47 @@ impl Connection {
             };
             let speaks = &mut self.speaks;
             half.flush(&mut |piece| feed(frames, piece, way, speaks, out));
-            frames.end(&mut |found| tell(found, way, speaks, out));
+            frames.end(&mut |found| push_event(found, way, speaks, out));
         }
         let (connection, last) = (self.number, self.packet);
         let mut ways = [(one, other), (other, one)].into_iter().zip(&self.halves);
         let unseen = ways.find(|(_, half)| !half.is_seen());
         let unseen = unseen.map(|((from, to), _)| SegmentDirection { connection, from, to });
-        out.push(Event::Ended(Ending { connection, last, unseen }));
+        out.push(ConnectionEvent::Ended(Ending { connection, last, unseen }));
     }
 }
 
 fn feed(
     frames: &mut Frames,
-    piece: Piece<'_>,
+    piece: ReassembledPiece<'_>,
     way: SegmentDirection,
     speaks: &mut bool,
-    out: &mut Vec<Event>,
+    out: &mut Vec<ConnectionEvent>,
 ) {
     match piece {
-        Piece::Data(bytes, mark) => {
-            frames.push(bytes, mark, &mut |found| tell(found, way, speaks, out));
+        ReassembledPiece::Data(bytes, mark) => {
+            frames.push(bytes, mark, &mut |found| push_event(found, way, speaks, out));
         }
-        Piece::Gap(length, mark) => {
-            frames.gap(length, &mut |found| tell(found, way, speaks, out));
-            out.push(Event::Gap(length, way, mark));
+        ReassembledPiece::Gap(length, mark) => {
+            frames.gap(length, &mut |found| push_event(found, way, speaks, out));
+            out.push(ConnectionEvent::Gap(length, way, mark));
         }
     }
 }
 
-fn tell(found: FramePiece, way: SegmentDirection, speaks: &mut bool, out: &mut Vec<Event>) {
+fn push_event(
+    found: FramePiece,
+    way: SegmentDirection,
+    speaks: &mut bool,
+    out: &mut Vec<ConnectionEvent>,
+) {
     *speaks |= matches!(found, FramePiece::Frame(..));
     out.push(match found {
-        FramePiece::Frame(frame, span) => Event::Frame(frame, way, span),
-        FramePiece::Router => Event::Router,
-        FramePiece::Broken(error, bytes, span) => Event::Broken(error, bytes, way, span),
-        FramePiece::Cut(bytes, span) => Event::Cut(bytes, way, span),
-        FramePiece::Skipped(length) => Event::Skipped(length),
-        FramePiece::Unfinished => Event::Unfinished,
+        FramePiece::Frame(frame, span) => ConnectionEvent::Frame(frame, way, span),
+        FramePiece::Router => ConnectionEvent::Router,
+        FramePiece::Broken(error, bytes, span) => ConnectionEvent::Broken(error, bytes, way, span),
+        FramePiece::Cut(bytes, span) => ConnectionEvent::Cut(bytes, way, span),
+        FramePiece::Skipped(length) => ConnectionEvent::Skipped(length),
+        FramePiece::Unfinished => ConnectionEvent::Unfinished,
     });
 }

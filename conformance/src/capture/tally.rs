@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use super::file::End;
+use super::file::FileEnd;
 
 /// Addresses that are told apart.
 const UNKNOWN_MAX: usize = 1000;
@@ -13,7 +13,7 @@ const SHOWN: usize = 8;
 
 /// What was in a capture.
 #[derive(Clone, Debug, Default)]
-pub struct Tally {
+pub struct CaptureTally {
     /// Packets of the file.
     pub packets: u64,
     /// Packets of IP that are pieces of one, headers that are cut or wrong, link types unknown here.
@@ -63,7 +63,7 @@ pub struct Tally {
     /// Frames whose rest never came.
     pub unfinished: u64,
     /// How the file ended.
-    pub end: Option<End>,
+    pub end: Option<FileEnd>,
 }
 
 /// One more.
@@ -78,7 +78,7 @@ pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
     }
 }
 
-impl Tally {
+impl CaptureTally {
     /// What a reader should know, a line each: what is there, and what was not judged.
     pub fn lines(&self) -> Vec<String> {
         let Self { packets, segments, connections, frames, exchanges, .. } = self;
@@ -117,7 +117,7 @@ impl Tally {
                 "not looked at: {elsewhere} TCP segments on other ports; see --port and --any-port"
             ));
         }
-        if let Some(End::Cut(why)) = &self.end {
+        if let Some(FileEnd::Cut(why)) = &self.end {
             lines.push(format!("judged up to a cut of the file: {why}"));
         }
         lines

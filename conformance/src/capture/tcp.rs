@@ -31,7 +31,7 @@ pub(super) struct Mark {
 }
 
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Piece<'a> {
+pub(super) enum ReassembledPiece<'a> {
     /// The next bytes.
     Data(&'a [u8], Mark),
     /// Bytes that were not captured.
@@ -40,7 +40,7 @@ pub(super) enum Piece<'a> {
 
 /// A segment of this direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part<'a> {
+pub(super) struct DirectedSegment<'a> {
     pub(super) sequence: u32,
     pub(super) syn: bool,
     pub(super) payload: &'a [u8],
@@ -63,8 +63,8 @@ pub(super) struct Half {
     /// Bytes handed over, so that places do not wrap around.
     place: u64,
     /// What came too early, by its place.
-    ahead: BTreeMap<u64, Held>,
-    held: usize,
+    ahead: BTreeMap<u64, EarlySegment>,
+    buffered: usize,
     /// How far the other side has acknowledged, and where it said so.
     acknowledged: u64,
     told: Option<Mark>,
@@ -76,7 +76,7 @@ pub(super) struct Half {
 }
 
 #[derive(Debug)]
-struct Held {
+struct EarlySegment {
     bytes: Vec<u8>,
     missing: usize,
     mark: Mark,
@@ -109,9 +109,10 @@ impl Half {
     pub(super) fn place_of(&self, sequence: u32) -> Option<u64> {
         let next = self.next?;
         let (after, before) = (sequence.wrapping_sub(next), next.wrapping_sub(sequence));
-        Some(match after < before {
-            true => self.place.saturating_add(after.into()),
-            false => self.place.saturating_sub(before.into()),
+        Some(if after < before {
+            self.place.saturating_add(after.into())
+        } else {
+            self.place.saturating_sub(before.into())
         })
     }
 
@@ -131,18 +132,19 @@ impl Half {
     }
 
     /// Memory of what is held back: many small segments take more than their bytes.
-    pub(super) fn held(&self) -> usize {
-        let each = size_of::<(u64, Held)>();
-        self.held.saturating_add(self.ahead.len().saturating_mul(each))
+    pub(super) fn memory_size(&self) -> usize {
+        let each = size_of::<(u64, EarlySegment)>();
+        self.buffered.saturating_add(self.ahead.len().saturating_mul(each))
     }
 
     /// Takes a segment and hands over what is in order.
-    pub(super) fn push(&mut self, part: Part<'_>, out: &mut impl FnMut(Piece<'_>)) {
+    pub(super) fn push(
+        &mut self,
+        part: DirectedSegment<'_>,
+        out: &mut impl FnMut(ReassembledPiece<'_>),
+    ) {
         self.seen = true;
-        let sequence = match part.syn {
-            true => part.sequence.wrapping_add(1),
-            false => part.sequence,
-        };
+        let sequence = if part.syn { part.sequence.wrapping_add(1) } else { part.sequence };
         if part.payload.is_empty() && part.missing == 0 {
             if part.syn {
                 self.next.get_or_insert(sequence);
@@ -172,7 +174,7 @@ impl Half {
         } else {
             // So far off that it is no part of what was; what is held back will not be joined.
             self.flush(out);
-            out(Piece::Gap(0, part.mark));
+            out(ReassembledPiece::Gap(0, part.mark));
             self.next = Some(sequence);
             self.take(part.payload, part.missing, part.mark, out);
         }
@@ -201,7 +203,7 @@ impl Half {
     }
 
     /// Nothing more comes: what is held back comes out, with gaps.
-    pub(super) fn flush(&mut self, out: &mut impl FnMut(Piece<'_>)) {
+    pub(super) fn flush(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while !self.ahead.is_empty() {
             self.leap(out);
         }
@@ -209,18 +211,24 @@ impl Half {
         let got = self.acknowledged.saturating_sub(1);
         let missing = self.end.unwrap_or(got).saturating_sub(self.place);
         if let (true, Some(mark)) = (missing > 0 && self.seen, self.told) {
-            out(Piece::Gap(missing, mark));
+            out(ReassembledPiece::Gap(missing, mark));
             self.advance(usize::try_from(missing).unwrap_or(usize::MAX));
         }
     }
 
-    fn take(&mut self, bytes: &[u8], missing: usize, mark: Mark, out: &mut impl FnMut(Piece<'_>)) {
+    fn take(
+        &mut self,
+        bytes: &[u8],
+        missing: usize,
+        mark: Mark,
+        out: &mut impl FnMut(ReassembledPiece<'_>),
+    ) {
         if !bytes.is_empty() {
-            out(Piece::Data(bytes, mark));
+            out(ReassembledPiece::Data(bytes, mark));
             self.advance(bytes.len());
         }
         if missing > 0 {
-            out(Piece::Gap(u64::try_from(missing).unwrap_or(u64::MAX), mark));
+            out(ReassembledPiece::Gap(u64::try_from(missing).unwrap_or(u64::MAX), mark));
             self.advance(missing);
         }
     }
@@ -233,37 +241,37 @@ impl Half {
         self.next = self.next.map(|next| next.wrapping_add(low));
     }
 
-    fn hold(&mut self, place: u64, part: Part<'_>) {
-        let known = self.ahead.get(&place).map_or(0, |held| held.bytes.len());
+    fn hold(&mut self, place: u64, part: DirectedSegment<'_>) {
+        let known = self.ahead.get(&place).map_or(0, |early| early.bytes.len());
         if self.ahead.contains_key(&place) && known >= part.payload.len() {
             return;
         }
         let bytes = part.payload.to_vec();
-        self.held = self.held.saturating_sub(known).saturating_add(bytes.len());
-        self.ahead.insert(place, Held { bytes, missing: part.missing, mark: part.mark });
+        self.buffered = self.buffered.saturating_sub(known).saturating_add(bytes.len());
+        self.ahead.insert(place, EarlySegment { bytes, missing: part.missing, mark: part.mark });
     }
 
     /// Hands over what was held back and is next now.
-    fn follow(&mut self, out: &mut impl FnMut(Piece<'_>)) {
+    fn follow(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while let Some((&place, _)) = self.ahead.first_key_value() {
             let Some(overlap) = self.place.checked_sub(place) else { return };
-            let Some(held) = self.ahead.remove(&place) else { return };
-            self.held = self.held.saturating_sub(held.bytes.len());
+            let Some(early) = self.ahead.remove(&place) else { return };
+            self.buffered = self.buffered.saturating_sub(early.bytes.len());
             let overlap = usize::try_from(overlap).unwrap_or(usize::MAX);
-            let fresh = held.bytes.get(overlap..).unwrap_or_default();
-            let missing = match overlap.checked_sub(held.bytes.len()) {
-                Some(more) => held.missing.saturating_sub(more),
-                None => held.missing,
+            let fresh = early.bytes.get(overlap..).unwrap_or_default();
+            let missing = match overlap.checked_sub(early.bytes.len()) {
+                Some(more) => early.missing.saturating_sub(more),
+                None => early.missing,
             };
-            self.take(fresh, missing, held.mark, out);
+            self.take(fresh, missing, early.mark, out);
             self.waiting = 0;
         }
     }
 
     /// Gives up what is missing if the other side has it, or if too much is held back.
-    fn lose_patience(&mut self, out: &mut impl FnMut(Piece<'_>)) {
+    fn lose_patience(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         self.waiting = self.waiting.saturating_add(1);
-        let too_much = self.held > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;
+        let too_much = self.buffered > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;
         let first = self.ahead.first_key_value().map_or(u64::MAX, |(&place, _)| place);
         if too_much || (self.acknowledged >= first && self.waiting > PATIENCE) {
             self.leap(out);
@@ -271,12 +279,12 @@ impl Half {
     }
 
     /// Goes on behind the hole.
-    fn leap(&mut self, out: &mut impl FnMut(Piece<'_>)) {
+    fn leap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         let from = Bound::Included(self.place);
         let first = self.ahead.range((from, Bound::Unbounded)).next();
-        if let Some((&place, held)) = first {
+        if let Some((&place, early)) = first {
             let gap = place.saturating_sub(self.place);
-            out(Piece::Gap(gap, held.mark));
+            out(ReassembledPiece::Gap(gap, early.mark));
             self.advance(usize::try_from(gap).unwrap_or(usize::MAX));
         }
         self.waiting = 0;

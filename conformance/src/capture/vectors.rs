@@ -15,7 +15,7 @@ use ads_cnc_vectors::{
 };
 use serde_json::json;
 
-use super::judge::TargetVariable;
+use super::target::TargetVariable;
 use crate::client::frame;
 use crate::codec::decode_stream;
 use crate::text::json as json_text;
@@ -125,7 +125,7 @@ impl Collector {
             let prefix = format!("{}.", stream.layout().name.replace('-', "_"));
             segments.extend(self::segments(stream, bytes, &prefix));
         }
-        self.keep(
+        self.record(
             "ams-frame",
             way,
             Context::default(),
@@ -146,10 +146,10 @@ impl Collector {
     ) -> Option<String> {
         let layout = stream.layout();
         let segments = segments(stream, bytes, "");
-        self.keep(layout.name, way, context, bytes, segments, &[clause, layout.clause])
+        self.record(layout.name, way, context, bytes, segments, &[clause, layout.clause])
     }
 
-    fn keep(
+    fn record(
         &mut self,
         stream: &str,
         direction: Direction,
@@ -201,9 +201,10 @@ impl Collector {
     }
 
     const fn reason(&self) -> &'static str {
-        match self.keep_texts {
-            true => "captured traffic, addresses replaced",
-            false => "captured traffic, addresses and letters of texts replaced",
+        if self.keep_texts {
+            "captured traffic, addresses replaced"
+        } else {
+            "captured traffic, addresses and letters of texts replaced"
         }
     }
 
@@ -215,9 +216,10 @@ impl Collector {
     pub fn write(&self, place: &Path) -> io::Result<Vec<PathBuf>> {
         let mut files: BTreeMap<PathBuf, Vec<&Vector>> = BTreeMap::new();
         for vector in self.vectors.values() {
-            let file = match place.is_dir() {
-                true => place.join(format!("captured-{}.json", vector.stream)),
-                false => place.to_owned(),
+            let file = if place.is_dir() {
+                place.join(format!("captured-{}.json", vector.stream))
+            } else {
+                place.to_owned()
             };
             files.entry(file).or_default().push(vector);
         }
@@ -250,10 +252,8 @@ fn typed(known: Option<&TargetVariable>) -> Context {
     let Some(known) = known else { return Context::default() };
     let name = known.description.var_type.name();
     let kind = name.and_then(|name| serde_json::from_value(json!(name)).ok());
-    let dimensions = match known.indices.is_empty() {
-        true => known.description.dimensions.clone(),
-        false => Vec::new(),
-    };
+    let dimensions =
+        if known.indices.is_empty() { known.description.dimensions.clone() } else { Vec::new() };
     let dimensions = kind.map(|_: Type| dimensions);
     Context { kind, dimensions, ..Context::default() }
 }

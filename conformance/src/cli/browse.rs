@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use super::complain;
 use super::model::ModelArgs;
 use super::name::written;
-use super::progress::Progress;
+use super::progress::ProgressLine;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::judge::Exit;
 use crate::objects::{
@@ -62,7 +62,7 @@ pub(super) struct Browse {
 
     /// How to write it
     #[arg(long, value_name = "FORMAT", default_value = "table")]
-    format: Format,
+    format: BrowseFormat,
 
     #[command(flatten)]
     target: TargetArgs,
@@ -97,7 +97,7 @@ const _: () = assert!(
 );
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum BrowseFormat {
     /// For people
     Table,
     /// Comma-separated, with a line of heads
@@ -110,7 +110,7 @@ enum Format {
 const CONTENTS_MAX: usize = 8 << 20;
 
 /// A value, or why it was not read.
-type Content = Result<Vec<u8>, String>;
+type ReadContent = Result<Vec<u8>, String>;
 
 impl Browse {
     pub(super) fn execute(&self) -> Exit {
@@ -126,15 +126,16 @@ impl Browse {
             variables: self.variables,
             exact: self.exact,
         };
-        let mut progress = Progress::new();
+        let mut progress = ProgressLine::new();
         let mut found = walk(&mut session, &options, &mut |seen| {
-            progress.tell(|| {
+            progress.update(|| {
                 format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
             });
         })?;
-        let contents = match self.content {
-            true => Some(read_all(&mut session, &mut found, &mut progress)?),
-            false => None,
+        let contents = if self.content {
+            Some(read_all(&mut session, &mut found, &mut progress)?)
+        } else {
+            None
         };
         drop(progress);
         self.write(&session, &found, contents.as_deref())?;
@@ -154,11 +155,11 @@ impl Browse {
         &self,
         session: &Session,
         found: &WalkResult,
-        contents: Option<&[Content]>,
+        contents: Option<&[ReadContent]>,
     ) -> Result<(), Trouble> {
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = match self.format {
-            Format::Json => {
+            BrowseFormat::Json => {
                 let objects =
                     found.objects.iter().enumerate().map(|(place, object)| {
                         match contents.and_then(|contents| contents.get(place)) {
@@ -182,7 +183,7 @@ impl Browse {
                     row
                 });
                 match format {
-                    Format::Csv => csv(&heads, rows, &mut out),
+                    BrowseFormat::Csv => csv(&heads, rows, &mut out),
                     _ => table(&heads, rows, &mut out),
                 }
             }
@@ -194,13 +195,13 @@ impl Browse {
 fn read_all(
     session: &mut Session,
     found: &mut WalkResult,
-    progress: &mut Progress,
-) -> Result<Vec<Content>, Trouble> {
+    progress: &mut ProgressLine,
+) -> Result<Vec<ReadContent>, Trouble> {
     let (objects, mut bytes) = (&found.objects, 0_usize);
     let mut contents = Vec::with_capacity(objects.len());
     let mut enough = None;
     for (place, object) in objects.iter().enumerate() {
-        progress.tell(|| format!("values: {place} of {}", objects.len()));
+        progress.update(|| format!("values: {place} of {}", objects.len()));
         if let Some(why) = &enough {
             contents.push(Err(String::clone(why)));
             continue;
@@ -240,13 +241,13 @@ fn read_all(
     Ok(contents)
 }
 
-fn cell(object: &Object, content: &Content, format: Format) -> String {
+fn cell(object: &Object, content: &ReadContent, format: BrowseFormat) -> String {
     let text = match content {
         Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::spaced(bytes)),
-        Err(_) if format == Format::Csv => return String::new(),
+        Err(_) if format == BrowseFormat::Csv => return String::new(),
         Err(why) => format!("({why})"),
     };
-    let is_long = text.chars().count() > VALUE_MAX && format == Format::Table;
+    let is_long = text.chars().count() > VALUE_MAX && format == BrowseFormat::Table;
     if is_long {
         let start: String = text.chars().take(VALUE_MAX).collect();
         return format!("{start}…");

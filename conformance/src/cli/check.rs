@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::complain;
 use super::report_output::Reports;
-use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
+use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
 use crate::edition::Edition;
 use crate::judge::{Case, Exit, Selection};
 use crate::report::{self, About, Report, TargetReport};
@@ -24,7 +24,7 @@ const TRAFFIC: &str = "Traffic";
 /// (SDA) and 553 (COM), and calls of addresses at which nothing is documented, are counted.
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES, after_long_help = AFTER)]
-pub(super) struct Check {
+pub(super) struct CheckArguments {
     /// The capture
     file: PathBuf,
 
@@ -89,7 +89,7 @@ Exit codes, the first that holds:
   70 internal error, 2 wrong usage or no capture, 1 a fail, 5 a waiver that does not hold, 3 nothing
   judged or something inconclusive, 0. Warnings and differences leave 0.";
 
-impl Check {
+impl CheckArguments {
     /// Reads and judges the file and writes the reports.
     pub(super) fn execute(&self) -> Exit {
         let usage = |why: String| {
@@ -152,7 +152,7 @@ impl Check {
             (false, false) => Ports::Of(self.port.clone()),
         };
         let vectors = self.extract_vectors.as_ref().map(|_| Collector::new(self.keep_texts));
-        capture::check(File::open(&self.file)?, Options { ports, vectors })
+        capture::check(File::open(&self.file)?, CaptureOptions { ports, vectors })
     }
 
     /// The files with vectors, and how many there are.

@@ -9,7 +9,9 @@ use clap::Args;
 use serde::Deserialize;
 
 use super::complain;
-use crate::clients::{self, Action, Answer, CncAddress, Hello, Reaction, ReferenceClient};
+use crate::clients::{
+    self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
+};
 use crate::judge::Exit;
 
 /// Answers the protocol of `run --client` with this project's client, on stdin and stdout.
@@ -17,7 +19,7 @@ use crate::judge::Exit;
 /// A client to try the suite with, and an example: it goes to this machine only. See
 /// conformance/adapters/CLIENTS.md.
 #[derive(Args, Debug)]
-pub(super) struct Client {
+pub(super) struct ClientArguments {
     /// Do one thing wrong (see --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
@@ -42,7 +44,7 @@ enum Instruction {
 /// What a process ends with that is told to die.
 const DEAD: i32 = 134;
 
-impl Client {
+impl ClientArguments {
     /// Answers until `bye` or the end of stdin.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
@@ -97,7 +99,7 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
                 (CncAddress { addr: address, net_id, port }, Action { action, args })
             }
             Err(error) => {
-                say(serde_json::to_string(&Answer::Error(error.to_string()))?)?;
+                say(serde_json::to_string(&ActionResult::Error(error.to_string()))?)?;
                 continue;
             }
         };
@@ -109,9 +111,9 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
 /// What is said of an action; it dies and hangs in truth here.
 fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io::Result<String> {
     match clients::answer(flaw, place, action) {
-        Reaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),
-        Reaction::Garbled(what) => Ok(what),
-        Reaction::Died(_) => std::process::exit(DEAD),
+        ClientReaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),
+        ClientReaction::Garbled(what) => Ok(what),
+        ClientReaction::Died(_) => std::process::exit(DEAD),
         _ => loop {
             thread::sleep(Duration::from_secs(1));
         },
@@ -120,17 +122,19 @@ fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io:
 
 /// Does what the environment says, and no more.
 fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
-    let told =
+    let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));
-    let line = told("ADS_CNC_DO")?;
+    let line = env_variable("ADS_CNC_DO")?;
     let line = match line.as_str() {
-        "hello" => serde_json::to_string(&Hello { stays: false, ..ReferenceClient::hello() })?,
+        "hello" => {
+            serde_json::to_string(&ClientHello { stays: false, ..ReferenceClient::hello() })?
+        }
         line => {
             let wrong = || io::Error::other("what it is told makes no sense");
             let place = CncAddress {
-                addr: told("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
-                net_id: told("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
-                port: told("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,
+                addr: env_variable("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
+                net_id: env_variable("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
+                port: env_variable("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,
             };
             done(flaw, &place, &Action::parse(line).ok_or_else(wrong)?)?
         }

@@ -48,7 +48,7 @@ impl Opened<'_> {
     pub(super) fn write(mut self, cnc: &Cnc) -> Result<(), String> {
         let executed = cnc.with_program(self.0.channel, |program| program.executed().clone());
         let executed = executed.map_err(|error| error.to_string())?;
-        let written = self.1.write_all(executed.kept()).and_then(|()| self.1.flush());
+        let written = self.1.write_all(executed.recent()).and_then(|()| self.1.flush());
         written.map_err(|error| format!("{}: {error}", self.0.file.display()))
     }
 }

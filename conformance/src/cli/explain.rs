@@ -13,8 +13,8 @@ use clap::{Args, ValueEnum};
 
 use super::{complain, number};
 use crate::explain::{
-    Paint, Question, ServiceAddress, Subject, Values, candidates, explain, looks_like_frame,
-    parse_hex, print, type_by_name,
+    ExplainQuery, ExplainSubject, Paint, ServiceAddress, ValueFormat, candidates, explain,
+    looks_like_frame, parse_hex, print, type_by_name,
 };
 use crate::judge::Exit;
 
@@ -132,21 +132,23 @@ impl Explain {
     fn run(&self) -> Result<Exit, (Exit, String)> {
         let usage = |why: String| (Exit::Usage, why);
         let given = self.bytes().map_err(usage)?;
-        let values = Values { ty: self.ty, dimensions: self.dimensions.clone() };
-        let question = Question { subject: self.subject(given.as_deref()).map_err(usage)?, values };
+        let values = ValueFormat { ty: self.ty, dimensions: self.dimensions.clone() };
+        let question =
+            ExplainQuery { subject: self.subject(given.as_deref()).map_err(usage)?, values };
         let explanation = explain(&question, &given.unwrap_or_default());
         let mut out = BufWriter::new(io::stdout().lock());
-        let shown = match self.json {
-            true => crate::text::json::write(&explanation, &mut out),
-            false => print(&explanation, self.paint(), &mut out),
+        let shown = if self.json {
+            crate::text::json::write(&explanation, &mut out)
+        } else {
+            print(&explanation, self.paint(), &mut out)
         };
         written(shown.and_then(|()| out.flush()))?;
         Ok(explanation.outcome.exit())
     }
 
-    fn subject(&self, bytes: Option<&[u8]>) -> Result<Subject, String> {
+    fn subject(&self, bytes: Option<&[u8]>) -> Result<ExplainSubject, String> {
         if let Some(name) = &self.stream {
-            return Stream::by_name(name).map(Subject::Stream).ok_or_else(|| {
+            return Stream::by_name(name).map(ExplainSubject::Stream).ok_or_else(|| {
                 format!("no stream is called {name}; ads-cnc explain --list shows all")
             });
         }
@@ -158,12 +160,12 @@ impl Explain {
             reply: self.reply,
         });
         match place {
-            Some(place) if !self.frame && bytes.is_none() => Ok(Subject::Address(place)),
-            Some(place) if !self.frame => Ok(Subject::Place(place)),
-            place if self.frame => Ok(Subject::Frames(place)),
+            Some(place) if !self.frame && bytes.is_none() => Ok(ExplainSubject::Address(place)),
+            Some(place) if !self.frame => Ok(ExplainSubject::Place(place)),
+            place if self.frame => Ok(ExplainSubject::Frames(place)),
             place => match bytes.unwrap_or_default() {
                 [] => Err(format!("no bytes are given\n{SAY}")),
-                bytes if looks_like_frame(bytes) => Ok(Subject::Frames(place)),
+                bytes if looks_like_frame(bytes) => Ok(ExplainSubject::Frames(place)),
                 bytes => Err(unknown(bytes)),
             },
         }

@@ -4,14 +4,14 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::judge::{Case, Needs, Plan, Subject};
+use crate::judge::{Case, CaseSubject, Needs, Plan};
 use crate::text::json;
 
 #[derive(Debug, Serialize)]
 pub(super) struct Listed {
     id: String,
     title: String,
-    subject: Subject,
+    subject: CaseSubject,
     requirements: Vec<&'static str>,
     /// Why it would not be run after all.
     #[serde(skip_serializing_if = "Option::is_none")]

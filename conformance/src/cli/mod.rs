@@ -45,30 +45,30 @@ struct Cli {
 
     /// `run` if none is given.
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<Subcommands>,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum Subcommands {
     /// Start the simulated CNC and serve it over AMS/TCP until interrupted.
     Serve(serve::Args),
     Run(Box<run::Run>),
     Report(report::ReportArgs),
-    Check(check::Check),
+    Check(check::CheckArguments),
     Explain(explain::Explain),
     Requirements(requirements::Requirements),
-    Stream(stream::Stream),
-    Service(service::Service),
+    Stream(stream::StreamArguments),
+    Service(service::ServiceArguments),
     Completions(completions::Completions),
     Browse(browse::Browse),
     Get(get::Get),
     Set(set::Set),
-    Testee(testee::Testee),
-    Selftest(selftest::SelfTest),
-    Client(client::Client),
+    Testee(testee::TesteeArguments),
+    Selftest(selftest::SelfTestArguments),
+    Client(client::ClientArguments),
 }
 
-impl Command {
+impl Subcommands {
     /// What is logged unless told otherwise.
     fn log(&self) -> Option<log::Filter> {
         match self {
@@ -98,21 +98,21 @@ impl Cli {
             log::to_stderr(filter);
         }
         match self.command {
-            Some(Command::Run(run)) => run.execute().into(),
-            Some(Command::Report(report)) => report.execute().into(),
-            Some(Command::Check(check)) => check.execute().into(),
-            Some(Command::Explain(explain)) => explain.execute().into(),
-            Some(Command::Requirements(requirements)) => requirements.execute().into(),
-            Some(Command::Stream(stream)) => stream.execute().into(),
-            Some(Command::Service(service)) => service.execute().into(),
-            Some(Command::Completions(completions)) => completions.execute().into(),
-            Some(Command::Browse(browse)) => browse.execute().into(),
-            Some(Command::Get(get)) => get.execute().into(),
-            Some(Command::Set(set)) => set.execute().into(),
-            Some(Command::Testee(testee)) => testee.execute().into(),
-            Some(Command::Selftest(selftest)) => selftest.execute().into(),
-            Some(Command::Client(client)) => client.execute().into(),
-            Some(Command::Serve(args)) => serve::serve(&args),
+            Some(Subcommands::Run(run)) => run.execute().into(),
+            Some(Subcommands::Report(report)) => report.execute().into(),
+            Some(Subcommands::Check(check)) => check.execute().into(),
+            Some(Subcommands::Explain(explain)) => explain.execute().into(),
+            Some(Subcommands::Requirements(requirements)) => requirements.execute().into(),
+            Some(Subcommands::Stream(stream)) => stream.execute().into(),
+            Some(Subcommands::Service(service)) => service.execute().into(),
+            Some(Subcommands::Completions(completions)) => completions.execute().into(),
+            Some(Subcommands::Browse(browse)) => browse.execute().into(),
+            Some(Subcommands::Get(get)) => get.execute().into(),
+            Some(Subcommands::Set(set)) => set.execute().into(),
+            Some(Subcommands::Testee(testee)) => testee.execute().into(),
+            Some(Subcommands::Selftest(selftest)) => selftest.execute().into(),
+            Some(Subcommands::Client(client)) => client.execute().into(),
+            Some(Subcommands::Serve(args)) => serve::serve(&args),
             // The suite against the simulated CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }

@@ -10,19 +10,19 @@ pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, written over and over where that is a terminal.
 #[derive(Debug)]
-pub(super) struct Progress {
+pub(super) struct ProgressLine {
     pub(super) live: bool,
     last: Instant,
     width: usize,
 }
 
-impl Progress {
+impl ProgressLine {
     pub(super) fn new() -> Self {
         Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
     }
 
     /// Shows this on a terminal, unless something was shown just now.
-    pub(super) fn tell(&mut self, text: impl FnOnce() -> String) {
+    pub(super) fn update(&mut self, text: impl FnOnce() -> String) {
         if self.live && self.is_due(EVERY) {
             self.show(&text());
         }
@@ -38,9 +38,10 @@ impl Progress {
         self.last = Instant::now();
         let line = self.fitted(text);
         // A run must not fail because its progress cannot be written.
-        let _unseen = match self.live {
-            true => write!(io::stderr(), "\r{line:<0$}", self.width),
-            false => writeln!(io::stderr(), "{line}"),
+        let _unseen = if self.live {
+            write!(io::stderr(), "\r{line:<0$}", self.width)
+        } else {
+            writeln!(io::stderr(), "{line}")
         };
         self.width = line.chars().count();
     }
@@ -60,7 +61,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressLine {
     fn drop(&mut self) {
         self.clear();
     }

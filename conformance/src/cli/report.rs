@@ -35,9 +35,10 @@ impl ReportArgs {
                 return Exit::Usage;
             }
         };
-        let written = match self.forms.is_empty() {
-            true => show(|out| report::print(&report, self.verbose, out)),
-            false => self.forms.write(&report),
+        let written = if self.forms.is_empty() {
+            show(|out| report::print(&report, self.verbose, out))
+        } else {
+            self.forms.write(&report)
         };
         written.map_or_else(lost, |()| Exit::Success)
     }
@@ -45,9 +46,10 @@ impl ReportArgs {
     fn read(&self) -> Result<Report, String> {
         let failed = |why: String| format!("{}: {why}", self.file.display());
         let mut text = String::new();
-        let read = match is_stdout(&self.file) {
-            true => io::stdin().lock().read_to_string(&mut text).map(|_| ()),
-            false => std::fs::read_to_string(&self.file).map(|read| text = read),
+        let read = if is_stdout(&self.file) {
+            io::stdin().lock().read_to_string(&mut text).map(|_| ())
+        } else {
+            std::fs::read_to_string(&self.file).map(|read| text = read)
         };
         read.map_err(|error| failed(error.to_string()))?;
         Report::from_json(&text).map_err(|error| failed(format!("no report: {error}")))

@@ -37,7 +37,7 @@ pub(super) struct Forms {
 type Maker = fn(&Report, &mut dyn Write) -> io::Result<()>;
 
 impl Forms {
-    fn wanted(&self) -> impl Iterator<Item = (&Path, Maker)> {
+    fn requested(&self) -> impl Iterator<Item = (&Path, Maker)> {
         let all: [(&Option<PathBuf>, Maker); 4] = [
             (&self.html, report::to_html),
             (&self.junit, report::to_junit),
@@ -49,17 +49,17 @@ impl Forms {
 
     /// Whether one goes to stdout.
     pub(super) fn has_stdout(&self) -> bool {
-        self.wanted().any(|(file, _)| is_stdout(file))
+        self.requested().any(|(file, _)| is_stdout(file))
     }
 
     /// Whether none is wanted.
     pub(super) fn is_empty(&self) -> bool {
-        self.wanted().next().is_none()
+        self.requested().next().is_none()
     }
 
     /// Where they go.
     fn files(&self) -> impl Iterator<Item = &Path> {
-        self.wanted().map(|(file, _)| file)
+        self.requested().map(|(file, _)| file)
     }
 
     /// Two on stdout would be neither.
@@ -72,7 +72,7 @@ impl Forms {
     }
 
     pub(super) fn write(&self, report: &Report) -> io::Result<()> {
-        self.wanted().try_for_each(|(file, maker)| write(file, |out| maker(report, out)))
+        self.requested().try_for_each(|(file, maker)| write(file, |out| maker(report, out)))
     }
 }
 

@@ -4,7 +4,7 @@ use std::io::{self, Write as _};
 
 use super::complain;
 use crate::judge::{Exit, names};
-use crate::matrix::{self, Row};
+use crate::matrix::{self, RequirementRow};
 
 /// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
 /// the suite and fuzz targets
@@ -19,11 +19,11 @@ pub(super) struct Requirements {
 
     /// How it is printed
     #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    format: RequirementsFormat,
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum Format {
+enum RequirementsFormat {
     Text,
     Markdown,
     Json,
@@ -40,10 +40,10 @@ impl Requirements {
             return Exit::Nothing;
         }
         let text = match self.format {
-            Format::Text => Ok(matrix::to_text(&rows)),
-            Format::Markdown => Ok(matrix::to_markdown(&rows)),
-            Format::Sections => Ok(matrix::to_sections(&rows)),
-            Format::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
+            RequirementsFormat::Text => Ok(matrix::to_text(&rows)),
+            RequirementsFormat::Markdown => Ok(matrix::to_markdown(&rows)),
+            RequirementsFormat::Sections => Ok(matrix::to_sections(&rows)),
+            RequirementsFormat::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
         };
         let printed = text.map_err(io::Error::from).and_then(|text| {
             let mut out = io::stdout().lock();
@@ -60,7 +60,7 @@ impl Requirements {
         }
     }
 
-    fn matches(&self, row: &Row) -> bool {
+    fn matches(&self, row: &RequirementRow) -> bool {
         let has = |only: &str, ids: &[String], prefix: &str| {
             ids.iter().any(|id| only.eq_ignore_ascii_case(&format!("{prefix}{id}")))
         };

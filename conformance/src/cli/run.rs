@@ -12,7 +12,7 @@ use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
 use crate::edition::Edition;
 use crate::faults::Seed;
-use crate::judge::{Case, Exit, Needs, Plan, Selection, Subject, Unmatched, Waivers, any_seed};
+use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, Waivers, any_seed};
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
@@ -250,7 +250,7 @@ impl Run {
             None if self.is_simulated() => self.simulated(seed, waivers, profile, defect),
             None => self.device(seed, waivers, profile, changes),
         };
-        if interrupt.came() && !self.client.waits() {
+        if interrupt.is_requested() && !self.client.waits() {
             complain("interrupted: the reports have what was done until then");
         }
         match report {
@@ -273,12 +273,11 @@ impl Run {
     /// What the file says, or what holds without one; --edition is about both.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
-        let without = match self.is_simulated() {
-            true => {
-                let model = Model::default_model().map_err(|error| error.to_string())?;
-                Profile { printed_examples: true, ..model.profile() }
-            }
-            false => Profile::DEVICE,
+        let without = if self.is_simulated() {
+            let model = Model::default_model().map_err(|error| error.to_string())?;
+            Profile { printed_examples: true, ..model.profile() }
+        } else {
+            Profile::DEVICE
         };
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
@@ -301,7 +300,7 @@ impl Run {
         };
         let mut cases: Vec<Case> = suite::cases().into_iter().filter(fits).collect();
         if self.testee.is_some() {
-            cases.iter_mut().for_each(|case| case.subject = Subject::Testee);
+            cases.iter_mut().for_each(|case| case.subject = CaseSubject::Testee);
         }
         selection.plan(cases, seed)
     }

@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::complain;
 use super::serve::check_address;
-use crate::clients::{self, Judged, Process, Scenario, TestServer};
+use crate::clients::{self, ClientProcess, JudgedClient, Scenario, TestServer};
 use crate::deadline::Deadline;
-use crate::judge::{Case, Outcome, Plan};
+use crate::judge::{Case, CaseOutcome, Plan};
 use crate::process::interrupt::Interrupt;
 use crate::report::TargetReport;
 
@@ -40,7 +40,7 @@ pub(super) struct ClientArgs {
 
 pub(super) struct OfClient {
     pub(super) target: TargetReport,
-    pub(super) outcomes: Vec<Outcome>,
+    pub(super) outcomes: Vec<CaseOutcome>,
     pub(super) frames: usize,
 }
 
@@ -77,12 +77,12 @@ impl ClientArgs {
         check_address(addr, self.allow_remote)?;
         let server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
         match &self.client {
-            Some(command) => Ok(self.told(command, &server, plan, deadline)),
+            Some(command) => Ok(self.run_command(command, &server, plan, deadline)),
             None => waited(&server, deadline, interrupt),
         }
     }
 
-    fn told(
+    fn run_command(
         &self,
         command: &str,
         server: &TestServer,
@@ -97,12 +97,12 @@ impl ClientArgs {
             }
         }
         let timeout = Duration::from_millis(self.client_timeout);
-        let mut process = Process::new(command, timeout).with_deadline(deadline);
-        let Judged { hello, outcomes, requests } = clients::judge(&mut process, server, &wanted);
+        let mut process = ClientProcess::new(command, timeout).with_deadline(deadline);
+        let JudgedClient { hello, outcomes, requests } =
+            clients::judge(&mut process, server, &wanted);
         let stderr = clients::Actor::stderr(&process);
         let identity = hello.map(|hello| hello.client);
-        let given = identity.as_ref().map(|one| [&*one.name, &*one.version, &*one.language]);
-        let target = super::run_testee::target("client", command, given, &stderr);
+        let target = super::run_testee::target("client", command, identity, &stderr);
         OfClient { target, outcomes, frames: requests }
     }
 }
@@ -123,7 +123,7 @@ fn waited(
             ));
             told = true;
         }
-        !(interrupt.came() || deadline.is_over())
+        !(interrupt.is_requested() || deadline.is_over())
     };
     let (outcome, frames) = clients::listen(server, go_on).map_err(|error| error.to_string())?;
     if deadline.is_over() {

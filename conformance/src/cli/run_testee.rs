@@ -3,22 +3,23 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
+use crate::codec::message::Identity;
 use crate::deadline::Deadline;
-use crate::judge::{Case, Exit, Outcome, Subject};
+use crate::judge::{Case, CaseOutcome, CaseSubject, Exit};
 use crate::process::interrupt;
 use crate::report::TargetReport;
-use crate::testee::{Finding, Judged, Process, Terms, check_protocol, judge};
+use crate::testee::{Finding, JudgedTestee, Terms, TesteeProcess, check_protocol, judge};
 use crate::text::shorten;
 
 /// The last of stderr that a report keeps.
 const STDERR_SHOWN: usize = 4000;
 
-/// The most characters of a name that are shown.
-const SAID_MAX: usize = 200;
+/// The most characters of a name that a report keeps.
+const GIVEN_MAX: usize = 200;
 
 pub(super) struct OfTestee {
     pub(super) target: TargetReport,
-    pub(super) outcomes: Vec<Outcome>,
+    pub(super) outcomes: Vec<CaseOutcome>,
 }
 
 /// Asks the testee that this command starts all of these cases.
@@ -30,12 +31,11 @@ pub(super) fn run(
     edition: Option<&str>,
     deadline: Deadline,
 ) -> OfTestee {
-    let mut process = Process::new(command, timeout).with_deadline(deadline);
-    let terms = Terms { seed, subject: Subject::Testee, edition, strict: false };
-    let Judged { hello, outcomes, .. } = judge(&mut process, cases, terms);
+    let mut process = TesteeProcess::new(command, timeout).with_deadline(deadline);
+    let terms = Terms { seed, subject: CaseSubject::Testee, edition, strict: false };
+    let JudgedTestee { hello, outcomes, .. } = judge(&mut process, cases, terms);
     let identity = hello.map(|hello| hello.testee);
-    let given = identity.as_ref().map(|one| [&*one.name, &*one.version, &*one.language]);
-    OfTestee { target: target("testee", command, given, &process.stderr()), outcomes }
+    OfTestee { target: target("testee", command, identity, &process.stderr()), outcomes }
 }
 
 /// What a report says of a program that a command started: the name, version and language it gave,
@@ -43,10 +43,11 @@ pub(super) fn run(
 pub(super) fn target(
     kind: &str,
     command: &str,
-    given: Option<[&str; 3]>,
+    identity: Option<Identity>,
     stderr: &str,
 ) -> TargetReport {
-    let given = given.unwrap_or_default().map(|text| shorten(text, SAID_MAX));
+    let given = identity.map(|Identity { name, version, language }| [name, version, language]);
+    let given = given.unwrap_or_default().map(|text| shorten(&text, GIVEN_MAX));
     let [name, version, language] = given.map(|text| Some(text).filter(|text| !text.is_empty()));
     let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
     let last: String = stderr.chars().skip(skipped).collect();
@@ -62,10 +63,10 @@ pub(super) fn target(
 
 /// Goes through the protocol step by step, and says of each what is wrong and how it should be.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
-    let mut process = Process::new(command, timeout);
+    let mut process = TesteeProcess::new(command, timeout);
     let mut faults = 0_usize;
     let findings = check_protocol(&mut process);
-    if interrupt::came() {
+    if interrupt::is_requested() {
         writeln!(out, "Interrupted: the protocol was not gone through.")?;
         return Ok(Exit::Nothing);
     }

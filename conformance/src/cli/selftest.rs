@@ -23,7 +23,7 @@ use crate::selftest::detection::Scope;
     1 something else; 3 nothing tried.\n\nExamples:\n  ads-cnc selftest\n  ads-cnc selftest --only VAR-11 \
     --verbose\n  ads-cnc selftest --only cnc --json selftest.json"
 )]
-pub(super) struct SelfTest {
+pub(super) struct SelfTestArguments {
     /// Only what is called this: a group (codec, cnc, client, miniature, different), an area or a
     /// requirement, or the beginning of an ID; repeatable
     #[arg(long, value_name = "WORD")]
@@ -51,7 +51,7 @@ pub(super) struct SelfTest {
     json: Option<PathBuf>,
 }
 
-impl SelfTest {
+impl SelfTestArguments {
     pub(super) fn execute(&self) -> Exit {
         let terminal = io::stderr().is_terminal();
         let last = Mutex::new(0_usize);
@@ -64,12 +64,11 @@ impl SelfTest {
             }
         };
         let seed = self.seed.unwrap_or_else(any_seed);
-        let scope = match self.all || self.renew.is_some() {
-            true => Scope::All,
-            false => {
-                complain(format_args!("sample by --seed {seed}"));
-                Scope::Sample(seed)
-            }
+        let scope = if self.all || self.renew.is_some() {
+            Scope::All
+        } else {
+            complain(format_args!("sample by --seed {seed}"));
+            Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
         if let Some(folder) = &self.renew {
@@ -91,10 +90,8 @@ impl SelfTest {
         };
         let written = self.json.as_ref().map_or(Ok(()), json);
         let quiet = self.json.as_deref().is_some_and(is_stdout);
-        let shown = match quiet {
-            true => Ok(()),
-            false => show(|out| selftest::print(&test, self.verbose, out)),
-        };
+        let shown =
+            if quiet { Ok(()) } else { show(|out| selftest::print(&test, self.verbose, out)) };
         written.and(shown).map_or_else(lost, |()| test.exit())
     }
 }

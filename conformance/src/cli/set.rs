@@ -106,7 +106,7 @@ impl Set {
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
         }
         if session.is_simulated() && !self.target.has_file() {
-            session = session.behind(simulator_gate(object.entry()))?;
+            session = session.with_gate(simulator_gate(object.entry()))?;
         }
         session.write(&object.address, &bytes)?;
         if session.is_dry() {

@@ -6,14 +6,14 @@ use clap::Args;
 
 use super::{complain, find_defect};
 use crate::judge::Exit;
-use crate::testee::{Act, Answer, Command, Miniature, Own, Reply};
+use crate::testee::{Act, Answer, Miniature, Own, Reply, TesteeCommand};
 
 /// Answers the protocol of `run --testee` with this project's codec, on stdin and stdout.
 ///
 /// A testee to try an adapter's counterpart with, and an example of all answers: one JSON object a
 /// line. See conformance/adapters/README.md.
 #[derive(Args, Debug)]
-pub(super) struct Testee {
+pub(super) struct TesteeArguments {
     /// Switch on a defect of the codec (see serve --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
@@ -23,7 +23,7 @@ pub(super) struct Testee {
     miniature: Option<Miniature>,
 }
 
-impl Testee {
+impl TesteeArguments {
     /// Answers until `bye` or the end of stdin.
     pub(super) fn execute(&self) -> Exit {
         let defect = match find_defect(self.defect.as_deref()) {
@@ -55,10 +55,10 @@ impl Testee {
 fn answer(own: &Own) -> io::Result<()> {
     let mut out = io::stdout().lock();
     for line in io::stdin().lock().lines() {
-        match serde_json::from_str::<Command>(&line?) {
-            Ok(Command::Hello { .. }) => serde_json::to_writer(&mut out, &own.hello())?,
-            Ok(Command::Bye) => return Ok(()),
-            Ok(Command::Case { seq, question }) => {
+        match serde_json::from_str::<TesteeCommand>(&line?) {
+            Ok(TesteeCommand::Hello { .. }) => serde_json::to_writer(&mut out, &own.hello())?,
+            Ok(TesteeCommand::Bye) => return Ok(()),
+            Ok(TesteeCommand::Case { seq, question }) => {
                 let reply = Reply { seq: Some(seq), answer: own.answer(&question) };
                 serde_json::to_writer(&mut out, &reply)?;
             }
@@ -81,15 +81,15 @@ fn misbehave(miniature: Miniature, own: &Own) -> io::Result<()> {
         if miniature == Miniature::Noisy {
             writeln!(io::stderr(), "{line:>1000}")?;
         }
-        match serde_json::from_str::<Command>(&line) {
-            Ok(Command::Hello { .. }) => {
+        match serde_json::from_str::<TesteeCommand>(&line) {
+            Ok(TesteeCommand::Hello { .. }) => {
                 serde_json::to_writer(&mut out, &miniature.hello(own))?;
                 out.write_all(b"\n")?;
             }
-            Ok(Command::Bye) if miniature == Miniature::Stays => stay(),
-            Ok(Command::Bye) => return Ok(()),
+            Ok(TesteeCommand::Bye) if miniature == Miniature::Stays => stay(),
+            Ok(TesteeCommand::Bye) => return Ok(()),
             other => {
-                if let Ok(Command::Case { seq: given, .. }) = other {
+                if let Ok(TesteeCommand::Case { seq: given, .. }) = other {
                     seq = given;
                 }
                 match miniature.act(own, &line, seq) {

@@ -8,7 +8,7 @@ use ads_cnc::ads::{
 };
 
 use super::{Client, violations};
-use crate::exchange::{Fault, Violation};
+use crate::exchange::{ExchangeError, Violation};
 use crate::judge::Evidence;
 
 /// A command without data, by its reply.
@@ -63,7 +63,7 @@ pub struct Inquired<R> {
     /// The whole frame received, or as much as came.
     pub received: Vec<u8>,
     /// What was said, or why nothing.
-    pub outcome: Result<Said<R>, Fault>,
+    pub outcome: Result<Said<R>, ExchangeError>,
     /// What is wrong with the frame itself.
     pub violations: Vec<Violation>,
 }
@@ -91,12 +91,15 @@ impl Client {
     pub fn inquire<R: Inquiry>(&mut self, port: AmsPort) -> Inquired<R> {
         let (sent, received, violations) = (Vec::new(), Vec::new(), Vec::new());
         let mut inquired =
-            Inquired { port, sent, received, outcome: Err(Fault::NotSent), violations };
-        inquired.outcome = self.said(&mut inquired);
+            Inquired { port, sent, received, outcome: Err(ExchangeError::NotSent), violations };
+        inquired.outcome = self.exchange_inquiry(&mut inquired);
         inquired
     }
 
-    fn said<R: Inquiry>(&mut self, inquired: &mut Inquired<R>) -> Result<Said<R>, Fault> {
+    fn exchange_inquiry<R: Inquiry>(
+        &mut self,
+        inquired: &mut Inquired<R>,
+    ) -> Result<Said<R>, ExchangeError> {
         let header = self.next_header(inquired.port, R::COMMAND);
         let bytes = super::whole(header, &[])?;
         let Inquired { received, violations: broken, .. } = inquired;
@@ -104,10 +107,10 @@ impl Client {
         inquired.sent = bytes;
         let said = came.and_then(|got| {
             inquired.violations.extend(violations(&header, &got));
-            said(&got, &inquired.received)
+            decode_reply(&got, &inquired.received)
         });
         if let Err(fault) = &said {
-            if let Fault::Malformed(error) = fault {
+            if let ExchangeError::Malformed(error) = fault {
                 // Of the headers, or of what is behind them.
                 let own = error.field().stream() == Some(R::STREAM);
                 let requirement = if own { R::CLAUSE } else { "ADS-5" };
@@ -120,7 +123,7 @@ impl Client {
 }
 
 /// What the one frame that was received says.
-fn said<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, Fault> {
+fn decode_reply<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, ExchangeError> {
     let data = received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if !header.error.is_ok() {
         return Ok(Said::Ams(header.error));
@@ -131,7 +134,7 @@ fn said<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, Faul
         // It may end behind a result that is not 0 (ADS-6).
         Err(error) => match WriteReply::decode(data) {
             Ok(short) if !short.result.is_ok() => Ok(Said::Refused(short.result)),
-            _ => Err(Fault::Malformed(error)),
+            _ => Err(ExchangeError::Malformed(error)),
         },
     }
 }

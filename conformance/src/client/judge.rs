@@ -3,7 +3,7 @@
 use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
 
 use super::Client;
-use crate::exchange::{Exchange, Fault, Violation};
+use crate::exchange::{Exchange, ExchangeError, Violation};
 use crate::wire_service::{clause, reply_stream};
 
 impl Client {
@@ -34,7 +34,7 @@ impl Client {
                 let mut add = |requirement, what: String| {
                     broken.push(Violation { requirement, what });
                 };
-                if let Fault::Malformed(error) = fault {
+                if let ExchangeError::Malformed(error) = fault {
                     if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
                         // Its numbers do not stand where they stand with 4 bytes each.

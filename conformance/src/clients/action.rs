@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Word {
+pub struct ActionWord {
     pub name: &'static str,
     /// What stands behind it. The last may contain blanks.
     pub arguments: &'static [&'static str],
@@ -15,12 +15,12 @@ pub struct Word {
 
 macro_rules! words {
     ($( $name:literal [$($argument:literal)*] $gives:literal; )+) => {
-        &[$( Word { name: $name, arguments: &[$($argument),*], gives: $gives } ),+]
+        &[$( ActionWord { name: $name, arguments: &[$($argument),*], gives: $gives } ),+]
     };
 }
 
 /// Everything a client can be told.
-pub const VOCABULARY: &[Word] = words! {
+pub const VOCABULARY: &[ActionWord] = words! {
     "count-objects" ["CHANNEL"] "the number of COM objects";
     "list-objects" ["CHANNEL"] "their descriptors: name, type, size, writable, group, offset";
     "read-object" ["CHANNEL" "NAME"] "the content of an object, found by its name and read by its type";

@@ -31,9 +31,10 @@ impl Findings {
             // Not of the catalogue.
             rule.level = Some(Level::Must);
         }
-        let (expected, found) = match kept {
-            true => (String::new(), String::new()),
-            false => (expected.to_string(), found.to_string()),
+        let (expected, found) = if kept {
+            (String::new(), String::new())
+        } else {
+            (expected.to_string(), found.to_string())
         };
         self.record.add(rule, rule.verdict(kept), expected, found, || turn.map(evidence));
         kept

@@ -9,14 +9,14 @@ use ads_cnc_vectors::Level;
 use serde_json::Value;
 
 use super::findings::Findings;
-use super::message::{Answer, CncAddress, Hello, Reaction};
+use super::message::{ActionResult, ClientHello, ClientReaction, CncAddress};
 use super::result::same;
 use super::scenario::{Expect, Scenario};
-use super::script::Script;
+use super::script::ScenarioScript;
 use super::test_server::{TestServer, Turn};
-use super::{Actor, Defect, ReferenceClient, ordering, request_match, requests, scenarios};
+use super::{Actor, ClientDefect, ReferenceClient, ordering, request_match, requests, scenarios};
 use crate::judge::{
-    Body, CLIENT, Case, Needs, Outcome, Record, Rule, Stop, Subject, Verdict, caught,
+    Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Record, Rule, Stop, Verdict, caught,
 };
 use crate::process::interrupt;
 use crate::simulator::Cnc;
@@ -25,24 +25,24 @@ use crate::simulator::Cnc;
 const LOST_MAX: usize = 12;
 
 #[derive(Debug)]
-pub struct Judged {
-    pub hello: Option<Hello>,
+pub struct JudgedClient {
+    pub hello: Option<ClientHello>,
     /// Of each scenario, and of the protocol.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<CaseOutcome>,
     pub requests: usize,
 }
 
 /// Puts a client through scenarios, in their order.
-pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario]) -> Judged {
+pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario]) -> JudgedClient {
     let mut manners = Findings::default();
     let mut requests = 0_usize;
     let place = |port| CncAddress { addr: server.addr(), net_id: server.net_id(), port };
     let hello = match actor.hello(&place(552)) {
         Ok(hello) => hello,
-        Err(_) if interrupt::came() => {
+        Err(_) if interrupt::is_requested() => {
             let all = scenarios.iter().map(Scenario::case);
-            let outcomes = all.map(Outcome::interrupted).collect();
-            return Judged { hello: None, outcomes, requests };
+            let outcomes = all.map(CaseOutcome::interrupted).collect();
+            return JudgedClient { hello: None, outcomes, requests };
         }
         Err(reaction) => {
             // After the deadline it is not known whether it would have answered.
@@ -51,13 +51,14 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
                 Some(why) => (Verdict::Inconclusive, why.as_str()),
                 None => (Verdict::NotRun, "there was no answer to hello"),
             };
-            let untried = |one: &Scenario| Outcome::untried(one.case(), verdict, why.to_owned());
-            let mut outcomes: Vec<Outcome> = scenarios.iter().map(untried).collect();
+            let untried =
+                |one: &Scenario| CaseOutcome::untried(one.case(), verdict, why.to_owned());
+            let mut outcomes: Vec<CaseOutcome> = scenarios.iter().map(untried).collect();
             if over.is_none() {
                 manners.check(CLIENT, false, None, "an answer to hello", reaction);
                 outcomes.push(of_manners(manners));
             }
-            return Judged { hello: None, outcomes, requests };
+            return JudgedClient { hello: None, outcomes, requests };
         }
     };
     manners.check(CLIENT, true, None, "", "");
@@ -65,23 +66,23 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
     let mut lost = 0_usize;
     for scenario in scenarios {
         let case = scenario.case();
-        if interrupt::came() {
-            outcomes.push(Outcome::interrupted(case));
+        if interrupt::is_requested() {
+            outcomes.push(CaseOutcome::interrupted(case));
             continue;
         }
         let word = scenario.action.split(' ').next().unwrap_or_default();
         if !hello.actions.iter().any(|one| one == word) {
             let note = format!("the client has no {word}");
-            outcomes.push(Outcome::untried(case, Verdict::NotApplicable, note));
+            outcomes.push(CaseOutcome::untried(case, Verdict::NotApplicable, note));
             continue;
         }
         if let Some(why) = actor.over() {
-            outcomes.push(Outcome::untried(case, Verdict::Inconclusive, why));
+            outcomes.push(CaseOutcome::untried(case, Verdict::Inconclusive, why));
             continue;
         }
         if lost >= LOST_MAX {
             let note = format!("the client is gone: {LOST_MAX} times in a row without an answer");
-            outcomes.push(Outcome::untried(case, Verdict::Inconclusive, note));
+            outcomes.push(CaseOutcome::untried(case, Verdict::Inconclusive, note));
             continue;
         }
         let port = match scenario.asks.first() {
@@ -91,21 +92,21 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
         };
         let played =
             caught(|| play(actor, server, scenario, &place(port))).and_then(|played| played);
-        if interrupt::came() {
+        if interrupt::is_requested() {
             // Whether it would have answered is not known.
-            outcomes.push(Outcome::interrupted(case));
+            outcomes.push(CaseOutcome::interrupted(case));
             continue;
         }
         let (outcome, is_lost, count) = match played {
             Ok(played) => played,
             Err(error) => {
                 let stop = Stop::Harness(error);
-                outcomes.push(Outcome::tried(case, Vec::new(), 0, Some(stop)));
+                outcomes.push(CaseOutcome::tried(case, Vec::new(), 0, Some(stop)));
                 continue;
             }
         };
         if let (true, Some(why)) = (is_lost, actor.over()) {
-            outcomes.push(Outcome::untried(outcome.case, Verdict::Inconclusive, why));
+            outcomes.push(CaseOutcome::untried(outcome.case, Verdict::Inconclusive, why));
             continue;
         }
         lost = if is_lost { lost.saturating_add(1) } else { 0 };
@@ -113,9 +114,9 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
         outcomes.push(outcome);
         one_line(actor, &mut manners);
     }
-    if interrupt::came() {
-        outcomes.push(Outcome::interrupted(of_manners(manners).case));
-        return Judged { hello: Some(hello), outcomes, requests };
+    if interrupt::is_requested() {
+        outcomes.push(CaseOutcome::interrupted(of_manners(manners).case));
+        return JudgedClient { hello: Some(hello), outcomes, requests };
     }
     if lost < LOST_MAX && actor.over().is_none() {
         let bye = actor.bye();
@@ -124,7 +125,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
     }
     one_line(actor, &mut manners);
     outcomes.push(of_manners(manners));
-    Judged { hello: Some(hello), outcomes, requests }
+    JudgedClient { hello: Some(hello), outcomes, requests }
 }
 
 /// Judges that it says one line each time, and no more.
@@ -136,14 +137,14 @@ fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
 
 /// Puts this project's client with a defect through the scenarios that can judge what it is about,
 /// until that fails; with a habit through all of them.
-pub fn trial(defect: &Defect, server: &TestServer) -> Vec<Outcome> {
+pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     let mut own = ReferenceClient { flaw: Some(defect.flaw) };
     let wanted = Rule::from(defect.requirement).id;
     let judges = |scenario: &Scenario| {
         let whole = wanted.is_empty() || wanted == CLIENT;
         whole || scenario.case().requirements.contains(&wanted)
     };
-    let mut outcomes: Vec<Outcome> = Vec::new();
+    let mut outcomes: Vec<CaseOutcome> = Vec::new();
     for scenario in scenarios().into_iter().filter(judges) {
         outcomes.extend(judge(&mut own, server, std::slice::from_ref(&scenario)).outcomes);
         let mut verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
@@ -160,13 +161,13 @@ fn play(
     server: &TestServer,
     scenario: &Scenario,
     place: &CncAddress,
-) -> Result<(Outcome, bool, usize), String> {
+) -> Result<(CaseOutcome, bool, usize), String> {
     let file = scenario.program.as_deref().map(ProgramFile::new).transpose();
     let file = file.map_err(|error| format!("the NC program: {error}"))?;
     let name = file.as_ref().and_then(|file| file.0.to_str());
-    let action = scenario.told(name).ok_or("no word of the vocabulary")?;
+    let action = scenario.action_with(name).ok_or("no word of the vocabulary")?;
     let cnc = Cnc::with_default_model().map_err(|error| error.to_string())?;
-    let mut script = Script::new(cnc);
+    let mut script = ScenarioScript::new(cnc);
     script.tamper = scenario.tamper;
     script.refused.clone_from(&scenario.refused);
     script.literal.clone_from(&scenario.literal);
@@ -185,9 +186,12 @@ fn play(
     if let Some(watch) = scenario.watch {
         ordering::judge(watch, scenario, &script, &turns, &mut findings);
     }
-    let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
+    let stop = judge_reaction(scenario, &script, &reaction, turns.last(), &mut findings);
     let stop = stop.or(beyond.stop());
-    let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Silent(_) | Reaction::Broken(_));
+    let is_lost = matches!(
+        reaction,
+        ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Broken(_)
+    );
     let mut case = scenario.case();
     // A client may ask more than it has to; that is judged too.
     for judgement in &findings.record.judgements {
@@ -196,7 +200,7 @@ fn play(
         }
     }
     let Record { judgements, checks } = findings.record;
-    Ok((Outcome::tried(case, judgements, checks, stop), is_lost, turns.len()))
+    Ok((CaseOutcome::tried(case, judgements, checks, stop), is_lost, turns.len()))
 }
 
 fn may_write(scenario: &Scenario) -> bool {
@@ -205,10 +209,10 @@ fn may_write(scenario: &Scenario) -> bool {
 }
 
 /// Judges what the client says.
-fn said(
+fn judge_reaction(
     scenario: &Scenario,
-    script: &Script,
-    reaction: &Reaction,
+    script: &ScenarioScript,
+    reaction: &ClientReaction,
     last: Option<&Turn>,
     findings: &mut Findings,
 ) -> Option<Stop> {
@@ -223,30 +227,31 @@ fn said(
     };
     let rules = scenario.rules();
     let kept = match reaction {
-        Reaction::Answer(Answer::Unsupported(what)) => {
+        ClientReaction::Answer(ActionResult::Unsupported(what)) => {
             // What it knows is in its hello; this it claimed.
             let found = format!("unsupported: {what}");
             findings.check(CLIENT, false, last, "what its hello claims", found);
             return Some(Stop::NotApplicable(format!("the client has no {what}")));
         }
-        Reaction::Answer(Answer::Result(value)) => {
-            let value = match scenario.action.starts_with("find-instance") {
-                true => logical(value),
-                false => value.clone(),
+        ClientReaction::Answer(ActionResult::Result(value)) => {
+            let value = if scenario.action.starts_with("find-instance") {
+                logical(value)
+            } else {
+                value.clone()
             };
             expected.any || expected.result.as_ref().is_some_and(|right| same(right, &value))
         }
-        Reaction::Answer(Answer::Error(_)) => expected.error,
+        ClientReaction::Answer(ActionResult::Error(_)) => expected.error,
         _ => false,
     };
     let rules: Vec<Rule> = match reaction {
-        Reaction::Answer(_) => rules,
+        ClientReaction::Answer(_) => rules,
         // Whatever is assumed of what it was to do: this is nothing that can be meant.
-        Reaction::Died(_) | Reaction::Silent(_) | Reaction::Garbled(_) => {
+        ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
             let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
             rules.into_iter().map(must).chain([CLIENT.into()]).collect()
         }
-        Reaction::Broken(why) => return Some(Stop::Inconclusive(why.clone())),
+        ClientReaction::Broken(why) => return Some(Stop::Inconclusive(why.clone())),
     };
     for rule in rules {
         findings.check(rule, kept, last, &expected, reaction);
@@ -291,16 +296,16 @@ impl std::fmt::Display for Expected {
 }
 
 /// How the client keeps to the protocol.
-fn of_manners(findings: Findings) -> Outcome {
+fn of_manners(findings: Findings) -> CaseOutcome {
     let case = Case {
         id: "client-manners".to_owned(),
         title: "It says who it is, one line to each action, and ends when told to".to_owned(),
-        subject: Subject::Client,
+        subject: CaseSubject::Client,
         requirements: vec![CLIENT],
         needs: Needs::Queries,
         body: Body::Client,
     };
-    Outcome::tried(case, findings.record.judgements, findings.record.checks.max(1), None)
+    CaseOutcome::tried(case, findings.record.judgements, findings.record.checks.max(1), None)
 }
 
 /// An NC program in a file of its own, removed in the end.
@@ -329,14 +334,14 @@ mod tests {
 
     /// A client that panics at its first action.
     #[derive(Default)]
-    struct Panics(ReferenceClient, usize);
+    struct PanickingClient(ReferenceClient, usize);
 
-    impl Actor for Panics {
-        fn hello(&mut self, place: &CncAddress) -> Result<Hello, Reaction> {
+    impl Actor for PanickingClient {
+        fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction> {
             Actor::hello(&mut self.0, place)
         }
 
-        fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> Reaction {
+        fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
             self.1 += 1;
             assert_ne!(self.1, 1, "the first action");
             self.0.act(place, scenario, action)
@@ -351,8 +356,8 @@ mod tests {
     fn only_a_scenario_that_panics_is_a_harness_error() {
         let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();
         let scenarios = scenarios();
-        let judged = judge(&mut Panics::default(), &server, &scenarios[..2]);
-        let verdicts: Vec<_> = judged.outcomes.iter().map(Outcome::verdict).collect();
+        let judged = judge(&mut PanickingClient::default(), &server, &scenarios[..2]);
+        let verdicts: Vec<_> = judged.outcomes.iter().map(CaseOutcome::verdict).collect();
         assert_eq!(verdicts, [Verdict::HarnessError, Verdict::Pass, Verdict::Pass]);
         let note = judged.outcomes[0].note.as_deref().unwrap();
         assert!(note.starts_with("the case panicked: ") && note.contains("the first action"));

@@ -7,13 +7,14 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::Action;
+use crate::codec::message::Identity;
 use crate::text::shorten;
 
 pub const PROTOCOL: u32 = 1;
 
 /// What a client says of itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Hello {
+pub struct ClientHello {
     /// Version of the protocol it speaks.
     pub protocol: u32,
     pub client: Identity,
@@ -22,14 +23,6 @@ pub struct Hello {
     /// Whether it stays and is spoken with, or is started for each action.
     #[serde(default)]
     pub stays: bool,
-}
-
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Identity {
-    pub name: String,
-    pub version: String,
-    pub language: String,
 }
 
 /// Where the CNC is.
@@ -43,7 +36,8 @@ pub struct CncAddress {
     pub port: u16,
 }
 
-pub(super) fn told(place: &CncAddress, scenario: &str, action: &Action) -> Value {
+/// The line that tells a running client to do an action.
+pub(super) fn action_command(place: &CncAddress, scenario: &str, action: &Action) -> Value {
     json!({
         "cmd": "do",
         "scenario": scenario,
@@ -57,7 +51,7 @@ pub(super) fn told(place: &CncAddress, scenario: &str, action: &Action) -> Value
     })
 }
 
-/// The same for one that is started for each action.
+/// The environment of a client that is started for each action.
 pub(super) fn environment(
     place: &CncAddress,
     scenario: &str,
@@ -81,7 +75,7 @@ const SHOWN: usize = 200;
 /// What comes of an action.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Answer {
+pub enum ActionResult {
     Result(Value),
     /// It was not: the CNC refused, or what came from it was wrong.
     Error(String),
@@ -90,16 +84,18 @@ pub enum Answer {
 }
 
 /// What a client does when it is told to do something.
-pub type Reaction = crate::process::Reaction<Answer>;
+pub type ClientReaction = crate::process::Reaction<ActionResult>;
 
-impl std::fmt::Display for Reaction {
+impl std::fmt::Display for ClientReaction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Answer(Answer::Result(value)) => {
+            Self::Answer(ActionResult::Result(value)) => {
                 write!(f, "the result {}", shorten(&value.to_string(), SHOWN))
             }
-            Self::Answer(Answer::Error(why)) => write!(f, "the error {:?}", shorten(why, SHOWN)),
-            Self::Answer(Answer::Unsupported(what)) => {
+            Self::Answer(ActionResult::Error(why)) => {
+                write!(f, "the error {:?}", shorten(why, SHOWN))
+            }
+            Self::Answer(ActionResult::Unsupported(what)) => {
                 write!(f, "unsupported: {}", shorten(what, SHOWN))
             }
             Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),

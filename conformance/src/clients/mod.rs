@@ -1,8 +1,8 @@
 //! Clients under test: the suite is the CNC, tells a client what to do, judges the bytes it sends,
 //! and sees what it makes of replies that are not what they should be.
 //!
-//! The protocol is described in `adapters/CLIENTS.md`. [`Process`] is a client that is started by a
-//! command, [`ReferenceClient`] this project's, which can be told to be wrong: [`defects`].
+//! The protocol is described in `adapters/CLIENTS.md`. [`ClientProcess`] is a client that is started
+//! by a command, [`ReferenceClient`] this project's, which can be told to be wrong: [`defects`].
 
 mod action;
 mod findings;
@@ -22,12 +22,14 @@ mod script;
 mod tamper;
 mod test_server;
 
-pub use action::{Action, VOCABULARY, Word};
-pub use judge::{Judged, judge, trial};
-pub use message::{Answer, CncAddress, Hello, Identity, PROTOCOL, Reaction};
+pub use action::{Action, ActionWord, VOCABULARY};
+pub use judge::{JudgedClient, judge, trial};
+pub use message::{ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL};
 pub use passive::{listen, requests_case};
-pub use process::Process;
-pub use reference_client::{Defect, Flaw, ReferenceClient, answer, defects, find_defect, habits};
+pub use process::ClientProcess;
+pub use reference_client::{
+    ClientDefect, Flaw, ReferenceClient, answer, defects, find_defect, habits,
+};
 pub use scenario::Scenario;
 pub use scenarios::scenarios;
 pub use test_server::TestServer;
@@ -35,10 +37,10 @@ pub use test_server::TestServer;
 /// Who is put through scenarios.
 pub trait Actor {
     /// Asks who it is and what it knows.
-    fn hello(&mut self, place: &CncAddress) -> Result<Hello, Reaction>;
+    fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction>;
 
     /// Tells it to do something; one that has ended before is started anew.
-    fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> Reaction;
+    fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction;
 
     /// Lets it end.
     fn bye(&mut self) -> Result<(), String>;

@@ -7,7 +7,7 @@ use super::findings::Findings;
 use super::request_match::result_of;
 use super::requests::with_request;
 use super::scenario::{Order, Scenario};
-use super::script::Script;
+use super::script::ScenarioScript;
 use super::test_server::Turn;
 use crate::judge::assumed;
 use crate::values::until_nul;
@@ -19,7 +19,7 @@ const PACKET_MAX: usize = 992;
 pub(super) fn judge(
     watch: Order,
     scenario: &Scenario,
-    script: &Script,
+    script: &ScenarioScript,
     turns: &[Turn],
     findings: &mut Findings,
 ) {
@@ -106,9 +106,10 @@ fn stream(scenario: &Scenario, turns: &[Turn], findings: &mut Findings) {
     }
     let expected = on_the_wire(scenario.program.as_deref().unwrap_or_default());
     let kept = arrived == expected;
-    let found = match arrived.len() == expected.len() {
-        true => "as many bytes in another order, or others".to_owned(),
-        false => format!("{} bytes of it", arrived.len()),
+    let found = if arrived.len() == expected.len() {
+        "as many bytes in another order, or others".to_owned()
+    } else {
+        format!("{} bytes of it", arrived.len())
     };
     let last = packets.last().map(|(turn, _)| *turn);
     let what = format!("the program line by line, {} bytes", expected.len());
@@ -128,27 +129,27 @@ fn stream(scenario: &Scenario, turns: &[Turn], findings: &mut Findings) {
 }
 
 /// A read or a write of one of the five variables.
-struct Access<'t> {
+struct ServiceVariableAccess<'t> {
     turn: &'t Turn,
     variable: ServiceVariable,
     value: Option<Vec<u8>>,
 }
 
-fn accesses<'t>(script: &Script, turns: &'t [Turn]) -> Vec<Access<'t>> {
+fn accesses<'t>(script: &ScenarioScript, turns: &'t [Turn]) -> Vec<ServiceVariableAccess<'t>> {
     let access = |turn: &'t Turn| {
         with_request(turn, |request: &Request<'_>| {
             let (variable, value) = script.service_variable(request)?;
-            Some(Access { turn, variable, value: value.map(<[u8]>::to_vec) })
+            Some(ServiceVariableAccess { turn, variable, value: value.map(<[u8]>::to_vec) })
         })?
     };
     turns.iter().filter_map(access).collect()
 }
 
-fn is_set(access: &Access<'_>) -> bool {
+fn is_set(access: &ServiceVariableAccess<'_>) -> bool {
     access.value.as_ref().is_some_and(|value| value.iter().any(|&byte| byte != 0))
 }
 
-fn host(script: &Script, turns: &[Turn], findings: &mut Findings) {
+fn host(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let all = accesses(script, turns);
     let written =
@@ -202,7 +203,7 @@ fn host(script: &Script, turns: &[Turn], findings: &mut Findings) {
     }
 }
 
-fn caller(script: &Script, turns: &[Turn], findings: &mut Findings) {
+fn caller(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let all = accesses(script, turns);
     let asked = all.iter().position(|one| one.variable == RequestState && is_set(one));

@@ -4,9 +4,9 @@ use ads_cnc::operation::Function;
 
 use super::findings::Findings;
 use super::requests;
-use super::script::Script;
+use super::script::ScenarioScript;
 use super::test_server::{TestServer, Turn};
-use crate::judge::{Body, CLIENT, Case, Needs, Outcome, Stop, Subject};
+use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
 use crate::simulator::{Cnc, ModelError};
 
 /// The case that all requests are judged in: by whatever requirement each of them touches.
@@ -19,7 +19,7 @@ pub fn requests_case() -> Case {
     Case {
         id: "client-requests".to_owned(),
         title: "Every request is one that a CNC knows".to_owned(),
-        subject: Subject::Client,
+        subject: CaseSubject::Client,
         requirements,
         needs: Needs::Queries,
         body: Body::Client,
@@ -34,8 +34,8 @@ pub fn requests_case() -> Case {
 pub fn listen(
     server: &TestServer,
     mut go_on: impl FnMut() -> bool,
-) -> Result<(Outcome, usize), ModelError> {
-    server.begin(Script::new(Cnc::with_default_model()?));
+) -> Result<(CaseOutcome, usize), ModelError> {
+    server.begin(ScenarioScript::new(Cnc::with_default_model()?));
     let (mut findings, mut before, mut count) = (Findings::default(), None, 0_usize);
     let mut judge = |turns: &[Turn]| {
         count = count.saturating_add(turns.len());
@@ -60,5 +60,5 @@ pub fn listen(
     let stop = stop.or(beyond.stop());
     let count = count.saturating_add(beyond.requests);
     let case = Case { requirements, ..requests_case() };
-    Ok((Outcome::tried(case, findings.record.judgements, findings.record.checks, stop), count))
+    Ok((CaseOutcome::tried(case, findings.record.judgements, findings.record.checks, stop), count))
 }

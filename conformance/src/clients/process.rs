@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use super::message::{Answer, CncAddress, Hello, PROTOCOL, Reaction, environment, told};
+use super::message::{
+    ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL, action_command, environment,
+};
 use super::{Action, Actor};
 use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, cut};
@@ -12,14 +14,14 @@ const HELLO: &str = "hello";
 
 /// A client that is started by a command line.
 #[derive(Debug)]
-pub struct Process {
+pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
     /// What it has said without being asked.
     unasked: Vec<String>,
 }
 
-impl Process {
+impl ClientProcess {
     /// A client with so much time for each action.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self { process: Subprocess::new(line, timeout), stays: false, unasked: Vec::new() }
@@ -32,7 +34,7 @@ impl Process {
     }
 
     /// The line of its answer; without an answer the program is ended.
-    fn recv(&mut self, timeout: Duration) -> Result<String, Reaction> {
+    fn recv(&mut self, timeout: Duration) -> Result<String, ClientReaction> {
         let line = self.process.recv(timeout);
         if line.is_err() {
             self.process.running = None;
@@ -45,49 +47,51 @@ impl Process {
         place: &CncAddress,
         scenario: &str,
         action: &Action,
-    ) -> Result<Reaction, Reaction> {
-        match self.process.running.is_some() {
-            true => {}
-            false if self.stays => {
+    ) -> Result<ClientReaction, ClientReaction> {
+        if self.process.running.is_none() {
+            if self.stays {
                 self.hello(place)?;
                 if !self.stays {
-                    return Err(Reaction::Garbled("it stays no longer".to_owned()));
+                    return Err(ClientReaction::Garbled("it stays no longer".to_owned()));
                 }
+            } else {
+                self.process.start(environment(place, scenario, &action.to_string()))?;
             }
-            false => self.process.start(environment(place, scenario, &action.to_string()))?,
         }
         if self.stays {
-            self.process.send(told(place, scenario, action).to_string().into_bytes());
+            self.process.send(action_command(place, scenario, action).to_string().into_bytes());
         }
         let line = self.recv(self.process.timeout)?;
         if !self.stays {
             match self.process.finish(GRACE) {
-                (None, _) => return Err(Reaction::Silent(GRACE)),
+                (None, _) => return Err(ClientReaction::Silent(GRACE)),
                 (_, unasked) => self.unasked.extend(unasked),
             }
         }
-        Ok(match serde_json::from_str::<Answer>(&line) {
-            Ok(answer) => Reaction::Answer(answer),
-            Err(error) => Reaction::Garbled(format!("{error}: {}", cut(&line))),
+        Ok(match serde_json::from_str::<ActionResult>(&line) {
+            Ok(answer) => ClientReaction::Answer(answer),
+            Err(error) => ClientReaction::Garbled(format!("{error}: {}", cut(&line))),
         })
     }
 }
 
-impl Actor for Process {
+impl Actor for ClientProcess {
     fn over(&self) -> Option<String> {
         self.process.over()
     }
 
-    fn hello(&mut self, place: &CncAddress) -> Result<Hello, Reaction> {
+    fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction> {
         self.process.start(environment(place, HELLO, HELLO))?;
         let line = self.recv(START.max(self.process.timeout))?;
-        let hello = serde_json::from_str::<Hello>(&line)
-            .map_err(|error| Reaction::Garbled(format!("{error} in the hello {}", cut(&line))))
+        let hello = serde_json::from_str::<ClientHello>(&line)
+            .map_err(|error| {
+                ClientReaction::Garbled(format!("{error} in the hello {}", cut(&line)))
+            })
             .and_then(|hello| match hello.protocol {
                 PROTOCOL => Ok(hello),
                 other => {
                     let why = format!("it speaks protocol {other}, not {PROTOCOL}");
-                    Err(Reaction::Garbled(why))
+                    Err(ClientReaction::Garbled(why))
                 }
             });
         let hello = hello.inspect_err(|_| self.process.running = None)?;
@@ -98,7 +102,7 @@ impl Actor for Process {
         Ok(hello)
     }
 
-    fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> Reaction {
+    fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
         // Of one that has said too much, what comes next cannot be told from an answer.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;

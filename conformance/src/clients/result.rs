@@ -38,10 +38,12 @@ fn scalar(expected: &Value, found: &Value) -> bool {
     match expected {
         Value::Bool(expected) => match found {
             Value::Bool(found) => expected == found,
-            found => number(found) == Some(Number::Whole(i128::from(*expected))),
+            found => number(found) == Some(NumericValue::Whole(i128::from(*expected))),
         },
         Value::Number(_) => match (number(expected), number(found)) {
-            (Some(Number::Whole(expected)), Some(Number::Whole(found))) => expected == found,
+            (Some(NumericValue::Whole(expected)), Some(NumericValue::Whole(found))) => {
+                expected == found
+            }
             (Some(expected), Some(found)) => near(expected.real(), found.real()),
             _ => false,
         },
@@ -51,12 +53,12 @@ fn scalar(expected: &Value, found: &Value) -> bool {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Number {
+enum NumericValue {
     Whole(i128),
     Real(f64),
 }
 
-impl Number {
+impl NumericValue {
     #[allow(clippy::as_conversions, reason = "a whole number that is compared with a real one")]
     const fn real(self) -> f64 {
         match self {
@@ -66,14 +68,14 @@ impl Number {
     }
 }
 
-fn number(value: &Value) -> Option<Number> {
+fn number(value: &Value) -> Option<NumericValue> {
     let text = match value {
         Value::String(text) => text.clone(),
         Value::Number(number) => number.to_string(),
         _ => return None,
     };
-    let whole = text.parse().ok().map(Number::Whole);
-    whole.or_else(|| text.parse().ok().map(Number::Real))
+    let whole = text.parse().ok().map(NumericValue::Whole);
+    whole.or_else(|| text.parse().ok().map(NumericValue::Real))
 }
 
 /// As far as decimals of fifteen digits go.

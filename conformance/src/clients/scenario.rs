@@ -6,9 +6,9 @@ use serde_json::Value;
 
 use super::Action;
 use super::literal::Literal;
-use super::script::Script;
+use super::script::ScenarioScript;
 use super::tamper::Tamper;
-use crate::judge::{Body, CLIENT, Case, Needs, Rule, Subject};
+use crate::judge::{Body, CLIENT, Case, CaseSubject, Needs, Rule};
 
 /// A request that has to be among those a client sends, as bytes, not as the codec has them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -111,11 +111,11 @@ pub(super) enum Expect {
     /// This result.
     Result(Value),
     /// The result that the CNC itself gives.
-    Asked(fn(&Script) -> Option<Value>),
+    Asked(fn(&ScenarioScript) -> Option<Value>),
     /// This result or an error.
     ResultOrError(Value),
     /// The result that the CNC itself gives, or an error.
-    AskedOrError(fn(&Script) -> Option<Value>),
+    AskedOrError(fn(&ScenarioScript) -> Option<Value>),
     /// Some result.
     Done,
     /// Some result or an error.
@@ -158,7 +158,7 @@ pub struct Scenario {
     pub(super) refused: Vec<(usize, AdsError)>,
     pub(super) literal: Option<Literal>,
     pub(super) response: Option<&'static str>,
-    pub(super) prepare: Option<fn(&Script)>,
+    pub(super) prepare: Option<fn(&ScenarioScript)>,
     pub(super) watch: Option<Order>,
     pub(super) program: Option<Vec<u8>>,
 }
@@ -247,7 +247,7 @@ impl Scenario {
         Case {
             id: self.id.clone(),
             title: self.title.clone(),
-            subject: Subject::Client,
+            subject: CaseSubject::Client,
             requirements,
             needs: Needs::Queries,
             body: Body::Client,
@@ -255,7 +255,7 @@ impl Scenario {
     }
 
     /// What the client is told, with the file of the program behind it.
-    pub(super) fn told(&self, file: Option<&str>) -> Option<Action> {
+    pub(super) fn action_with(&self, file: Option<&str>) -> Option<Action> {
         match file {
             Some(file) => Action::parse(&format!("{} {file}", self.action)),
             None => Action::parse(&self.action),

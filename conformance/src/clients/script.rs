@@ -17,7 +17,7 @@ const LOOKS: usize = 2;
 
 /// What the CNC of a scenario answers.
 #[derive(Debug)]
-pub(super) struct Script {
+pub(super) struct ScenarioScript {
     /// The CNC behind it.
     pub(super) cnc: Cnc,
     /// What is done to the replies of a function.
@@ -33,7 +33,7 @@ pub(super) struct Script {
     last: BTreeMap<usize, Vec<u8>>,
 }
 
-impl Script {
+impl ScenarioScript {
     /// A CNC that does everything right.
     pub(super) const fn new(cnc: Cnc) -> Self {
         Self {
@@ -99,9 +99,9 @@ impl Script {
                 *looks = looks.saturating_add(1);
                 if *looks >= LOOKS {
                     self.looks = None;
-                    self.put(ServiceVariable::Response, response.as_bytes());
-                    self.put(ServiceVariable::RequestState, &[0; 4]);
-                    self.put(ServiceVariable::ResponseState, &[1, 0, 0, 0]);
+                    self.write_variable(ServiceVariable::Response, response.as_bytes());
+                    self.write_variable(ServiceVariable::RequestState, &[0; 4]);
+                    self.write_variable(ServiceVariable::ResponseState, &[1, 0, 0, 0]);
                 }
             }
             _ => {}
@@ -138,7 +138,7 @@ impl Script {
     }
 
     /// Writes a variable of the Service Interface, as whoever is on the other side.
-    pub(super) fn put(&self, variable: ServiceVariable, value: &[u8]) {
+    pub(super) fn write_variable(&self, variable: ServiceVariable, value: &[u8]) {
         let write = Channel::new(1)
             .ok()
             .and_then(|channel| WriteByName::new(channel, variable.name(), value).ok());

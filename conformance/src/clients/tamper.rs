@@ -132,16 +132,16 @@ impl Tamper {
             }
             Self::AmsError => send(rebuilt(reply, |parts| {
                 parts.header.error = AMS_ERROR;
-                parts.body = Body::None;
+                parts.body = ReplyBody::None;
             })),
             Self::BareResult => send(rebuilt(reply, |parts| {
-                parts.body = Body::Result(AdsError::INVALID_DATA, None);
+                parts.body = ReplyBody::Result(AdsError::INVALID_DATA, None);
             })),
             Self::EmptyResult => send(rebuilt(reply, |parts| {
-                parts.body = Body::Result(AdsError::INVALID_DATA, Some(Vec::new()));
+                parts.body = ReplyBody::Result(AdsError::INVALID_DATA, Some(Vec::new()));
             })),
             Self::ResultWithData => send(rebuilt(reply, |parts| {
-                if let Body::Result(result, _) = &mut parts.body {
+                if let ReplyBody::Result(result, _) = &mut parts.body {
                     *result = AdsError::INVALID_DATA;
                 }
             })),
@@ -179,12 +179,12 @@ impl Tamper {
 }
 
 /// A reply taken apart by the codec, to be put together again by it.
-struct Parts {
+struct ReplyParts {
     header: AmsHeader,
-    body: Body,
+    body: ReplyBody,
 }
 
-enum Body {
+enum ReplyBody {
     None,
     /// Of a Write there is never any data.
     Result(AdsError, Option<Vec<u8>>),
@@ -192,19 +192,21 @@ enum Body {
 
 /// The reply with something in it changed, and all lengths right. One that is not understood stays
 /// as it is.
-fn rebuilt(reply: &[u8], change: impl FnOnce(&mut Parts)) -> Vec<u8> {
+fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
         let header = frame.header();
         // Other commands are refused with a result alone.
         let service = service_of(header.command).unwrap_or(Service::Write);
         let (result, data) = decode_reply(service, frame.data()).ok()?;
-        let body = Body::Result(result, data.map(<[u8]>::to_vec));
-        let mut parts = Parts { header, body };
+        let body = ReplyBody::Result(result, data.map(<[u8]>::to_vec));
+        let mut parts = ReplyParts { header, body };
         change(&mut parts);
         let body = match &parts.body {
-            Body::None => Vec::new(),
-            Body::Result(result, data) => encode_reply(service, *result, data.as_deref()).ok()?,
+            ReplyBody::None => Vec::new(),
+            ReplyBody::Result(result, data) => {
+                encode_reply(service, *result, data.as_deref()).ok()?
+            }
         };
         FrameRef::new(parts.header, &body).ok()?.encode_to_vec().ok()
     };
@@ -217,7 +219,7 @@ fn with_header(reply: &[u8], change: impl FnOnce(&mut AmsHeader)) -> Vec<u8> {
 
 fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
     rebuilt(reply, |parts| {
-        if let Body::Result(_, Some(data)) = &mut parts.body {
+        if let ReplyBody::Result(_, Some(data)) = &mut parts.body {
             change(data);
         }
     })

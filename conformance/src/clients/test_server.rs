@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AmsNetId;
 
-use super::script::Script;
+use super::script::ScenarioScript;
 use super::tamper::SendStep;
 use crate::judge::Stop;
 use crate::net;
@@ -52,7 +52,7 @@ struct Turns {
 
 impl Turns {
     /// The number of a turn; none if there is no room for it.
-    fn keep(&mut self, turn: Turn) -> Option<usize> {
+    fn record(&mut self, turn: Turn) -> Option<usize> {
         self.grow(turn.request.len().saturating_add(TURN));
         if self.bytes > KEPT_MAX {
             self.beyond = self.beyond.saturating_add(1);
@@ -129,7 +129,7 @@ pub struct TestServer {
 /// What is going on.
 #[derive(Debug)]
 struct TestRun {
-    script: Mutex<Script>,
+    script: Mutex<ScenarioScript>,
     turns: Mutex<Turns>,
     /// Open connections, and how many there have been.
     streams: Mutex<Vec<TcpStream>>,
@@ -168,7 +168,7 @@ impl TestServer {
     }
 
     /// From now on this is played.
-    pub(super) fn begin(&self, script: Script) {
+    pub(super) fn begin(&self, script: ScenarioScript) {
         *lock(&self.run) = Some(Arc::new(TestRun {
             script: Mutex::new(script),
             turns: Mutex::default(),
@@ -206,7 +206,7 @@ impl TestServer {
     }
 
     /// Ends what is played: every connection is closed.
-    pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<Script>) {
+    pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Beyond::default(), None);
         };
@@ -271,7 +271,7 @@ impl TestRun {
             while let Some(len) = frame_len(&received) {
                 if len > FRAME_MAX {
                     let fault = Some(format!("a frame of {len} bytes"));
-                    self.keep(Turn { connection, request: received, fault, ..Turn::default() });
+                    self.record(Turn { connection, request: received, fault, ..Turn::default() });
                     return Ok(());
                 }
                 if received.len() < len {
@@ -288,7 +288,7 @@ impl TestRun {
                     if !received.is_empty() {
                         let fault = Some("closed within a frame".to_owned());
                         let turn = Turn { connection, request: received, fault, ..Turn::default() };
-                        self.keep(turn);
+                        self.record(turn);
                     }
                     return Ok(());
                 }
@@ -305,7 +305,7 @@ impl TestRun {
         mut stream: &TcpStream,
     ) -> io::Result<bool> {
         // Kept before it is answered: who has the answer may be gone at once.
-        let place = self.keep(Turn { connection, request: request.clone(), ..Turn::default() });
+        let place = self.record(Turn { connection, request: request.clone(), ..Turn::default() });
         let steps = match lock(&self.script).answer(connection, &request) {
             Ok(steps) => steps,
             Err(fault) => {
@@ -334,8 +334,8 @@ impl TestRun {
         Ok(true)
     }
 
-    fn keep(&self, turn: Turn) -> Option<usize> {
-        lock(&self.turns).keep(turn)
+    fn record(&self, turn: Turn) -> Option<usize> {
+        lock(&self.turns).record(turn)
     }
 }
 

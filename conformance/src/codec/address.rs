@@ -116,13 +116,11 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, R
 /// A group by its parts where there are some, for the number has to follow from them.
 pub(super) fn encode_group(of: Given<'_>) -> Result<Vec<u8>, Refused> {
     let number = of.number("index_group")?;
-    let group = match of.has("task") {
-        false => IndexGroup::new(number),
-        true => parts(of)?.index_group(),
-    };
-    match group.get() == number {
-        true => Ok(ObjectCount(number).encode_to_vec()?),
-        false => Err(Refused::Unfit(format!("{number:#x}, but its parts are {group}"))),
+    let group = if of.has("task") { parts(of)?.index_group() } else { IndexGroup::new(number) };
+    if group.get() == number {
+        Ok(ObjectCount(number).encode_to_vec()?)
+    } else {
+        Err(Refused::Unfit(format!("{number:#x}, but its parts are {group}")))
     }
 }
 

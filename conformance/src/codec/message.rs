@@ -11,7 +11,7 @@ use crate::text::{hex::compact, shorten};
 /// A line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
-pub enum Command {
+pub enum TesteeCommand {
     /// The first line.
     Hello { protocol: u32 },
     Case {
@@ -110,13 +110,14 @@ impl Known {
 
 /// The answer to `hello`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Hello {
+pub struct TesteeHello {
     pub protocol: u32,
     pub testee: Identity,
     /// What it can do.
     pub capabilities: Capabilities,
 }
 
+/// The name, version and language of a program, as its answer to `hello` has them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     pub name: String,
@@ -253,13 +254,13 @@ fn weight(value: &Value) -> usize {
 #[derive(Deserialize)]
 struct Keys {
     seq: Option<u64>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     ok: Option<Output>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     reject: Option<Rejection>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     unsupported: Option<Unsupported>,
-    #[serde(default, deserialize_with = "there")]
+    #[serde(default, deserialize_with = "present")]
     error: Option<OwnError>,
 }
 
@@ -274,7 +275,7 @@ struct OwnError {
 }
 
 /// A key that is there has a value; null is none of these.
-fn there<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
+fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
     T::deserialize(from).map(Some)
 }
 

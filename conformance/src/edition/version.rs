@@ -44,7 +44,7 @@ impl CncVersion {
     /// - Fewer than three numbers.
     /// - A number over 65 535.
     pub fn new(text: &str) -> Result<Self, VersionError> {
-        let mut scan = Scan { text, at: 0 };
+        let mut scan = VersionScan { text, at: 0 };
         if scan.skip(b'V') {
             scan.skip(b'.');
         }
@@ -255,13 +255,13 @@ enum VersionFault {
     OutOfRange(u32),
 }
 
-struct Scan<'a> {
+struct VersionScan<'a> {
     text: &'a str,
     /// All characters before it are ASCII.
     at: usize,
 }
 
-impl Scan<'_> {
+impl VersionScan<'_> {
     fn next(&self) -> Option<u8> {
         self.text.as_bytes().get(self.at).copied()
     }

@@ -11,21 +11,30 @@ use ads_cnc::operation::{
 };
 
 use super::codes;
-use super::model::{Address, FunctionReport, Part, ServiceAddress};
+use super::model::{ExplainedAddress, ExplainedStream, FunctionReport, ServiceAddress};
 use super::part;
 use crate::edition::Feature;
-use crate::values::Values;
+use crate::values::ValueFormat;
 
 /// Data of a service at a place.
-pub(super) fn of_place(place: &ServiceAddress, bytes: &[u8], values: &Values) -> Part {
+pub(super) fn of_place(
+    place: &ServiceAddress,
+    bytes: &[u8],
+    values: &ValueFormat,
+) -> ExplainedStream {
     of_data(place, 0, bytes, values)
 }
 
 /// Data of a service at a place, from byte `at` of those given.
-pub(super) fn of_data(place: &ServiceAddress, at: usize, bytes: &[u8], values: &Values) -> Part {
+pub(super) fn of_data(
+    place: &ServiceAddress,
+    at: usize,
+    bytes: &[u8],
+    values: &ValueFormat,
+) -> ExplainedStream {
     let found = find(place);
     let mut part = match found {
-        Err(_) => Part::opaque("Data of no documented function".to_owned(), at, bytes),
+        Err(_) => ExplainedStream::opaque("Data of no documented function".to_owned(), at, bytes),
         Ok(function) => {
             let spec = function.spec();
             match if place.reply { spec.reply } else { spec.request } {
@@ -39,11 +48,11 @@ pub(super) fn of_data(place: &ServiceAddress, at: usize, bytes: &[u8], values: &
 }
 
 /// A place, without data.
-pub(super) fn alone(place: &ServiceAddress) -> Part {
+pub(super) fn alone(place: &ServiceAddress) -> ExplainedStream {
     // Of a content that is read and written, reading is the one that does no harm.
     let reading = ServiceAddress { reply: true, ..*place };
     let found = find(if place.service.is_none() { &reading } else { place });
-    Part { address: Some(report(place, found)), ..Part::default() }
+    ExplainedStream { address: Some(report(place, found)), ..ExplainedStream::default() }
 }
 
 fn no_data(
@@ -51,8 +60,8 @@ fn no_data(
     spec: &FunctionSpec,
     at: usize,
     bytes: &[u8],
-    values: &Values,
-) -> Part {
+    values: &ValueFormat,
+) -> ExplainedStream {
     let mut part = part::of_stream(Stream::NoData, at, bytes, values);
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
@@ -110,7 +119,7 @@ fn serves(place: &ServiceAddress, spec: &FunctionSpec) -> bool {
     task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
 }
 
-fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Address {
+fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> ExplainedAddress {
     let function = found.ok();
     let service = place.service.or(function.map(|function| function.spec().service));
     let mut notes = Vec::new();
@@ -119,7 +128,7 @@ fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Add
         Ok(function) => meanings(place, function, &mut notes),
         Err(refusal) => notes.push(refusal.to_string()),
     }
-    Address {
+    ExplainedAddress {
         port: place.port.map(|port| port.0),
         service: service.map(|service| service.to_string()),
         index_group: place.group.get(),

@@ -11,10 +11,10 @@ use ads_cnc::{Decode as _, Error};
 
 use super::address;
 use super::codes;
-use super::model::{Fault, Part, ServiceAddress};
+use super::model::{ExplainedFault, ExplainedStream, ServiceAddress};
 use super::part;
 use super::value::bytes as in_words;
-use crate::values::Values;
+use crate::values::ValueFormat;
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// Requests by who asked whom under which ID.
@@ -33,9 +33,9 @@ pub fn looks_like_frame(bytes: &[u8]) -> bool {
 pub(super) fn of_frames(
     place: Option<&ServiceAddress>,
     bytes: &[u8],
-    values: &Values,
-) -> Vec<Part> {
-    let mut frames = Frames { place, values, asked: HashMap::new(), parts: Vec::new() };
+    values: &ValueFormat,
+) -> Vec<ExplainedStream> {
+    let mut frames = FrameExplainer { place, values, asked: HashMap::new(), parts: Vec::new() };
     let mut at = 0_usize;
     loop {
         let rest = bytes.get(at..).unwrap_or_default();
@@ -48,14 +48,14 @@ pub(super) fn of_frames(
     frames.parts
 }
 
-struct Frames<'q> {
+struct FrameExplainer<'q> {
     place: Option<&'q ServiceAddress>,
-    values: &'q Values,
+    values: &'q ValueFormat,
     asked: PendingRequests,
-    parts: Vec<Part>,
+    parts: Vec<ExplainedStream>,
 }
 
-impl Frames<'_> {
+impl FrameExplainer<'_> {
     /// One frame; how many bytes it takes, if another may follow.
     fn frame(&mut self, at: usize, bytes: &[u8]) -> Option<usize> {
         let split = FrameRef::split(bytes, u32::MAX);
@@ -100,10 +100,14 @@ impl Frames<'_> {
     /// A fault of the last header, and what is lost with it.
     fn fault(&mut self, error: &Error, base: usize, rest: &[u8]) {
         let Some(part) = self.parts.last_mut() else { return };
-        part.push_fault(Fault::of(error, base));
+        part.push_fault(ExplainedFault::of(error, base));
         if !rest.is_empty() {
             let at = part.at.saturating_add(part.length);
-            self.parts.push(Part::opaque("Behind the fault, not read".to_owned(), at, rest));
+            self.parts.push(ExplainedStream::opaque(
+                "Behind the fault, not read".to_owned(),
+                at,
+                rest,
+            ));
         }
     }
 
@@ -112,7 +116,7 @@ impl Frames<'_> {
         let Some(part) = self.parts.last_mut() else { return };
         let found = u32::try_from(there).unwrap_or(u32::MAX);
         let expected = header.data_length;
-        part.push_fault(Fault {
+        part.push_fault(ExplainedFault {
             class: "truncated",
             field: "stream".to_owned(),
             offset: AMS_HEADER_LEN,
@@ -212,7 +216,7 @@ impl Frames<'_> {
             .map_or_else(|| format!("AMS command {}", command.0), ToOwned::to_owned);
         let what = if reply { "response" } else { "request" };
         let title = format!("{name}, {what}: no stream of the CNC");
-        self.parts.push(Part::opaque(title, at, data));
+        self.parts.push(ExplainedStream::opaque(title, at, data));
     }
 
     fn note(&mut self, note: String) {

@@ -6,16 +6,19 @@
 //!
 //! ```
 //! use ads_cnc::layout::Stream;
-//! use ads_cnc_conformance::explain::{Outcome, Question, Subject, Values, explain};
+//! use ads_cnc_conformance::explain::{
+//!     ExplainQuery, ExplainSubject, ExplanationOutcome, ValueFormat, explain,
+//! };
 //!
-//! let question = Question { subject: Subject::Stream(Stream::VariableHandle), values: Values::default() };
+//! let subject = ExplainSubject::Stream(Stream::VariableHandle);
+//! let question = ExplainQuery { subject, values: ValueFormat::default() };
 //! let explanation = explain(&question, &[4, 0, 0, 2]);
-//! assert_eq!(explanation.outcome, Outcome::Explained);
+//! assert_eq!(explanation.outcome, ExplanationOutcome::Explained);
 //! let row = &explanation.parts[0].rows[0];
 //! assert_eq!((row.field.as_str(), row.value.as_str()), ("handle", "33554436 (0x2000004)"));
 //!
 //! let cut = explain(&question, &[4, 0]);
-//! assert_eq!(cut.outcome, Outcome::Faulty);
+//! assert_eq!(cut.outcome, ExplanationOutcome::Faulty);
 //! assert_eq!(cut.parts[0].faults[0].text, "handle at offset 0: truncated, expected 4 bytes, found 2");
 //! ```
 
@@ -31,27 +34,27 @@ mod typed;
 mod value;
 
 pub use crate::text::hex::{HexError, parse_hex};
-pub use crate::values::{UnknownType, Values, type_by_name};
+pub use crate::values::{UnknownType, ValueFormat, type_by_name};
 pub use address::describe;
 pub(crate) use codes::class_name;
 pub use frame::looks_like_frame;
 pub(crate) use model::sources;
 pub use model::{
-    Address, Explanation, Fault, FunctionReport, Outcome, Part, Question, Row, ServiceAddress,
-    Subject, Unread,
+    ExplainQuery, ExplainSubject, ExplainedAddress, ExplainedFault, ExplainedField,
+    ExplainedStream, Explanation, ExplanationOutcome, FunctionReport, ServiceAddress, Unread,
 };
 pub use show::{Paint, print};
 
 use ads_cnc::layout::Stream;
 
 /// Explains bytes. It opens nothing and remembers nothing, and no bytes make it panic.
-pub fn explain(question: &Question, bytes: &[u8]) -> Explanation {
+pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     let values = &question.values;
     let parts = match &question.subject {
-        Subject::Stream(stream) => vec![part::of_stream(*stream, 0, bytes, values)],
-        Subject::Place(place) => vec![address::of_place(place, bytes, values)],
-        Subject::Address(place) => vec![address::alone(place)],
-        Subject::Frames(place) => frame::of_frames(place.as_ref(), bytes, values),
+        ExplainSubject::Stream(stream) => vec![part::of_stream(*stream, 0, bytes, values)],
+        ExplainSubject::Place(place) => vec![address::of_place(place, bytes, values)],
+        ExplainSubject::Address(place) => vec![address::alone(place)],
+        ExplainSubject::Frames(place) => frame::of_frames(place.as_ref(), bytes, values),
     };
     Explanation::new(bytes.len(), parts)
 }

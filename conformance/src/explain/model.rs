@@ -11,20 +11,20 @@ use serde::Serialize;
 use crate::codec::class;
 use crate::judge::Exit;
 use crate::text::hex::spaced;
-use crate::values::Values;
+use crate::values::ValueFormat;
 
 /// What the bytes are.
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct ExplainQuery {
     /// A stream, data of a service, or frames.
-    pub subject: Subject,
+    pub subject: ExplainSubject,
     /// How values and contents are to be read, which no stream says itself.
-    pub values: Values,
+    pub values: ValueFormat,
 }
 
 /// What the bytes are.
 #[derive(Clone, Debug)]
-pub enum Subject {
+pub enum ExplainSubject {
     Stream(Stream),
     /// What goes in or comes out at this place.
     Place(ServiceAddress),
@@ -54,14 +54,14 @@ pub struct Explanation {
     pub format: u32,
     /// Bytes given.
     pub length: usize,
-    pub outcome: Outcome,
+    pub outcome: ExplanationOutcome,
     /// Streams in the order of their bytes; what a service carries follows it.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ExplainedStream>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Outcome {
+pub enum ExplanationOutcome {
     /// Every part is explained.
     Explained,
     /// Something is wrong with the bytes.
@@ -70,7 +70,7 @@ pub enum Outcome {
     Unknown,
 }
 
-impl Outcome {
+impl ExplanationOutcome {
     /// How a process ends with it.
     pub const fn exit(self) -> Exit {
         match self {
@@ -83,7 +83,7 @@ impl Outcome {
 
 /// A stream.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Part {
+pub struct ExplainedStream {
     pub title: String,
     /// The stream's name; none for bytes that no table describes.
     pub stream: Option<&'static str>,
@@ -95,10 +95,10 @@ pub struct Part {
     pub at: usize,
     pub length: usize,
     /// Where it is sent to or from.
-    pub address: Option<Address>,
+    pub address: Option<ExplainedAddress>,
     /// Its fields, up to the first fault.
-    pub rows: Vec<Row>,
-    pub faults: Vec<Fault>,
+    pub rows: Vec<ExplainedField>,
+    pub faults: Vec<ExplainedFault>,
     /// The bytes from the fault on.
     pub unread: Option<Unread>,
     /// What else there is to say.
@@ -107,7 +107,7 @@ pub struct Part {
 
 /// A field, or one item of a field with several.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
+pub struct ExplainedField {
     pub offset: usize,
     /// Number of bytes.
     pub length: usize,
@@ -137,7 +137,7 @@ pub struct Row {
 }
 
 #[derive(Clone, Debug, Serialize)]
-pub struct Fault {
+pub struct ExplainedFault {
     /// Its class, as in vectors; `nc-line` and `nc-word` for NC text.
     pub class: &'static str,
     /// The field; `stream` for the stream as a whole.
@@ -162,7 +162,7 @@ pub struct Unread {
 
 /// Where a service is asked for, taken apart.
 #[derive(Clone, Debug, Serialize)]
-pub struct Address {
+pub struct ExplainedAddress {
     /// The AMS port, if it is known.
     pub port: Option<u16>,
     /// The service, if it is known.
@@ -201,19 +201,19 @@ pub struct FunctionReport {
 }
 
 impl Explanation {
-    pub(super) fn new(length: usize, parts: Vec<Part>) -> Self {
+    pub(super) fn new(length: usize, parts: Vec<ExplainedStream>) -> Self {
         let faulty = parts.iter().any(|part| !part.faults.is_empty());
         let known = parts.iter().any(|part| part.stream.is_some() || part.has_function());
         let outcome = match (faulty, known) {
-            (true, _) => Outcome::Faulty,
-            (_, true) => Outcome::Explained,
-            _ => Outcome::Unknown,
+            (true, _) => ExplanationOutcome::Faulty,
+            (_, true) => ExplanationOutcome::Explained,
+            _ => ExplanationOutcome::Unknown,
         };
         Self { format: 1, length, outcome, parts }
     }
 }
 
-impl Part {
+impl ExplainedStream {
     pub(super) fn new(stream: Stream, at: usize, bytes: &[u8]) -> Self {
         let layout = stream.layout();
         Self {
@@ -231,7 +231,7 @@ impl Part {
     pub(super) fn opaque(title: String, at: usize, bytes: &[u8]) -> Self {
         let mut part = Self { title, at, length: bytes.len(), ..Self::default() };
         if !bytes.is_empty() {
-            part.rows.push(Row::new(0, bytes, "data", String::new()));
+            part.rows.push(ExplainedField::new(0, bytes, "data", String::new()));
         }
         part
     }
@@ -241,9 +241,9 @@ impl Part {
     }
 
     /// Adds a fault and marks the row it is in.
-    pub(super) fn push_fault(&mut self, fault: Fault) {
+    pub(super) fn push_fault(&mut self, fault: ExplainedFault) {
         let at = fault.offset;
-        let here = |row: &&mut Row| {
+        let here = |row: &&mut ExplainedField| {
             row.offset == at
                 || (row.offset < at && at < row.offset.saturating_add(row.length.max(1)))
         };
@@ -264,7 +264,7 @@ impl Part {
     }
 }
 
-impl Row {
+impl ExplainedField {
     pub(super) fn new(offset: usize, bytes: &[u8], field: &str, value: String) -> Self {
         Self {
             offset,
@@ -284,7 +284,7 @@ impl Row {
     }
 }
 
-impl Fault {
+impl ExplainedFault {
     /// The codec's error; its offset counted from `base` bytes before the stream.
     pub(super) fn of(error: &Error, base: usize) -> Self {
         let field: Field = error.field();

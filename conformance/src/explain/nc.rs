@@ -4,7 +4,7 @@ use ads_cnc::layout::Segment;
 use ads_cnc::streaming::{self, LineError, NcText, check_line_ends};
 
 use super::codes::quoted;
-use super::model::{Fault, Part, Row};
+use super::model::{ExplainedFault, ExplainedField, ExplainedStream};
 use super::value::row;
 
 /// A line: where it begins, its characters and its end.
@@ -14,15 +14,20 @@ struct Line<'a> {
 }
 
 /// Adds a row for each line.
-pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
+pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
     let (data, whole) = (segment.bytes, row(segment));
     let lines = lines(data);
     for (number, line) in (1_u32..).zip(&lines) {
-        let mut row = Row {
+        let mut row = ExplainedField {
             item: number.saturating_sub(1),
             ty: "STRING".to_owned(),
             clause: whole.clause,
-            ..Row::new(line.at, line.bytes, &format!("line {number}"), quoted(line.bytes))
+            ..ExplainedField::new(
+                line.at,
+                line.bytes,
+                &format!("line {number}"),
+                quoted(line.bytes),
+            )
         };
         row.meaning = if number == 1 { whole.meaning } else { "" };
         part.rows.push(row);
@@ -39,7 +44,7 @@ pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
                 let at = place(&lines, finding.line, finding.column);
                 let line = format!("line {}", finding.line);
                 if finding.kind.ends_streaming() {
-                    part.push_fault(Fault {
+                    part.push_fault(ExplainedFault {
                         class: "nc-word",
                         field: line,
                         offset: at,
@@ -59,8 +64,8 @@ pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
     }
 }
 
-fn fault(part: &mut Part, lines: &[Line<'_>], error: &LineError, what: &str) {
-    part.push_fault(Fault {
+fn fault(part: &mut ExplainedStream, lines: &[Line<'_>], error: &LineError, what: &str) {
+    part.push_fault(ExplainedFault {
         class: "nc-line",
         field: format!("line {}", error.line()),
         offset: place(lines, error.line(), error.column()),

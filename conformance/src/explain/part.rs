@@ -3,14 +3,19 @@
 use ads_cnc::ErrorKind;
 use ads_cnc::layout::{Segment, Stream};
 
-use super::model::{Fault, Part, size};
+use super::model::{ExplainedFault, ExplainedStream, size};
 use super::nc;
 use super::value;
-use crate::values::Values;
+use crate::values::ValueFormat;
 
 /// A stream that begins at `at` of the bytes given.
-pub(super) fn of_stream(stream: Stream, at: usize, bytes: &[u8], values: &Values) -> Part {
-    let mut part = Part::new(stream, at, bytes);
+pub(super) fn of_stream(
+    stream: Stream,
+    at: usize,
+    bytes: &[u8],
+    values: &ValueFormat,
+) -> ExplainedStream {
+    let mut part = ExplainedStream::new(stream, at, bytes);
     let (mut segments, fault) = walk(stream, bytes);
     if fault.is_some_and(|error| error.kind() == ErrorKind::TooLong) && segments.is_empty() {
         // Of a stream that is too long, what it may have can be shown all the same.
@@ -25,7 +30,7 @@ pub(super) fn of_stream(stream: Stream, at: usize, bytes: &[u8], values: &Values
         }
     }
     if let Some(error) = fault {
-        part.push_fault(Fault::of(&error, 0));
+        part.push_fault(ExplainedFault::of(&error, 0));
         part.leave(end, bytes);
     }
     match stream {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 
-use super::model::{Address, Explanation, Part, Row};
+use super::model::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
 
 /// Bytes shown on one line.
 const LINE: usize = 8;
@@ -46,7 +46,12 @@ pub fn print(explanation: &Explanation, paint: Paint, out: &mut impl Write) -> i
     Ok(())
 }
 
-fn show_part(part: &Part, several: bool, paint: Paint, out: &mut impl Write) -> io::Result<()> {
+fn show_part(
+    part: &ExplainedStream,
+    several: bool,
+    paint: Paint,
+    out: &mut impl Write,
+) -> io::Result<()> {
     if let Some(address) = &part.address {
         show_address(address, paint, out)?;
         if part.title.is_empty() {
@@ -65,7 +70,7 @@ fn show_part(part: &Part, several: bool, paint: Paint, out: &mut impl Write) -> 
         };
         writeln!(out, "  {}", paint.style(DIM, &format!("{clause}: {sources}")))?;
     }
-    let width = |text: fn(&Row) -> usize, most: usize| {
+    let width = |text: fn(&ExplainedField) -> usize, most: usize| {
         part.rows.iter().map(text).filter(|&width| width <= most).max().unwrap_or(0)
     };
     let field = width(|row| row.field.chars().count(), VALUE_MAX);
@@ -100,13 +105,13 @@ fn show_part(part: &Part, several: bool, paint: Paint, out: &mut impl Write) -> 
 }
 
 fn show_row(
-    row: &Row,
+    row: &ExplainedField,
     field: usize,
     value: usize,
     paint: Paint,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let Row { offset, hex, clause, meaning, .. } = row;
+    let ExplainedField { offset, hex, clause, meaning, .. } = row;
     let hex = if row.below { "" } else { hex.as_str() };
     let mut lines = chunks(hex);
     let (mark, style) = if row.faulty { ("!", FAULT) } else { (" ", Style::new()) };
@@ -130,7 +135,7 @@ fn show_row(
     Ok(())
 }
 
-fn show_address(address: &Address, paint: Paint, out: &mut impl Write) -> io::Result<()> {
+fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) -> io::Result<()> {
     let service = address.service.as_deref().unwrap_or("Service");
     let port = address.port.map_or_else(String::new, |port| format!(" at port {port}"));
     let (group, offset) = (address.index_group, address.index_offset);

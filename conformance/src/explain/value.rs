@@ -7,15 +7,20 @@ use ads_cnc::value::DataType;
 use ads_cnc::{Synchronisation, Validity, VariableAccess, VariableType};
 
 use super::codes::{self, number, quoted, text};
-use super::model::{Fault, Part, Row, size};
+use super::model::{ExplainedFault, ExplainedField, ExplainedStream, size};
 use super::typed;
-use crate::values::Values;
+use crate::values::ValueFormat;
 
 /// Bytes of a value that are tried as every type of their size.
 const GUESSED: usize = 8;
 
 /// Adds the rows of a segment to its part.
-pub(super) fn add(part: &mut Part, stream: Stream, segment: &Segment<'_>, values: &Values) {
+pub(super) fn add(
+    part: &mut ExplainedStream,
+    stream: Stream,
+    segment: &Segment<'_>,
+    values: &ValueFormat,
+) {
     let mut row = row(segment);
     match segment.field.spec().map(|spec| spec.ty) {
         Some(Type::String) => row.value = text(segment.bytes),
@@ -30,9 +35,13 @@ pub(super) fn add(part: &mut Part, stream: Stream, segment: &Segment<'_>, values
 }
 
 /// The row of a segment, without its value.
-pub(super) fn row(segment: &Segment<'_>) -> Row {
-    let mut row =
-        Row::new(size(segment.offset), segment.bytes, segment.field.name(), String::new());
+pub(super) fn row(segment: &Segment<'_>) -> ExplainedField {
+    let mut row = ExplainedField::new(
+        size(segment.offset),
+        segment.bytes,
+        segment.field.name(),
+        String::new(),
+    );
     (row.record, row.item) = (segment.record, segment.item);
     if let Some(spec) = segment.field.spec() {
         (row.ty, row.meaning, row.clause) = (spec.ty.to_string(), spec.meaning, spec.clause);
@@ -50,7 +59,7 @@ pub(super) fn bytes(length: usize) -> String {
 }
 
 /// A number or NetId, with what it says.
-fn interpret(row: &mut Row, stream: Stream, ty: Type, bytes: &[u8]) {
+fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     match (ty, bytes) {
         (Type::NetId, _) => {
             let numbers: Vec<String> = bytes.iter().map(u8::to_string).collect();
@@ -70,7 +79,7 @@ fn interpret(row: &mut Row, stream: Stream, ty: Type, bytes: &[u8]) {
 }
 
 /// What a number says in its field.
-fn codes_of(row: &mut Row, stream: Stream, read: u32) {
+fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     let low = u16::try_from(read).unwrap_or_default();
     let name = match (stream, row.field.as_str()) {
         (_, "index_group") if read == 0 => Some("none".to_owned()),
@@ -117,7 +126,7 @@ fn codes_of(row: &mut Row, stream: Stream, read: u32) {
 }
 
 /// A value or content: typed if its type is known, else what it might be.
-fn value(part: &mut Part, mut row: Row, all: &[u8], values: &Values) {
+fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
         row.value = bytes(all.len());
         let guesses = guesses(all);
@@ -141,12 +150,12 @@ fn value(part: &mut Part, mut row: Row, all: &[u8], values: &Values) {
             for (item, element) in (0..).zip(elements) {
                 let (bytes, behind) = rest.split_at_checked(element.len).unwrap_or((rest, &[]));
                 let field = format!("{}{}", row.field, element.place);
-                part.rows.push(Row {
+                part.rows.push(ExplainedField {
                     item,
                     ty: ty.name().to_owned(),
                     meaning: if item == 0 { row.meaning } else { "" },
                     clause: row.clause,
-                    ..Row::new(at, bytes, &field, element.value)
+                    ..ExplainedField::new(at, bytes, &field, element.value)
                 });
                 (rest, at) = (behind, at.saturating_add(element.len));
             }
@@ -155,7 +164,7 @@ fn value(part: &mut Part, mut row: Row, all: &[u8], values: &Values) {
             // The error counts from the value on, and names a table of its own.
             row.value = bytes(all.len());
             let shape: String = dimensions.iter().map(|length| format!("[{length}]")).collect();
-            let mut fault = Fault::of(&error, 0);
+            let mut fault = ExplainedFault::of(&error, 0);
             let reason = fault.text.split_once(": ").map_or("", |(_, reason)| reason);
             let offset = row.offset.saturating_add(fault.offset);
             let (field, ty) = (row.field.clone(), ty.name());
@@ -171,9 +180,10 @@ fn value(part: &mut Part, mut row: Row, all: &[u8], values: &Values) {
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));
-        return match shown && !all.is_empty() && all.len() <= 128 {
-            true => format!("STRING {}", quoted(all)),
-            false => String::new(),
+        return if shown && !all.is_empty() && all.len() <= 128 {
+            format!("STRING {}", quoted(all))
+        } else {
+            String::new()
         };
     }
     let mut all_of_them = Vec::new();

@@ -3,9 +3,9 @@
 //! They are generated from the codec's field tables, so every field has its own.
 //!
 //! ```
-//! use ads_cnc_conformance::faults::Defect;
+//! use ads_cnc_conformance::faults::FieldDefect;
 //!
-//! let defect = Defect::by_id("variable-handle-read.handle.flip").unwrap();
+//! let defect = FieldDefect::by_id("variable-handle-read.handle.flip").unwrap();
 //! assert_eq!(defect.apply(&[1, 0, 0, 2, 0, 0, 0, 0]), [0, 0, 0, 2, 0, 0, 0, 0]);
 //! ```
 
@@ -17,18 +17,18 @@ use crate::text::named;
 
 /// One field done wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Defect {
+pub struct FieldDefect {
     /// Stream, field and change: `variable-description.size.flip`.
     pub id: String,
     pub stream: Stream,
     pub field: Field,
     /// What happens to its bytes.
-    pub change: Change,
+    pub change: FieldChange,
 }
 
 /// What happens to the bytes of a field. Their number never changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Change {
+pub enum FieldChange {
     /// The lowest bit of the first byte is inverted.
     FlipLow,
     /// Every bit is inverted.
@@ -39,9 +39,9 @@ pub enum Change {
     Zero,
 }
 
-named! { Change: FlipLow "flip", Invert "invert", SwapBytes "swap", Zero "zero", }
+named! { FieldChange: FlipLow "flip", Invert "invert", SwapBytes "swap", Zero "zero", }
 
-impl Change {
+impl FieldChange {
     fn apply(self, bytes: &mut [u8]) {
         match self {
             Self::FlipLow => bytes.iter_mut().take(1).for_each(|byte| *byte ^= 1),
@@ -52,7 +52,7 @@ impl Change {
     }
 }
 
-impl Defect {
+impl FieldDefect {
     /// The defects of every stream that goes over the wire.
     ///
     /// Descriptors in sequence have none of their own: a defect of the descriptor is in each.
@@ -65,14 +65,14 @@ impl Defect {
     pub fn of_stream(stream: Stream) -> Vec<Self> {
         let each = |field: Field| {
             let one = field.spec().is_some_and(|spec| spec.size == Size::Fixed(1));
-            let changes = Change::ALL.into_iter();
-            let changes = changes.filter(move |change| !(one && *change == Change::SwapBytes));
+            let changes = FieldChange::ALL.into_iter();
+            let changes = changes.filter(move |change| !(one && *change == FieldChange::SwapBytes));
             changes.map(move |change| Self::new(stream, field, change))
         };
         stream.fields().flat_map(each).collect()
     }
 
-    fn new(stream: Stream, field: Field, change: Change) -> Self {
+    fn new(stream: Stream, field: Field, change: FieldChange) -> Self {
         let id = format!("{}.{}.{}", stream.layout().name, field.name(), change.name());
         Self { id, stream, field, change }
     }
@@ -116,13 +116,13 @@ impl Defect {
     }
 }
 
-impl fmt::Display for Defect {
+impl fmt::Display for FieldDefect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = match self.change {
-            Change::FlipLow => "the lowest bit of its first byte inverted",
-            Change::Invert => "every bit inverted",
-            Change::SwapBytes => "its bytes in reverse order",
-            Change::Zero => "every byte 0",
+            FieldChange::FlipLow => "the lowest bit of its first byte inverted",
+            FieldChange::Invert => "every bit inverted",
+            FieldChange::SwapBytes => "its bytes in reverse order",
+            FieldChange::Zero => "every byte 0",
         };
         write!(f, "{} with {what}", self.field)
     }
@@ -136,23 +136,23 @@ mod tests {
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 
-    fn defect(id: &str) -> Defect {
-        Defect::by_id(id).unwrap()
+    fn defect(id: &str) -> FieldDefect {
+        FieldDefect::by_id(id).unwrap()
     }
 
     #[test]
     fn every_defect_is_found_by_its_id() {
-        let all = Defect::all();
+        let all = FieldDefect::all();
         assert!(all.len() > 100);
         for one in all {
-            assert_eq!(Defect::by_id(&one.id), Some(one));
+            assert_eq!(FieldDefect::by_id(&one.id), Some(one));
         }
-        assert_eq!(Defect::by_id("variable-description.size.melt"), None);
+        assert_eq!(FieldDefect::by_id("variable-description.size.melt"), None);
     }
 
     #[test]
     fn just_the_field_changes() {
-        for one in Defect::of_stream(Stream::VariableDescription) {
+        for one in FieldDefect::of_stream(Stream::VariableDescription) {
             let changed = one.apply(DESCRIPTION);
             assert_eq!(changed.len(), DESCRIPTION.len());
             let mut at = Vec::new();

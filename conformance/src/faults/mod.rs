@@ -5,10 +5,10 @@
 //! by a requirement that it breaks, who only does things in another way may not.
 //!
 //! ```
-//! use ads_cnc_conformance::faults::{self, Kind};
+//! use ads_cnc_conformance::faults::{self, SeedKind};
 //!
 //! let seed = faults::by_id("variable-description.size.flip").unwrap();
-//! assert_eq!((seed.kind, &seed.requirements[..]), (Kind::Codec, &["VAR-4", "VAR-8"][..]));
+//! assert_eq!((seed.kind, &seed.requirements[..]), (SeedKind::Codec, &["VAR-4", "VAR-8"][..]));
 //! ```
 
 mod cnc;
@@ -25,9 +25,9 @@ use std::sync::OnceLock;
 use crate::edition::Edition;
 use crate::text::named;
 
+use cnc::CncFault;
 pub use cnc::Faulty;
-use cnc::Twist;
-pub use field::{Change, Defect};
+pub use field::{FieldChange, FieldDefect};
 
 /// One thing done wrong, or otherwise.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub struct Seed {
     pub requirements: Vec<&'static str>,
     pub what: String,
     /// By whom.
-    pub kind: Kind,
+    pub kind: SeedKind,
     /// The edition it shows in, if it does not in any.
     pub edition: Option<Edition>,
     /// Whether the examples that the manuals print are still answered literally, as far as it is
@@ -49,7 +49,7 @@ pub struct Seed {
 
 /// Who does something wrong, or otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Kind {
+pub enum SeedKind {
     /// A codec. A wrong field is wrong in a CNC too.
     Codec,
     Cnc,
@@ -57,21 +57,21 @@ pub enum Kind {
     Different,
 }
 
-named! { Kind: Codec "codec", Cnc "cnc", Different "different", }
+named! { SeedKind: Codec "codec", Cnc "cnc", Different "different", }
 
 #[derive(Clone, Debug)]
 enum How {
-    Field(Defect),
-    Codec(codec::Twist),
-    Cnc(Twist),
+    Field(FieldDefect),
+    Codec(codec::CodecFault),
+    Cnc(CncFault),
 }
 
 pub fn all() -> &'static [Seed] {
     static ALL: OnceLock<Vec<Seed>> = OnceLock::new();
     ALL.get_or_init(|| {
-        let fields = Defect::all().into_iter().map(Seed::from);
-        let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
-        let variants = variants::rows().map(|row| Seed::of_row(row, Kind::Different));
+        let fields = FieldDefect::all().into_iter().map(Seed::from);
+        let cnc = cnc::rows().map(|row| Seed::of_row(row, SeedKind::Cnc));
+        let variants = variants::rows().map(|row| Seed::of_row(row, SeedKind::Different));
         fields.chain(codec::seeds()).chain(cnc).chain(variants).collect()
     })
 }
@@ -99,22 +99,22 @@ pub const fn without() -> &'static [(&'static str, &'static str)] {
     ]
 }
 
-impl From<Defect> for Seed {
-    fn from(defect: Defect) -> Self {
+impl From<FieldDefect> for Seed {
+    fn from(defect: FieldDefect) -> Self {
         // The field's own clause, and the one that says where in the stream it stands.
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
         requirements.dedup();
         // An error number of 0 is none, and that is all that is said of them.
-        if defect.field.name() == "result" && defect.change == Change::Zero {
+        if defect.field.name() == "result" && defect.change == FieldChange::Zero {
             requirements.push("ADS-7");
         }
         Self {
             id: defect.id.clone(),
             requirements,
             what: defect.to_string(),
-            kind: Kind::Codec,
+            kind: SeedKind::Codec,
             edition: None,
             printed: true,
             how: How::Field(defect),
@@ -123,7 +123,7 @@ impl From<Defect> for Seed {
 }
 
 impl Seed {
-    fn of_row(row: &cnc::Row, kind: Kind) -> Self {
+    fn of_row(row: &cnc::CncSeed, kind: SeedKind) -> Self {
         Self {
             id: row.id.to_owned(),
             requirements: row.breaks.to_vec(),
@@ -131,12 +131,12 @@ impl Seed {
             kind,
             edition: row.edition,
             printed: row.printed,
-            how: How::Cnc(row.twist),
+            how: How::Cnc(row.fault),
         }
     }
 
     /// The wrong field, if that is all.
-    pub fn field(&self) -> Option<&Defect> {
+    pub fn field(&self) -> Option<&FieldDefect> {
         match &self.how {
             How::Field(defect) => Some(defect),
             _ => None,
@@ -144,9 +144,9 @@ impl Seed {
     }
 
     /// What a codec does around its answers.
-    pub(crate) const fn of_codec(&self) -> Option<codec::Twist> {
+    pub(crate) const fn of_codec(&self) -> Option<codec::CodecFault> {
         match self.how {
-            How::Codec(twist) => Some(twist),
+            How::Codec(fault) => Some(fault),
             _ => None,
         }
     }
@@ -159,14 +159,14 @@ impl Seed {
     /// The model, if the CNC is another one: with channels, variables and objects of its own.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
-            How::Cnc(Twist::Model(model)) => Some(model),
+            How::Cnc(CncFault::Model(model)) => Some(model),
             _ => None,
         }
     }
 
     /// Whether a codec can have it.
     pub const fn is_for_codec(&self) -> bool {
-        matches!(self.kind, Kind::Codec)
+        matches!(self.kind, SeedKind::Codec)
     }
 }
 

@@ -10,13 +10,13 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Row, Twist, Upstream, behind, dimensions, first,
-    fits, function, group, is, measured, number, offset, on, put, records_mut, row, text, twisted,
-    u32_at,
+    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Upstream, after_nul, dimensions,
+    fault, first, function, group, is, measured, number, offset, on, records_mut, row, set_u32,
+    text, u32_at, within_length,
 };
 
 /// A row about something that does not answer as printed.
-const fn unprinted(mut row: Row) -> Row {
+const fn unprinted(mut row: CncSeed) -> CncSeed {
     row.printed = false;
     row
 }
@@ -25,8 +25,8 @@ const fn sent(
     id: &'static str,
     what: &'static str,
     frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> Row {
-    twisted(id, &[], what, Twist::Frame(frame))
+) -> CncSeed {
+    fault(id, &[], what, CncFault::Frame(frame))
 }
 
 /// The handles of replies and, back, of requests made others.
@@ -37,7 +37,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
         Some((b"handle", _)) => {
             let mut data = call.data.to_vec();
             let handle = u32_at(&data, 0).unwrap_or_default();
-            put(&mut data, 0, other(handle));
+            set_u32(&mut data, 0, other(handle));
             cnc.with(call, &data)
         }
         _ => cnc.answer(call),
@@ -53,17 +53,17 @@ fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
 
 /// If it is too long for the client, as it was.
 fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: ReplyData) -> ReplyData {
-    fits(call, answer).or_else(|_| cnc.answer(call))
+    within_length(call, answer).or_else(|_| cnc.answer(call))
 }
 
-pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
+pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
     let areas =
         [ROWS, elements::ROWS, unspecified::ROWS, replies::ROWS, models::ROWS, requests::ROWS];
     areas.into_iter().flatten()
 }
 
 #[rustfmt::skip]
-const ROWS: &[Row] = &[
+const ROWS: &[CncSeed] = &[
     unprinted(row("different.names-padded", &[], "names are padded with NULs as far as the field goes",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex) => {
@@ -104,8 +104,8 @@ const ROWS: &[Row] = &[
             }
             _ => cnc.answer(call),
         })),
-    twisted("different.bytes-alone", &[], "every byte is sent by itself", Twist::Pieces(1)),
-    twisted("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", Twist::Pieces(40)),
+    fault("different.bytes-alone", &[], "every byte is sent by itself", CncFault::Pieces(1)),
+    fault("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", CncFault::Pieces(40)),
     row("different.error-numbers", &[], "errors have other numbers",
         |cnc, call| cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))),
     row("different.error-one", &[], "every error has the same number",
@@ -119,7 +119,7 @@ const ROWS: &[Row] = &[
     sent("different.errors-in-header", "errors stand in the AMS header, and there is no data",
         |_, _, mut bytes| match u32_at(&bytes, 38) {
             Some(error @ 1..) => {
-                put(&mut bytes, 30, error);
+                set_u32(&mut bytes, 30, error);
                 bytes.truncate(38);
                 measured(bytes)
             }
@@ -152,12 +152,10 @@ const ROWS: &[Row] = &[
                 let index = count.wrapping_add(1).wrapping_sub(index);
                 cnc.at(&Call { read_length: 84, ..*call }, group(call), index)
             };
-            match first > count || call.read_length < 84 {
-                true => cnc.answer(call),
-                false => (first..=last)
-                    .map(one)
-                    .collect::<Result<Vec<_>, _>>()
-                    .map(|all| all.concat()),
+            if first > count || call.read_length < 84 {
+                cnc.answer(call)
+            } else {
+                (first..=last).map(one).collect::<Result<Vec<_>, _>>().map(|all| all.concat())
             }
         })),
     row("different.true-255", &[], "TRUE is 0xFF in write flags, 0xFFFF in descriptors",
@@ -176,7 +174,7 @@ const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     unprinted(on("different.length-1-byte", &[], "the length of an element takes 1 byte",
-        &[Function::ReadElementLength], |cnc, call| fits(
+        &[Function::ReadElementLength], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 bytes.truncate(1);
@@ -184,7 +182,7 @@ const ROWS: &[Row] = &[
             }),
         ))),
     unprinted(on("different.length-2-bytes", &[], "the length of an element takes 2 bytes",
-        &[Function::ReadElementLength], |cnc, call| fits(
+        &[Function::ReadElementLength], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 bytes.truncate(2);
@@ -227,9 +225,10 @@ const ROWS: &[Row] = &[
             (_, answer) => answer,
         }),
     row("different.kind-with-nul", &[], "the empty kind takes its NUL",
-        |cnc, call| match is(call, &[Function::CountVariables]) && call.data.is_empty() {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::CountVariables]) && call.data.is_empty() {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("different.absent-refused", &[], "an instance that is not there is answered with an error",
         |cnc, call| match (is(call, &[Function::FindInstance]), cnc.answer(call)) {

@@ -89,10 +89,7 @@ impl Allowed {
         if target == NET_ID && !address.is_some_and(|address| address.is_loopback()) {
             return Err(Reason::LocalNetId(address));
         }
-        match now >= self.expires {
-            true => Err(Reason::Expired(self.expires)),
-            false => Ok(()),
-        }
+        if now >= self.expires { Err(Reason::Expired(self.expires)) } else { Ok(()) }
     }
 }
 
@@ -110,7 +107,7 @@ pub enum Entry {
     /// The content at an address: of a COM object or of an element.
     Content { group: IndexGroup, offset: IndexOffset },
     /// The content of the one COM object of this name in a list.
-    Object { list: List, name: CncString },
+    Object { list: AllowedList, name: CncString },
     /// NC programs for a channel.
     Stream(Channel),
     /// What a host of the Service Interface writes to a channel.
@@ -118,7 +115,7 @@ pub enum Entry {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum List {
+pub enum AllowedList {
     /// Of the platform.
     Platform,
     /// Of a channel.
@@ -127,7 +124,7 @@ pub enum List {
     Axis(PlatformAxis),
 }
 
-impl List {
+impl AllowedList {
     /// The list as it is addressed.
     pub fn list(self) -> ObjectList {
         match self {
@@ -178,9 +175,10 @@ impl Entry {
                 Ok(self.allows_variable(op.channel, Some(op.axis), op.name))
             }
             (Self::Content { group, offset }, Request::WriteObject(op)) => {
-                match (op.index_group(), op.index_offset()) == (*group, *offset) {
-                    true => observed.has_one_name((*group, *offset)).map(|()| true),
-                    false => Ok(false),
+                if (op.index_group(), op.index_offset()) == (*group, *offset) {
+                    observed.has_one_name((*group, *offset)).map(|()| true)
+                } else {
+                    Ok(false)
                 }
             }
             (Self::Content { .. } | Self::Stream(_), _) => {
@@ -248,9 +246,9 @@ impl fmt::Display for Entry {
             }
             Self::Object { list, name } => {
                 let list = match list {
-                    List::Platform => "channel = 0".to_owned(),
-                    List::Channel(channel) => at(*channel),
-                    List::Axis(axis) => format!("axis = {}", axis.index()),
+                    AllowedList::Platform => "channel = 0".to_owned(),
+                    AllowedList::Channel(channel) => at(*channel),
+                    AllowedList::Axis(axis) => format!("axis = {}", axis.index()),
                 };
                 write!(f, "[[object]]\n{list}\nname = {}", quoted(name))
             }

@@ -17,7 +17,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
 use toml::value::Datetime;
 
-use super::{Allowed, Entry, List, Moment};
+use super::{Allowed, AllowedList, Entry, Moment};
 
 /// Why a file allows nothing.
 #[derive(Clone, Debug)]
@@ -54,12 +54,12 @@ impl Allowed {
     /// The line and what is wrong in it: keys that are unknown or missing, values out of range, an
     /// address that nothing is written to.
     pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
-        let file: File = toml::from_str(text).map_err(|error| {
+        let file: AllowListFile = toml::from_str(text).map_err(|error| {
             // As it shows itself it draws the line; the message alone does not say which.
             let why = error.to_string().trim_end().to_owned();
             AllowFileError { file: None, why }
         })?;
-        let File {
+        let AllowListFile {
             target,
             address,
             malformed,
@@ -70,18 +70,19 @@ impl Allowed {
             stream,
             service,
         } = file;
-        let mut entries: Vec<Entry> = variable.into_iter().map(|VariableTable(one)| one).collect();
-        entries.extend(object.into_iter().map(|ObjectTable(one)| one));
-        entries.extend(element.into_iter().map(|ElementTable(one)| one));
-        entries.extend(stream.into_iter().map(|ChannelTable(channel)| Entry::Stream(channel)));
-        entries.extend(service.into_iter().map(|ChannelTable(channel)| Entry::Service(channel)));
+        let mut entries: Vec<Entry> =
+            variable.into_iter().map(|AllowedVariable(one)| one).collect();
+        entries.extend(object.into_iter().map(|AllowedObject(one)| one));
+        entries.extend(element.into_iter().map(|AllowedElement(one)| one));
+        entries.extend(stream.into_iter().map(|AllowedChannel(channel)| Entry::Stream(channel)));
+        entries.extend(service.into_iter().map(|AllowedChannel(channel)| Entry::Service(channel)));
         Ok(Self { target, address, malformed, expires, entries })
     }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct AllowListFile {
     #[serde(deserialize_with = "net_id")]
     target: AmsNetId,
     #[serde(default, deserialize_with = "address")]
@@ -91,15 +92,15 @@ struct File {
     #[serde(deserialize_with = "moment")]
     expires: Moment,
     #[serde(default)]
-    variable: Vec<VariableTable>,
+    variable: Vec<AllowedVariable>,
     #[serde(default)]
-    object: Vec<ObjectTable>,
+    object: Vec<AllowedObject>,
     #[serde(default)]
-    element: Vec<ElementTable>,
+    element: Vec<AllowedElement>,
     #[serde(default)]
-    stream: Vec<ChannelTable>,
+    stream: Vec<AllowedChannel>,
     #[serde(default)]
-    service: Vec<ChannelTable>,
+    service: Vec<AllowedChannel>,
 }
 
 fn net_id<'de, D: Deserializer<'de>>(value: D) -> Result<AmsNetId, D::Error> {
@@ -131,9 +132,9 @@ struct RawVariable {
 
 #[derive(Deserialize)]
 #[serde(try_from = "RawVariable")]
-struct VariableTable(Entry);
+struct AllowedVariable(Entry);
 
-impl TryFrom<RawVariable> for VariableTable {
+impl TryFrom<RawVariable> for AllowedVariable {
     type Error = String;
 
     fn try_from(raw: RawVariable) -> Result<Self, String> {
@@ -157,9 +158,9 @@ struct RawObject {
 
 #[derive(Deserialize)]
 #[serde(try_from = "RawObject")]
-struct ObjectTable(Entry);
+struct AllowedObject(Entry);
 
-impl TryFrom<RawObject> for ObjectTable {
+impl TryFrom<RawObject> for AllowedObject {
     type Error = String;
 
     fn try_from(raw: RawObject) -> Result<Self, String> {
@@ -167,11 +168,11 @@ impl TryFrom<RawObject> for ObjectTable {
         match (name, group, offset, channel.is_some() || rank.is_some() || axis.is_some()) {
             (Some(name), None, None, _) => {
                 let list = match (channel, rank, axis) {
-                    (Some(0), None, None) => List::Platform,
-                    (None, None, Some(axis)) => {
-                        List::Axis(PlatformAxis::new(axis).map_err(|error| error.to_string())?)
-                    }
-                    (channel, rank, None) => List::Channel(one_of(channel, rank)?),
+                    (Some(0), None, None) => AllowedList::Platform,
+                    (None, None, Some(axis)) => AllowedList::Axis(
+                        PlatformAxis::new(axis).map_err(|error| error.to_string())?,
+                    ),
+                    (channel, rank, None) => AllowedList::Channel(one_of(channel, rank)?),
                     _ => return Err("an object is in the list of a channel or of an axis".into()),
                 };
                 Ok(Self(Entry::Object { list, name: text(&name, DESCRIPTOR_TEXT_LEN)? }))
@@ -182,7 +183,7 @@ impl TryFrom<RawObject> for ObjectTable {
                     return Err("the program stream is allowed by a table [[stream]]".into());
                 }
                 let odd = |_| format!("no content of a COM object is at {group}, {offset}");
-                WriteObject::new(group, offset, &[]).map_err(odd)?;
+                WriteObject::new(group, offset, &[][..]).map_err(odd)?;
                 Ok(Self(Entry::Content { group, offset }))
             }
             _ => Err("an object has either group and offset, or channel and name".into()),
@@ -199,9 +200,9 @@ struct RawElement {
 
 #[derive(Deserialize)]
 #[serde(try_from = "RawElement")]
-struct ElementTable(Entry);
+struct AllowedElement(Entry);
 
-impl TryFrom<RawElement> for ElementTable {
+impl TryFrom<RawElement> for AllowedElement {
     type Error = String;
 
     fn try_from(raw: RawElement) -> Result<Self, String> {
@@ -212,7 +213,7 @@ impl TryFrom<RawElement> for ElementTable {
         else {
             return Err(odd());
         };
-        WriteElement::new(ElementAddress::new(class, offset), &[]).map_err(|_| odd())?;
+        WriteElement::new(ElementAddress::new(class, offset), &[][..]).map_err(|_| odd())?;
         Ok(Self(Entry::Content { group, offset }))
     }
 }
@@ -226,9 +227,9 @@ struct RawChannel {
 
 #[derive(Deserialize)]
 #[serde(try_from = "RawChannel")]
-struct ChannelTable(Channel);
+struct AllowedChannel(Channel);
 
-impl TryFrom<RawChannel> for ChannelTable {
+impl TryFrom<RawChannel> for AllowedChannel {
     type Error = String;
 
     fn try_from(RawChannel { channel, rank }: RawChannel) -> Result<Self, String> {

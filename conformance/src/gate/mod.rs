@@ -29,7 +29,7 @@ mod observed;
 mod refusal;
 
 pub use crate::text::Moment;
-pub use allowed::{Allowed, Entry, List};
+pub use allowed::{Allowed, AllowedList, Entry};
 pub use file::AllowFileError;
 pub use refusal::{Doubt, Reason, Refusal};
 
@@ -170,9 +170,12 @@ impl Gate {
             Err(reason) => return Err(reason.into()),
         };
         let target = whole.header().target.net_id;
-        let malformed = |reason: Reason| match self.lets_malformed_pass() {
-            true => self.check_malformed(target, now).and_then(|()| permit(false)),
-            false => Err(reason.into()),
+        let malformed = |reason: Reason| {
+            if self.lets_malformed_pass() {
+                self.check_malformed(target, now).and_then(|()| permit(false))
+            } else {
+                Err(reason.into())
+            }
         };
         let header = whole.header();
         // What is never sent is not sent with odd flags either.
@@ -299,10 +302,7 @@ fn never(call: &Call<'_>) -> Result<(), Refusal> {
     // write does at another port than COM's.
     let documented =
         call.service == Service::Write && com.instance != 0 && call.port == AmsPort::COM;
-    match stream && !documented {
-        true => Err(Reason::Stream.into()),
-        false => Ok(()),
-    }
+    if stream && !documented { Err(Reason::Stream.into()) } else { Ok(()) }
 }
 
 /// The index groups of ADS for several requests in one.

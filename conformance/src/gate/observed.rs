@@ -105,9 +105,10 @@ impl Observed {
         if let Some(name) = named.allowed.keys().find(several) {
             return Err(Doubt::Several(name.clone()));
         }
-        match named.allowed.values().any(|from| from.handle_by_name && from.description) {
-            true => Ok(true),
-            false => Err(Doubt::Unconfirmed(name.clone())),
+        if named.allowed.values().any(|from| from.handle_by_name && from.description) {
+            Ok(true)
+        } else {
+            Err(Doubt::Unconfirmed(name.clone()))
         }
     }
 

@@ -194,14 +194,14 @@ impl fmt::Display for Refusal {
             Reason::OtherAddress { allowed, address } => write!(
                 f,
                 "the file of --allow-write is for the address {}, not for {}",
-                shown(allowed),
-                shown(address)
+                address_text(allowed),
+                address_text(address)
             ),
             Reason::LocalNetId(address) => write!(
                 f,
                 "the file of --allow-write is for 127.0.0.1.1.1, which is the NetId of whichever \
                  machine is asked, and {} is not this one",
-                shown(address)
+                address_text(address)
             ),
             Reason::Doubtful(function, doubt) => write!(
                 f,
@@ -220,6 +220,6 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-fn shown(address: &Option<IpAddr>) -> String {
+fn address_text(address: &Option<IpAddr>) -> String {
     address.map_or_else(|| "one that is not known".to_owned(), |address| address.to_string())
 }

@@ -66,7 +66,7 @@ fn channel(number: u32) -> Channel {
 }
 
 fn by_name(name: &str) -> Vec<u8> {
-    request(WriteByName::new(channel(1), name, &[1]).unwrap())
+    request(WriteByName::new(channel(1), name, &[1][..]).unwrap())
 }
 
 fn element() -> ElementAddress {
@@ -80,15 +80,15 @@ fn writes() -> Vec<(Vec<u8>, &'static str)> {
     vec![
         (by_name("V.E.a"), "[[variable]]\nchannel = 1\nname = \"V.E.a\""),
         (
-            request(AxisWriteByName::new(channel(1), axis, "V.A.a", &[1]).unwrap()),
+            request(AxisWriteByName::new(channel(1), axis, "V.A.a", &[1][..]).unwrap()),
             "[[variable]]\nchannel = 1\naxis = 2\nname = \"V.A.a\"",
         ),
         (
-            request(WriteElement::new(element(), &[1]).unwrap()),
+            request(WriteElement::new(element(), &[1][..]).unwrap()),
             "[[element]]\ngroup = 0x123301\noffset = 0x1",
         ),
         (
-            request(WriteObject::new(group, offset, &[1]).unwrap()),
+            request(WriteObject::new(group, offset, &[1][..]).unwrap()),
             "[[object]]\ngroup = 0x120101\noffset = 0x1",
         ),
         (request(WriteProgramStream::new(channel(1), b"M30\r\n")), "[[stream]]\nchannel = 1"),
@@ -234,9 +234,9 @@ fn a_variable_stands_for_its_elements_only() {
     assert!(one.check(&by_name("V.E.list"), now()).is_err());
     assert!(one.check(&by_name("V.E.list[31]"), now()).is_err());
     // A rank is no number: another channel may be there.
-    let by_rank = WriteByName::new(Channel::by_index(1).unwrap(), "V.E.list", &[1]).unwrap();
+    let by_rank = WriteByName::new(Channel::by_index(1).unwrap(), "V.E.list", &[1][..]).unwrap();
     assert!(list.check(&request(by_rank), now()).is_err());
-    let other = WriteByName::new(channel(2), "V.E.list", &[1]).unwrap();
+    let other = WriteByName::new(channel(2), "V.E.list", &[1][..]).unwrap();
     assert!(list.check(&request(other), now()).is_err());
 }
 
@@ -247,7 +247,7 @@ fn learn<'a>(gate: &mut Gate, request: impl Into<Request<'a>>, reply: &[u8]) {
 }
 
 fn by_handle(handle: u32) -> Vec<u8> {
-    request(WriteByHandle::new(channel(1), Handle(handle), U32List::from(&[4]), &[1]))
+    request(WriteByHandle::new(channel(1), Handle(handle), U32List::from(&[4]), &[1][..]))
 }
 
 fn give_handle(gate: &mut Gate, name: &str, handle: u32) {
@@ -422,7 +422,7 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     let list = |names: [(&str, u32); 3]| names.map(|(name, offset)| object(name, offset)).concat();
     let write = |offset| {
         let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(offset));
-        request(WriteObject::new(group, offset, &[1]).unwrap())
+        request(WriteObject::new(group, offset, &[1][..]).unwrap())
     };
     let three = [3, 0, 0, 0];
     let ask = |first, count| ReadDescriptors::new(channel(1), first, count).unwrap();
@@ -588,10 +588,10 @@ fn entries_are_shown_as_they_are_read() {
             axis: None,
             name: "V.E.\"L\\\u{e4}nge\"\u{7f}".parse().unwrap(),
         },
-        Entry::Object { list: List::Platform, name: "a".parse().unwrap() },
-        Entry::Object { list: List::Channel(channel(2)), name: "a".parse().unwrap() },
+        Entry::Object { list: AllowedList::Platform, name: "a".parse().unwrap() },
+        Entry::Object { list: AllowedList::Channel(channel(2)), name: "a".parse().unwrap() },
         Entry::Object {
-            list: List::Axis(ads_cnc::address::PlatformAxis::new(3).unwrap()),
+            list: AllowedList::Axis(ads_cnc::address::PlatformAxis::new(3).unwrap()),
             name: "a".parse().unwrap(),
         },
         Entry::Content {

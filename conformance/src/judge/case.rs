@@ -14,7 +14,7 @@ pub struct Case {
     pub id: String,
     /// What is tried, in a sentence.
     pub title: String,
-    pub subject: Subject,
+    pub subject: CaseSubject,
     /// The requirements it can judge.
     pub requirements: Vec<&'static str>,
     /// What it asks of the target beyond a first channel.
@@ -24,7 +24,7 @@ pub struct Case {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Subject {
+pub enum CaseSubject {
     /// This project's codec.
     Codec,
     /// A codec behind a pipe.
@@ -38,12 +38,12 @@ pub enum Subject {
     CapturedCnc,
 }
 
-named! { Subject:
+named! { CaseSubject:
     Codec "codec", Testee "testee", Target "target", Client "client",
     CapturedClient "captured-client", CapturedCnc "captured-cnc",
 }
 
-impl fmt::Display for Subject {
+impl fmt::Display for CaseSubject {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }

@@ -1,6 +1,6 @@
 //! The bytes that a check is about.
 
-use crate::values::Values;
+use crate::values::ValueFormat;
 
 /// The bytes of an exchange, as a report shows them.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +18,7 @@ pub struct Evidence {
     /// What the data of the reply should have been, where that is known to the byte.
     pub expected: Option<Vec<u8>>,
     /// How values among the data are to be read.
-    pub values: Values,
+    pub values: ValueFormat,
     /// What came of it, in a few words.
     pub result: String,
     /// The whole frame sent.

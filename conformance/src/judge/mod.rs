@@ -12,18 +12,18 @@ mod verdict;
 mod waivers;
 
 pub(crate) use case::in_catalogue;
-pub use case::{Body, Case, Needs, Subject};
+pub use case::{Body, Case, CaseSubject, Needs};
 pub(crate) use check::{Checks, IfThere, OrStop, Record, TEXT_MAX, applicable};
 pub use check::{Describe, Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub use evidence::Evidence;
 pub use left_changed::LeftChanged;
 pub(crate) use outcome::caught;
-pub use outcome::{Outcome, RequirementVerdict, gravest};
+pub use outcome::{CaseOutcome, RequirementVerdict, gravest};
 pub use plan::{LeftOut, Plan, Selection, Unmatched, any_seed};
 pub(crate) use plan::{names, order};
 pub use vectors::siblings_of;
 pub(crate) use vectors::{case_of, codec_cases, typed};
-pub use verdict::{Exit, Tally, Verdict};
+pub use verdict::{Exit, Verdict, VerdictTally};
 pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
 
 /// What the protocol with a codec demands, beside the requirements of the catalogue.

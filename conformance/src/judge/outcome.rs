@@ -5,7 +5,7 @@ use std::panic::{self, AssertUnwindSafe};
 use super::{Case, Judgement, Stop, Verdict};
 
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CaseOutcome {
     pub case: Case,
     pub verdicts: Vec<RequirementVerdict>,
     pub checks: usize,
@@ -28,7 +28,7 @@ pub struct RequirementVerdict {
 /// Why a case did not come to its end.
 const INTERRUPTED: &str = "interrupted before its end";
 
-impl Outcome {
+impl CaseOutcome {
     /// A case that was not begun when the run was interrupted.
     pub(crate) fn interrupted(case: Case) -> Self {
         Self::untried(case, Verdict::Interrupted, "interrupted before it was begun")

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher as _, RandomState};
 
 use ads_cnc_vectors::{Source, requirement};
 
-use super::{Body, Case, Needs, Outcome, Subject, Verdict};
+use super::{Body, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
 
 /// What is to be run.
@@ -57,7 +57,7 @@ pub struct Plan {
 pub struct LeftOut {
     pub id: String,
     /// Whom it would have judged.
-    pub subject: Subject,
+    pub subject: CaseSubject,
     /// And by what.
     pub requirements: Vec<&'static str>,
 }
@@ -90,7 +90,7 @@ impl Selection {
             judged: HashMap::new(),
         };
         for case in cases {
-            let wanted = self.wanted(&case);
+            let wanted = self.selected_requirements(&case);
             if wanted.is_empty() {
                 plan.left_out.push(case);
                 continue;
@@ -109,7 +109,7 @@ impl Selection {
     }
 
     /// What of a case is to be judged.
-    fn wanted(&self, case: &Case) -> Vec<&'static str> {
+    fn selected_requirements(&self, case: &Case) -> Vec<&'static str> {
         let whole = self.only.is_empty()
             || self.only.iter().any(|word| word.eq_ignore_ascii_case(&case.id));
         let selected = |id: &&str| whole || self.only.iter().any(|word| names(word, id));
@@ -130,7 +130,7 @@ impl Plan {
     /// What judges frames needs some: if nothing else is selected that exchanges any, the other
     /// queries are made for their sake.
     fn carry_frames(&mut self) {
-        let of_target = |case: &&Case| case.subject == Subject::Target;
+        let of_target = |case: &&Case| case.subject == CaseSubject::Target;
         let frames = |case: &Case| case.needs == Needs::Frames;
         if !self.cases.iter().any(frames)
             || self.cases.iter().filter(of_target).any(|one| !frames(one))
@@ -151,7 +151,7 @@ impl Plan {
     }
 
     /// Keeps of the outcomes what was asked for, and says what was not run.
-    pub fn finish(self, outcomes: Vec<Outcome>) -> (Vec<Outcome>, Vec<LeftOut>) {
+    pub fn finish(self, outcomes: Vec<CaseOutcome>) -> (Vec<CaseOutcome>, Vec<LeftOut>) {
         let Self { foreign, left_out, judged, .. } = self;
         let mut left_out: Vec<LeftOut> = left_out.iter().map(|case| left(case, &[])).collect();
         let mut kept = Vec::new();
@@ -168,7 +168,7 @@ impl Plan {
             }
             kept.push(outcome);
         }
-        let untried = |(case, why)| Outcome::untried(case, Verdict::NotRun, why);
+        let untried = |(case, why)| CaseOutcome::untried(case, Verdict::NotRun, why);
         kept.extend(foreign.into_iter().map(untried));
         (kept, left_out)
     }
@@ -272,7 +272,7 @@ mod tests {
         let only = plan(None, &["ads-every-frame"], 1);
         assert!(only.cases.len() > 10);
         let outcomes = only.cases.iter().cloned();
-        let outcomes = outcomes.map(|case| Outcome::untried(case, Verdict::Pass, ""));
+        let outcomes = outcomes.map(|case| CaseOutcome::untried(case, Verdict::Pass, ""));
         let (kept, left) = only.clone().finish(outcomes.collect());
         assert_eq!(kept.len(), 1);
         assert_eq!(left.len(), cases().len() - 1);

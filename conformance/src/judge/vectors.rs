@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use ads_cnc_vectors::{Context, Given, Sequence, Vector, sequence, sequences, vector, vectors};
 
-use super::{Body, Case, Needs, Subject};
-use crate::values::{Values, type_by_name};
+use super::{Body, Case, CaseSubject, Needs};
+use crate::values::{ValueFormat, type_by_name};
 
 /// One case for each vector, and for each text that is put into packets or looked through.
 pub(crate) fn codec_cases() -> Vec<Case> {
@@ -22,7 +22,7 @@ fn of_text(sequence: &'static Sequence) -> Case {
     Case {
         id: format!("seq-{}", sequence.id),
         title: sequence.title.clone(),
-        subject: Subject::Codec,
+        subject: CaseSubject::Codec,
         requirements: sequence.cited().into_iter().map(|one| one.id.as_str()).collect(),
         needs: Needs::Codec,
         body: Body::Sequence(sequence),
@@ -57,7 +57,7 @@ pub(crate) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -
     Case {
         id: format!("{prefix}-{}", vector.id),
         title: vector.title.clone(),
-        subject: if needs == Needs::Codec { Subject::Codec } else { Subject::Target },
+        subject: if needs == Needs::Codec { CaseSubject::Codec } else { CaseSubject::Target },
         requirements: vector.cited().into_iter().map(|one| one.id.as_str()).collect(),
         needs,
         body,
@@ -65,7 +65,7 @@ pub(crate) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -
 }
 
 /// How a report reads the value of a vector.
-pub(crate) fn typed(context: &Context) -> Values {
+pub(crate) fn typed(context: &Context) -> ValueFormat {
     let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
-    Values { ty, dimensions: context.dimensions.clone().unwrap_or_default() }
+    ValueFormat { ty, dimensions: context.dimensions.clone().unwrap_or_default() }
 }

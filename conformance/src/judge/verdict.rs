@@ -145,7 +145,7 @@ impl Exit {
 
     /// The first that holds for these verdicts.
     pub fn of(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
-        let mut tally = Tally::default();
+        let mut tally = VerdictTally::default();
         verdicts.into_iter().for_each(|verdict| tally.add(verdict, false));
         tally.exit()
     }
@@ -153,7 +153,7 @@ impl Exit {
 
 /// What a run had, as far as it decides how the process ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct VerdictTally {
     judged: bool,
     failed: bool,
     open: bool,
@@ -166,7 +166,7 @@ pub struct Tally {
     pub left_changed: bool,
 }
 
-impl Tally {
+impl VerdictTally {
     /// Counts a verdict. One that is put up with is judged, and that is all.
     pub const fn add(&mut self, verdict: Verdict, waived: bool) {
         if verdict.is_judged() || waived {
@@ -235,7 +235,7 @@ mod tests {
     fn waivers_decide_in_their_turn() {
         use Verdict::*;
         let exit = |verdicts: &[(Verdict, bool)], stale, refused| {
-            let mut tally = Tally { stale, refused, ..Tally::default() };
+            let mut tally = VerdictTally { stale, refused, ..VerdictTally::default() };
             verdicts.iter().for_each(|&(verdict, waived)| tally.add(verdict, waived));
             tally.exit().code()
         };
@@ -246,7 +246,8 @@ mod tests {
         assert_eq!(exit(&[(Fail, false)], true, true), 4);
         assert_eq!(exit(&[(HarnessError, false)], true, true), 70);
         let left = |verdict| {
-            let mut tally = Tally { left_changed: true, refused: true, ..Tally::default() };
+            let mut tally =
+                VerdictTally { left_changed: true, refused: true, ..VerdictTally::default() };
             tally.add(verdict, false);
             tally.exit().code()
         };

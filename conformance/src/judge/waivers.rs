@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::value::{Date, Datetime};
 
-use super::{LeftOut, Outcome, Verdict};
+use super::{CaseOutcome, LeftOut, Verdict};
 use crate::text::Moment;
 
 /// Known failures.
@@ -109,7 +109,7 @@ struct Waiver {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct WaiverFile {
     #[serde(default)]
     waiver: Vec<Spanned<Waiver>>,
 }
@@ -130,7 +130,7 @@ impl Waivers {
     /// not exist, a verdict that needs no waiver, no reason, no day, or one waiver twice.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
-        let file: File = toml::from_str(text).map_err(|error| {
+        let file: WaiverFile = toml::from_str(text).map_err(|error| {
             // As it shows itself it draws the line; the message alone does not say which.
             failed(error.to_string().trim_end().to_owned())
         })?;
@@ -160,7 +160,7 @@ impl Waivers {
 
     pub(crate) fn apply(
         &self,
-        outcomes: &[Outcome],
+        outcomes: &[CaseOutcome],
         left_out: &[LeftOut],
         now: Moment,
     ) -> Vec<WaiverReport> {
@@ -169,7 +169,7 @@ impl Waivers {
 }
 
 impl Waiver {
-    fn apply(&self, outcomes: &[Outcome], left_out: &[LeftOut], now: Moment) -> WaiverReport {
+    fn apply(&self, outcomes: &[CaseOutcome], left_out: &[LeftOut], now: Moment) -> WaiverReport {
         let Self { test, requirement, verdict, reason, expires } = self;
         let left = left_out
             .iter()

@@ -8,7 +8,7 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::{Document, Requirement, documents, requirements};
 
 use super::types::{self, AREAS};
-use super::{Row, joined};
+use super::{RequirementRow, joined};
 
 const HEAD: &str = "| section | requirements | functions | types | vectors | cases | fuzz targets |\n\
                     |---|---|---|---|---|---|---|\n";
@@ -16,7 +16,7 @@ const HEAD: &str = "| section | requirements | functions | types | vectors | cas
 /// For people: a table of the areas, and one of each manual's sections.
 ///
 /// Both editions of the manual on ADS access share one, as their sections have the same numbers.
-pub fn to_sections(rows: &[Row]) -> String {
+pub fn to_sections(rows: &[RequirementRow]) -> String {
     let mut text = String::from("# What stands for which section of the manuals\n\n");
     text += "Made by `ads-cnc requirements --format sections`, from the catalogue, the vectors, the \
              codec's tables and the\nsuite's cases. A vector or case stands in every row that it bears \
@@ -45,7 +45,7 @@ pub fn to_sections(rows: &[Row]) -> String {
 }
 
 /// The areas alone, which the README has.
-fn areas(rows: &[Row]) -> String {
+fn areas(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| area | about | manual | types | requirements | vectors | cases | fuzz targets |\n\
          |---|---|---|---|---|---|---|---|\n",
@@ -89,7 +89,7 @@ struct SectionCoverage<'r> {
 }
 
 impl<'r> SectionCoverage<'r> {
-    fn of(rows: impl Iterator<Item = &'r Row>) -> Self {
+    fn of(rows: impl Iterator<Item = &'r RequirementRow>) -> Self {
         let mut found = Self::default();
         for row in rows {
             found.ids.push(&row.id);
@@ -119,7 +119,7 @@ impl<'r> SectionCoverage<'r> {
 fn line(
     section: &str,
     document: &str,
-    rows: &[Row],
+    rows: &[RequirementRow],
     is_source: impl Fn(&Requirement) -> bool,
 ) -> String {
     let sourced: BTreeSet<&str> = requirements()

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::judge::Exit;
 
-static CAME: AtomicBool = AtomicBool::new(false);
+static REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// What a shell gives a process that Ctrl-C has ended.
 const INTERRUPTED: i32 = 130;
@@ -17,9 +17,9 @@ const INTERRUPTED: i32 = 130;
 /// How often a wait that can be interrupted looks whether it is.
 pub(crate) const LOOK: Duration = Duration::from_millis(20);
 
-/// Whether a caught signal has come.
-pub(crate) fn came() -> bool {
-    CAME.load(Ordering::SeqCst)
+/// Whether a signal that ends the process was caught.
+pub(crate) fn is_requested() -> bool {
+    REQUESTED.load(Ordering::SeqCst)
 }
 
 /// SIGSTKFLT, SIGPWR and the real-time signals end a process too. Their numbers are Linux's.
@@ -86,7 +86,7 @@ impl Interrupt {
     ) -> io::Result<Self> {
         let (tell, told) = mpsc::channel();
         let handler = move || {
-            if CAME.swap(true, Ordering::SeqCst) {
+            if REQUESTED.swap(true, Ordering::SeqCst) {
                 let code = last_words().map_or(INTERRUPTED, |exit| exit.code().into());
                 super::end_all();
                 process::exit(code);
@@ -106,13 +106,13 @@ impl Interrupt {
     }
 
     /// Whether a signal has come.
-    pub(crate) fn came(&self) -> bool {
-        came()
+    pub(crate) fn is_requested(&self) -> bool {
+        is_requested()
     }
 
     /// Waits for this time, or less if a signal comes; whether one has come.
     pub(crate) fn sleep(&self, time: Duration) -> bool {
         // Told once; who asks again looks.
-        self.came() || self.0.recv_timeout(time).is_ok()
+        self.is_requested() || self.0.recv_timeout(time).is_ok()
     }
 }

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{Running, interrupt};
+use super::{RunningCommand, interrupt};
 use crate::text::escape_lines;
 
 /// The longest line that is taken. The longest right answer has some thousand bytes.
@@ -32,7 +32,7 @@ impl Stderr {
         escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
     }
 
-    fn keep(&self, mut from: impl Read) {
+    fn collect(&self, mut from: impl Read) {
         let mut chunk = [0; 4096];
         while let Ok(len @ 1..) = from.read(&mut chunk) {
             let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -61,7 +61,7 @@ pub enum RecvError {
 /// A command that runs; ended with all that it has started when it is dropped.
 #[derive(Debug)]
 pub struct LineProcess {
-    child: Running,
+    child: RunningCommand,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
 }
@@ -70,7 +70,7 @@ impl LineProcess {
     /// Starts a command, apart from this process.
     pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = Running::start(command)?;
+        let child = RunningCommand::start(command)?;
         let (to, lines) = mpsc::channel();
         let (tell, from) = mpsc::sync_channel(4);
         if let Some(stdin) = child.take_stdin() {
@@ -90,7 +90,7 @@ impl LineProcess {
         }
         if let Some(from) = child.take_stderr() {
             let kept = stderr.clone();
-            spawn("command's stderr", move || kept.keep(from))?;
+            spawn("command's stderr", move || kept.collect(from))?;
         }
         Ok(Self { child, to, from })
     }
@@ -110,7 +110,7 @@ impl LineProcess {
                 Ok(Ok(line)) => return text(line),
                 Ok(Err(why)) => return Err(RecvError::Garbled(why)),
                 Err(RecvTimeoutError::Disconnected) => return Err(RecvError::Closed),
-                Err(RecvTimeoutError::Timeout) if interrupt::came() => {
+                Err(RecvTimeoutError::Timeout) if interrupt::is_requested() => {
                     return Err(RecvError::Interrupted);
                 }
                 Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(RecvError::Silence),
@@ -231,12 +231,16 @@ pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     })
 }
 
-fn wait(child: &Running, limit: Duration, mut meanwhile: impl FnMut()) -> Option<ExitStatus> {
+fn wait(
+    child: &RunningCommand,
+    limit: Duration,
+    mut meanwhile: impl FnMut(),
+) -> Option<ExitStatus> {
     let until = Instant::now().checked_add(limit)?;
     loop {
         match child.try_wait() {
             Ok(Some(status)) => return Some(status),
-            Ok(None) if Instant::now() < until && !interrupt::came() => meanwhile(),
+            Ok(None) if Instant::now() < until && !interrupt::is_requested() => meanwhile(),
             _ => return None,
         }
     }

@@ -44,9 +44,9 @@ static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 ///
 /// Ctrl-C of a terminal is for this tool alone, which answers for the command.
 #[derive(Debug)]
-pub struct Running(Arc<SharedChild>);
+pub struct RunningCommand(Arc<SharedChild>);
 
-impl Running {
+impl RunningCommand {
     pub fn start(command: Command) -> io::Result<Self> {
         let mut command = CommandWrap::from(command);
         #[cfg(unix)]
@@ -84,7 +84,7 @@ impl Running {
     }
 }
 
-impl Drop for Running {
+impl Drop for RunningCommand {
     fn drop(&mut self) {
         let mut child = lock(&self.0);
         // What it has started may run on when it has ended. Of a group of which nothing runs any

@@ -66,7 +66,7 @@ impl Subprocess {
         variables: impl IntoIterator<Item = (&'static str, String)>,
     ) -> Result<(), Reaction<A>> {
         self.running = None;
-        if interrupt::came() {
+        if interrupt::is_requested() {
             return Err(Reaction::Broken("interrupted".to_owned()));
         }
         let mut command = shell(&self.line);

@@ -65,7 +65,7 @@ impl Profile {
     /// # Errors
     /// The line and what is wrong in it: keys that are unknown, values that nothing can have.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
-        let file: File = toml::from_str(text).map_err(|error| {
+        let file: ProfileFile = toml::from_str(text).map_err(|error| {
             // As it shows itself it draws the line; the message alone does not say which.
             ProfileFileError { file: None, why: error.to_string().trim_end().to_owned() }
         })?;
@@ -75,7 +75,7 @@ impl Profile {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-struct File {
+struct ProfileFile {
     name: Option<String>,
     #[serde(default, deserialize_with = "edition")]
     edition: Option<Edition>,
@@ -107,8 +107,8 @@ struct File {
     timeout: Option<Duration>,
 }
 
-impl From<File> for Profile {
-    fn from(file: File) -> Self {
+impl From<ProfileFile> for Profile {
+    fn from(file: ProfileFile) -> Self {
         let all = |texts: Vec<String>| texts.into_iter().map(Cow::Owned).collect::<Vec<_>>();
         let device = Self::DEVICE;
         Self {
@@ -204,9 +204,12 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
 
 fn kinds<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
     checked(value, |kinds: Vec<String>| {
-        each(kinds, |kind| match LISTED.iter().any(|known| known == kind) {
-            true => Ok(()),
-            false => Err(format!("{kind:?} cannot be listed; V.G, V.E and V.A can")),
+        each(kinds, |kind| {
+            if LISTED.iter().any(|known| known == kind) {
+                Ok(())
+            } else {
+                Err(format!("{kind:?} cannot be listed; V.G, V.E and V.A can"))
+            }
         })
     })
 }
@@ -233,12 +236,11 @@ fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>,
     checked(value, |names: Vec<String>| {
         each(names, |name| {
             let all = || Function::ALL.iter().map(|function| function.spec().name);
-            match all().any(|known| known == name) {
-                true => Ok(()),
-                false => {
-                    let all: Vec<&str> = all().collect();
-                    Err(format!("{name:?} is no function; there are {}", all.join(", ")))
-                }
+            if all().any(|known| known == name) {
+                Ok(())
+            } else {
+                let all: Vec<&str> = all().collect();
+                Err(format!("{name:?} is no function; there are {}", all.join(", ")))
             }
         })
     })
@@ -255,10 +257,7 @@ fn timeout<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Duration>, D::E
 fn each<T: Ord>(list: Vec<T>, check: impl Fn(&T) -> Result<(), String>) -> Result<Vec<T>, String> {
     list.iter().try_for_each(check)?;
     let different = list.iter().collect::<BTreeSet<&T>>().len();
-    match different == list.len() {
-        true => Ok(list),
-        false => Err("something is there twice".to_owned()),
-    }
+    if different == list.len() { Ok(list) } else { Err("something is there twice".to_owned()) }
 }
 
 #[cfg(test)]

@@ -42,8 +42,8 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let numbers: String = numbers.collect();
     let left = match report.left_changed.as_slice() {
         [] => String::new(),
-        [only] => format!(": {}", shown(only)),
-        [first, more @ ..] => format!(": {} and {} more", shown(first), more.len()),
+        [only] => format!(": {}", describe(only)),
+        [first, more @ ..] => format!(": {} and {} more", describe(first), more.len()),
     };
     let badge = Badge {
         schema_version: 1,
@@ -56,7 +56,7 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The name and the values, each cut to what a badge has room for.
-fn shown(left: &LeftChanged) -> String {
+fn describe(left: &LeftChanged) -> String {
     let cut = |text: &str| shorten(text, 40);
     let is = left.is.as_deref().map_or_else(|| "not known".to_owned(), cut);
     format!("{}, was {}, is {is}", cut(&left.name), cut(&left.was))

@@ -11,8 +11,8 @@ use super::model::{
 use crate::edition::Edition;
 use crate::explain;
 use crate::judge::{
-    Body, CLIENT, Evidence, Judgement, LeftChanged, LeftOut, Outcome, Subject, TESTEE, Tally,
-    Verdict, WaiverReport, WaiverState, Waivers, gravest, names,
+    Body, CLIENT, CaseOutcome, CaseSubject, Evidence, Judgement, LeftChanged, LeftOut, TESTEE,
+    Verdict, VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
 };
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
@@ -39,13 +39,13 @@ pub struct About {
 
 impl Report {
     /// Puts the outcomes of a run together.
-    pub fn new(about: About, outcomes: &[Outcome], left_out: &[LeftOut]) -> Self {
+    pub fn new(about: About, outcomes: &[CaseOutcome], left_out: &[LeftOut]) -> Self {
         let About { time, edition, seed, only, target, profile, waivers, frames, left_changed } =
             about;
         let waivers = waivers.apply(outcomes, left_out, time);
         let cases: Vec<CaseReport> =
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
-        let mut tally = Tally::default();
+        let mut tally = VerdictTally::default();
         for one in cases.iter().flat_map(|case| &case.requirements) {
             // Who keeps to the protocol and claims nothing has not been judged.
             if one.verdict != Verdict::Pass || requirement(&one.requirement).is_some() {
@@ -57,7 +57,7 @@ impl Report {
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
         let is_whole = |left: &&LeftOut| !outcomes.iter().any(|one| one.case.id == left.id);
-        let subjects: Vec<SubjectReport> = Subject::ALL
+        let subjects: Vec<SubjectReport> = CaseSubject::ALL
             .into_iter()
             .filter_map(|subject| {
                 let mine: Vec<_> = cases.iter().filter(|case| case.subject == subject).collect();
@@ -99,7 +99,7 @@ impl From<&Profile> for ProfileReport {
     }
 }
 
-fn of_subject(subject: Subject, cases: &[&CaseReport], only: &[String]) -> SubjectReport {
+fn of_subject(subject: CaseSubject, cases: &[&CaseReport], only: &[String]) -> SubjectReport {
     let mut areas: Vec<AreaReport> = Vec::new();
     for requirement in requirements() {
         if areas.last().is_none_or(|last| last.area != requirement.area) {
@@ -159,7 +159,7 @@ fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(
     }
 }
 
-fn case(outcome: &Outcome, waivers: &[WaiverReport]) -> CaseReport {
+fn case(outcome: &CaseOutcome, waivers: &[WaiverReport]) -> CaseReport {
     let case = &outcome.case;
     let waived = |requirement: &str| {
         waivers.iter().any(|waiver| {
@@ -251,9 +251,10 @@ impl From<&Evidence> for EvidenceReport {
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
     let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
-    match level == Some(requirement.level) || parts.is_empty() {
-        true => requirement.text.clone(),
-        false => parts.join(" "),
+    if level == Some(requirement.level) || parts.is_empty() {
+        requirement.text.clone()
+    } else {
+        parts.join(" ")
     }
 }
 
@@ -273,7 +274,7 @@ mod tests {
         let outcome = |requirement, verdict| {
             let case = crate::suite::cases().swap_remove(0);
             let judged = RequirementVerdict { requirement, verdict, judgements: Vec::new() };
-            Outcome { case, verdicts: vec![judged], checks: 1, note: None, refused: false }
+            CaseOutcome { case, verdicts: vec![judged], checks: 1, note: None, refused: false }
         };
         let exit = |verdicts: &[(&'static str, Verdict)]| {
             let about = About {
@@ -287,7 +288,8 @@ mod tests {
                 frames: 0,
                 left_changed: Vec::new(),
             };
-            let all: Vec<Outcome> = verdicts.iter().map(|(id, one)| outcome(*id, *one)).collect();
+            let all: Vec<CaseOutcome> =
+                verdicts.iter().map(|(id, one)| outcome(*id, *one)).collect();
             Report::new(about, &all, &[]).exit_code
         };
         let unclaimed = ("VAR-11", Verdict::NotApplicable);

@@ -3,8 +3,8 @@
 use ads_cnc::layout::Stream;
 use serde::{Deserialize, Serialize};
 
-use crate::explain::{Question, Subject, Values, explain};
-use crate::text::hex::spaced;
+use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, explain};
+use crate::text::hex::{compact, spaced};
 
 /// Bytes field by field.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,11 +42,17 @@ pub struct FieldReport {
 
 impl BytesReport {
     /// Takes bytes apart; `other` is what they are held against.
-    pub fn new(stream: Option<&str>, bytes: &[u8], other: Option<&[u8]>, values: &Values) -> Self {
+    pub fn new(
+        stream: Option<&str>,
+        bytes: &[u8],
+        other: Option<&[u8]>,
+        values: &ValueFormat,
+    ) -> Self {
         let known = stream.and_then(Stream::by_name);
         let (mut fields, mut faults) = (Vec::new(), Vec::new());
         if let Some(stream) = known {
-            let question = Question { subject: Subject::Stream(stream), values: values.clone() };
+            let question =
+                ExplainQuery { subject: ExplainSubject::Stream(stream), values: values.clone() };
             let part = explain(&question, bytes).parts.into_iter().next().unwrap_or_default();
             fields.extend(part.rows.into_iter().map(|row| FieldReport {
                 offset: row.offset,
@@ -77,7 +83,7 @@ impl BytesReport {
 
     fn mark(&mut self, bytes: &[u8], other: &[u8]) {
         for field in &mut self.fields {
-            let mine = bytes.iter().enumerate().skip(field.offset).take(field.bytes().count());
+            let mine = bytes.iter().enumerate().skip(field.offset).take(field.bytes().len());
             let differs = mine.filter(|(at, byte)| other.get(*at) != Some(byte));
             let begin = field.offset;
             field.differs = differs.map(|(at, _)| at.saturating_sub(begin)).collect();
@@ -102,7 +108,7 @@ impl BytesReport {
     }
 
     /// The fields, without most items of a long list; those that differ are always shown.
-    pub(super) fn shown(&self) -> Vec<ShownField<'_>> {
+    pub(super) fn visible_fields(&self) -> Vec<ShownField<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);
         for list in self.fields.chunk_by(|one, next| one.field == next.field) {
             let last = list.len().saturating_sub(1);
@@ -128,8 +134,8 @@ impl FieldReport {
         Self { offset, hex, field: field.to_owned(), value, meaning, differs: Vec::new() }
     }
 
-    pub fn bytes(&self) -> impl Iterator<Item = u8> {
-        self.hex.split(' ').filter_map(|byte| u8::from_str_radix(byte, 16).ok())
+    pub fn bytes(&self) -> Vec<u8> {
+        compact::parse(&self.hex).unwrap_or_default()
     }
 }
 
@@ -147,7 +153,7 @@ mod tests {
         wrong[13] = 7;
         wrong[30] = b'_';
         let stream = Some("variable-description");
-        let report = BytesReport::new(stream, &wrong, Some(DESCRIPTION), &Values::default());
+        let report = BytesReport::new(stream, &wrong, Some(DESCRIPTION), &ValueFormat::default());
         let bytes: Vec<u8> = report.fields.iter().flat_map(FieldReport::bytes).collect();
         assert_eq!(bytes, wrong);
         let marked: Vec<_> = report
@@ -163,7 +169,7 @@ mod tests {
     /// What is missing differs at the side that has it.
     #[test]
     fn a_byte_too_many_differs() {
-        let values = Values::default();
+        let values = ValueFormat::default();
         let long = BytesReport::new(None, &[1, 2, 3], Some(&[1, 2]), &values);
         assert_eq!(long.fields[0].differs, [2]);
         let short = BytesReport::new(None, &[1, 2], Some(&[1, 2, 3]), &values);
@@ -179,8 +185,8 @@ mod tests {
         let mut other = bytes.clone();
         other[8 + 4 * 20] = 0;
         let stream = Some("variable-handle-read");
-        let report = BytesReport::new(stream, &bytes, Some(&other), &Values::default());
-        let shown = report.shown();
+        let report = BytesReport::new(stream, &bytes, Some(&other), &ValueFormat::default());
+        let shown = report.visible_fields();
         let more: Vec<_> = shown.iter().filter(|one| matches!(one, ShownField::More(_))).collect();
         if report.faults.is_empty() {
             assert_eq!(more, [&ShownField::More(14), &ShownField::More(18)]);
@@ -198,7 +204,7 @@ mod tests {
     fn a_fault_is_shown_where_it_is() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
         let report =
-            BytesReport::new(Some("variable-handle-read"), &bytes, None, &Values::default());
+            BytesReport::new(Some("variable-handle-read"), &bytes, None, &ValueFormat::default());
         let shown: Vec<_> =
             report.fields.iter().map(|one| (one.offset, one.field.as_str())).collect();
         assert_eq!(shown, [(0, "handle"), (4, "index_count"), (8, "?")]);

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use super::BytesReport;
 use super::lines::{lines, marked};
 use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals};
-use crate::judge::{Exit, Subject, Verdict, WaiverReport};
+use crate::judge::{CaseSubject, Exit, Verdict, WaiverReport};
 
 /// Writes the report. `verbose` shows the cases made of vectors one by one too.
 pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
@@ -35,9 +35,10 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         let channels = profile.claims.get("channels").and_then(|list| list.as_array());
         let channels = channels.into_iter().flatten().map(ToString::to_string);
         let channels: Vec<String> = channels.collect();
-        match channels.is_empty() {
-            true => writeln!(out, "profile  {}", profile.name)?,
-            false => writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?,
+        if channels.is_empty() {
+            writeln!(out, "profile  {}", profile.name)?
+        } else {
+            writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?
         }
     }
     if !only.is_empty() {
@@ -64,19 +65,19 @@ pub(super) fn describe(target: &TargetReport) -> String {
     text
 }
 
-pub(super) const fn heading(subject: Subject) -> &'static str {
+pub(super) const fn heading(subject: CaseSubject) -> &'static str {
     match subject {
-        Subject::Codec => "The codec against the golden vectors",
-        Subject::Testee => "The testee against the golden vectors",
-        Subject::Target => "The target, asked over AMS/TCP",
-        Subject::Client => "The client, answered over AMS/TCP",
-        Subject::CapturedClient => "The clients in the captured traffic",
-        Subject::CapturedCnc => "The CNCs in the captured traffic",
+        CaseSubject::Codec => "The codec against the golden vectors",
+        CaseSubject::Testee => "The testee against the golden vectors",
+        CaseSubject::Target => "The target, asked over AMS/TCP",
+        CaseSubject::Client => "The client, answered over AMS/TCP",
+        CaseSubject::CapturedClient => "The clients in the captured traffic",
+        CaseSubject::CapturedCnc => "The CNCs in the captured traffic",
     }
 }
 
 /// The cases of one who was judged: of vectors one line for each stream.
-fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
+fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(who))?;
     let mine = || report.cases.iter().filter(|case| case.subject == who);
     let mut streams: BTreeMap<&str, Vec<&CaseReport>> = BTreeMap::new();
@@ -110,7 +111,7 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> i
 }
 
 /// The place of each requirement in the catalogue.
-fn places(report: &Report, who: Subject) -> BTreeMap<&str, usize> {
+fn places(report: &Report, who: CaseSubject) -> BTreeMap<&str, usize> {
     let mine = report.subjects.iter().filter(|one| one.subject == who);
     let all = mine.flat_map(|one| &one.areas).flat_map(|area| &area.requirements);
     all.enumerate().map(|(place, one)| (one.requirement.as_str(), place)).collect()
@@ -165,9 +166,10 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
 fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
     writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
-    match failure.sources.is_empty() {
-        true => writeln!(out, "            in no document: assumed"),
-        false => writeln!(out, "            {}", failure.sources.join("; ")),
+    if failure.sources.is_empty() {
+        writeln!(out, "            in no document: assumed")
+    } else {
+        writeln!(out, "            {}", failure.sources.join("; "))
     }
 }
 

@@ -23,8 +23,9 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         report.waivers.iter().filter(|waiver| waiver.state.is_stale()).collect();
     let of_case = |tests: &Tests, case: &CaseReport| tests.plus(kind(case));
     let all = report.cases.iter().fold(Tests::default(), |tests, case| of_case(&tests, case));
-    let failed =
-        |tests: Tests, number: usize| (0..number).fold(tests, |tests, _| tests.plus(Kind::Failure));
+    let failed = |tests: Tests, number: usize| {
+        (0..number).fold(tests, |tests, _| tests.plus(JunitKind::Failure))
+    };
     let left = &report.left_changed;
     let all = failed(failed(all, stale.len()), left.len());
     let mut root = BytesStart::new("testsuites");
@@ -61,20 +62,20 @@ type Xml<'w> = Writer<&'w mut dyn Write>;
 
 /// What JUnit makes of a verdict.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum JunitKind {
     Passed,
     Failure,
     Error,
     Skipped,
 }
 
-fn kind(case: &CaseReport) -> Kind {
+fn kind(case: &CaseReport) -> JunitKind {
     match case.verdict {
-        _ if case.waived => Kind::Skipped,
-        Verdict::Pass | Verdict::Warning | Verdict::Differs => Kind::Passed,
-        Verdict::Fail | Verdict::Vacuous => Kind::Failure,
-        Verdict::Inconclusive | Verdict::Interrupted | Verdict::HarnessError => Kind::Error,
-        Verdict::NotApplicable | Verdict::NotObserved | Verdict::NotRun => Kind::Skipped,
+        _ if case.waived => JunitKind::Skipped,
+        Verdict::Pass | Verdict::Warning | Verdict::Differs => JunitKind::Passed,
+        Verdict::Fail | Verdict::Vacuous => JunitKind::Failure,
+        Verdict::Inconclusive | Verdict::Interrupted | Verdict::HarnessError => JunitKind::Error,
+        Verdict::NotApplicable | Verdict::NotObserved | Verdict::NotRun => JunitKind::Skipped,
     }
 }
 
@@ -87,13 +88,13 @@ struct Tests {
 }
 
 impl Tests {
-    fn plus(self, kind: Kind) -> Self {
-        let one = |number: usize, of: Kind| number + usize::from(kind == of);
+    fn plus(self, kind: JunitKind) -> Self {
+        let one = |number: usize, of: JunitKind| number + usize::from(kind == of);
         Self {
             tests: self.tests + 1,
-            failures: one(self.failures, Kind::Failure),
-            errors: one(self.errors, Kind::Error),
-            skipped: one(self.skipped, Kind::Skipped),
+            failures: one(self.failures, JunitKind::Failure),
+            errors: one(self.errors, JunitKind::Error),
+            skipped: one(self.skipped, JunitKind::Skipped),
         }
     }
 
@@ -161,11 +162,11 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
         (None, None) => case.title.clone(),
     };
     let element = match kind(case) {
-        Kind::Passed if findings.is_empty() => return xml.write_event(Event::Empty(test)),
-        Kind::Passed => "system-out",
-        Kind::Failure => "failure",
-        Kind::Error => "error",
-        Kind::Skipped => "skipped",
+        JunitKind::Passed if findings.is_empty() => return xml.write_event(Event::Empty(test)),
+        JunitKind::Passed => "system-out",
+        JunitKind::Failure => "failure",
+        JunitKind::Error => "error",
+        JunitKind::Skipped => "skipped",
     };
     xml.write_event(Event::Start(test))?;
     let message = match waiver(report, case) {
@@ -176,7 +177,7 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     if element != "system-out" {
         put(&mut inner, "message", &message);
     }
-    if matches!(kind(case), Kind::Failure | Kind::Error) {
+    if matches!(kind(case), JunitKind::Failure | JunitKind::Error) {
         put(&mut inner, "type", case.verdict.name());
     }
     xml.write_event(Event::Start(inner))?;

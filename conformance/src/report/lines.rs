@@ -2,12 +2,12 @@
 
 use super::bytes::ShownField;
 use super::{BytesReport, FieldReport};
-use crate::explain::Values;
+use crate::explain::ValueFormat;
 use crate::text::hex;
 
 /// All lines of bytes that are held against nothing.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
-    all_lines(&BytesReport::new(stream, bytes, None, &Values::default()), false)
+    all_lines(&BytesReport::new(stream, bytes, None, &ValueFormat::default()), false)
 }
 
 /// One line for each field: offset, bytes, characters, name; up to the fault, if there is one. A
@@ -21,9 +21,10 @@ fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
         ShownField::Field(field) => of_field(field, fold),
         ShownField::More(more) => vec![format!("     …  {more} more")],
     };
-    let mut all: Vec<String> = match fold {
-        true => bytes.shown().into_iter().flat_map(of_shown).collect(),
-        false => bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect(),
+    let mut all: Vec<String> = if fold {
+        bytes.visible_fields().into_iter().flat_map(of_shown).collect()
+    } else {
+        bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect()
     };
     all.extend(bytes.faults.iter().map(|fault| format!("      ! {fault}")));
     all
@@ -35,7 +36,7 @@ pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
 }
 
 fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
-    let bytes: Vec<u8> = field.bytes().collect();
+    let bytes = field.bytes();
     let (mut all, mut zeros) = (Vec::new(), 0_usize);
     for (begin, chunk) in (0_usize..).step_by(hex::LINE).zip(bytes.chunks(hex::LINE)) {
         let end = begin + hex::LINE;
@@ -72,7 +73,7 @@ mod tests {
     fn a_fault_is_shown_where_it_is() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
         let stream = Some("variable-handle-read");
-        let report = BytesReport::new(stream, &bytes, None, &Values::default());
+        let report = BytesReport::new(stream, &bytes, None, &ValueFormat::default());
         assert_eq!(
             lines(&report),
             [
@@ -89,7 +90,7 @@ mod tests {
     fn differing_lines_are_marked() {
         let (bytes, mut other) = ([0x41; 20], [0x41; 20]);
         other[17] = 0;
-        let report = BytesReport::new(None, &bytes, Some(&other), &Values::default());
+        let report = BytesReport::new(None, &bytes, Some(&other), &ValueFormat::default());
         let marks: Vec<char> =
             lines(&report).iter().filter_map(|line| line.chars().next()).collect();
         assert_eq!(marks, [' ', '!']);

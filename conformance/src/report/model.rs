@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{BytesReport, DeviceReport};
-use crate::judge::{Exit, LeftChanged, Subject, Verdict, WaiverReport};
+use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
 
 /// Number of this structure.
 pub const FORMAT: u32 = 1;
@@ -94,7 +94,7 @@ pub struct ProfileReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectReport {
-    pub subject: Subject,
+    pub subject: CaseSubject,
     /// Verdicts of its requirements, each once and by its gravest.
     pub totals: Totals,
     /// How many of them are put up with.
@@ -132,7 +132,7 @@ pub struct CaseReport {
     /// The case's slug.
     pub id: String,
     pub title: String,
-    pub subject: Subject,
+    pub subject: CaseSubject,
     /// The stream of a case that is a vector.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
@@ -213,10 +213,11 @@ impl Report {
     /// Text that is no report, or one of another format.
     pub fn from_json(text: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
-        struct Format {
+        struct FormatNumber {
             format: u32,
         }
-        let Format { format } = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let FormatNumber { format } =
+            serde_json::from_str(text).map_err(|error| error.to_string())?;
         if format != FORMAT {
             return Err(format!("a report of format {format}; this version reads {FORMAT}"));
         }

@@ -4,12 +4,12 @@ use std::time::Duration;
 
 use ads_cnc::layout::Stream;
 
-use super::{Candidate, Group};
+use super::{Candidate, SelfTestGroup};
 use crate::faults::{self, Seed};
-use crate::judge::{Body, Case, Needs, Outcome, Subject, TESTEE};
+use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, TESTEE};
 use crate::session::Trouble;
 use crate::suite;
-use crate::testee::{Miniature, Own, Process, Terms, judge};
+use crate::testee::{Miniature, Own, Terms, TesteeProcess, judge};
 
 /// How long a miniature may take. Those that say nothing cost this much a case.
 const TIMEOUT: Duration = Duration::from_millis(1000);
@@ -18,7 +18,7 @@ const TIMEOUT: Duration = Duration::from_millis(1000);
 const SHARE: usize = 25;
 
 const TERMS: Terms<'static> =
-    Terms { seed: 1, subject: Subject::Testee, edition: None, strict: false };
+    Terms { seed: 1, subject: CaseSubject::Testee, edition: None, strict: false };
 
 pub(super) fn candidates() -> Vec<Candidate> {
     let seeds = faults::all().iter().filter(|seed| seed.is_for_codec()).map(of_seed);
@@ -28,7 +28,7 @@ pub(super) fn candidates() -> Vec<Candidate> {
 fn of_seed(seed: &'static Seed) -> Candidate {
     Candidate {
         id: seed.id.clone(),
-        group: Group::Codec,
+        group: SelfTestGroup::Codec,
         what: seed.what.clone(),
         targets: seed.requirements.clone(),
         run: Box::new(move || {
@@ -51,7 +51,7 @@ fn of_miniature(miniature: Miniature) -> Candidate {
     let name = miniature.name();
     Candidate {
         id: format!("miniature.{name}"),
-        group: if is_right { Group::Different } else { Group::Miniature },
+        group: if is_right { SelfTestGroup::Different } else { SelfTestGroup::Miniature },
         what: format!("a testee that {}", name.replace('-', " ")),
         targets: if is_right { Vec::new() } else { targets(miniature) },
         run: Box::new(move || over_pipes(miniature).map(Some)),
@@ -71,11 +71,11 @@ fn targets(miniature: Miniature) -> Vec<&'static str> {
     }
 }
 
-fn over_pipes(miniature: Miniature) -> Result<Vec<Outcome>, Trouble> {
+fn over_pipes(miniature: Miniature) -> Result<Vec<CaseOutcome>, Trouble> {
     let program = std::env::current_exe()
         .map_err(|error| Trouble::Internal(format!("this program is not found: {error}")))?;
     let command = format!("\"{}\" testee --miniature {}", program.display(), miniature.name());
-    let mut process = Process::new(command, TIMEOUT);
+    let mut process = TesteeProcess::new(command, TIMEOUT);
     Ok(judge(&mut process, some().collect(), TERMS).outcomes)
 }
 

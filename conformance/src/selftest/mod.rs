@@ -19,8 +19,8 @@ use std::thread;
 
 use serde::Serialize;
 
-use crate::faults::{self, Kind};
-use crate::judge::{Exit, Outcome, Verdict};
+use crate::faults::{self, SeedKind};
+use crate::judge::{CaseOutcome, Exit, Verdict};
 use crate::session::Trouble;
 use crate::text::named;
 use detection::{CheckedTable, Scope};
@@ -29,7 +29,7 @@ pub use show::print;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Group {
+pub enum SelfTestGroup {
     /// Codecs with a defect, by the vectors.
     Codec,
     /// CNCs with a defect, by the cases over the wire.
@@ -42,7 +42,7 @@ pub enum Group {
     Different,
 }
 
-named! { Group:
+named! { SelfTestGroup:
     Codec "codec", Cnc "cnc", Client "client", Miniature "miniature", Different "different",
 }
 
@@ -52,7 +52,7 @@ pub struct Tried {
     /// The defect, the miniature or the difference.
     pub id: String,
     /// As what it was tried.
-    pub group: Group,
+    pub group: SelfTestGroup,
     pub what: String,
     /// What it breaks; nothing if it does nothing wrong.
     pub targets: Vec<String>,
@@ -99,7 +99,7 @@ pub struct SelfTest {
 impl SelfTest {
     /// How many of a group did what they should, and how many there are; without those that are the
     /// same as without their defect.
-    pub fn rate(&self, group: Group) -> (usize, usize) {
+    pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
         let differs = |one: &&Tried| one.group == group && one.result != Outcomes::Same;
         let mine = || self.tried.iter().filter(differs);
         let right = |one: &&Tried| {
@@ -116,10 +116,12 @@ impl SelfTest {
             Outcomes::FalseAlarm | Outcomes::Broken => true,
         };
         let differs = !self.detection.differences.is_empty();
-        match self.tried.iter().any(wrong) || !self.stale.is_empty() || differs {
-            _ if self.tried.is_empty() => Exit::Nothing,
-            true => Exit::Failure,
-            false => Exit::Success,
+        if self.tried.is_empty() {
+            Exit::Nothing
+        } else if self.tried.iter().any(wrong) || !self.stale.is_empty() || differs {
+            Exit::Failure
+        } else {
+            Exit::Success
         }
     }
 }
@@ -127,18 +129,18 @@ impl SelfTest {
 /// One that can be tried.
 struct Candidate {
     id: String,
-    group: Group,
+    group: SelfTestGroup,
     what: String,
     targets: Vec<&'static str>,
     /// Nothing if it does as it would without its defect.
-    run: Box<dyn Fn() -> Result<Option<Vec<Outcome>>, Trouble> + Send + Sync>,
+    run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, Trouble> + Send + Sync>,
 }
 
 /// Tries all whose ID, group or target begins with one of these words; all if there is none. Of the
 /// table of detection as much as `scope` wants is measured again. `tell` is told after each how many
 /// are done, of how many.
 pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) -> SelfTest {
-    let wanted = |id: &str, group: Group, targets: &[&str]| {
+    let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()
             || only.iter().any(|word| {
                 id.starts_with(word.as_str())
@@ -155,7 +157,11 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let seeds = seeds.filter(|seed| {
-        let group = if seed.kind == Kind::Different { Group::Different } else { Group::Cnc };
+        let group = if seed.kind == SeedKind::Different {
+            SelfTestGroup::Different
+        } else {
+            SelfTestGroup::Cnc
+        };
         wanted(&seed.id, group, &seed.requirements)
     });
     let scope = if only.is_empty() { scope } else { Scope::All };
@@ -199,7 +205,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 fn attempt(candidate: &Candidate) -> Tried {
     let Candidate { id, group, what, targets, run } = candidate;
     let (failed, result) = match run() {
-        Ok(Some(outcomes)) if *group == Group::Codec => by_level(targets, &outcomes),
+        Ok(Some(outcomes)) if *group == SelfTestGroup::Codec => by_level(targets, &outcomes),
         Ok(Some(outcomes)) => judge(targets, &outcomes),
         Ok(None) => (Vec::new(), Outcomes::Same),
         Err(trouble) => (vec![trouble.to_string()], Outcomes::Broken),
@@ -217,7 +223,7 @@ fn attempt(candidate: &Candidate) -> Tried {
 }
 
 /// What came of a codec: what its vectors warn of, or differ in, is caught at their level.
-fn by_level(targets: &[&str], outcomes: &[Outcome]) -> (Vec<String>, Outcomes) {
+fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();
     let noticed = outcomes.iter().flat_map(|outcome| &outcome.verdicts).any(|one| {
@@ -240,7 +246,7 @@ fn whole(id: &str) -> &str {
 }
 
 /// What has failed, and whether that is right.
-fn judge(targets: &[&str], outcomes: &[Outcome]) -> (Vec<String>, Outcomes) {
+fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
         let mut found: Vec<&'static str> = judged

@@ -1,29 +1,29 @@
 //! Why some defects may survive.
 
-use super::{Group, Outcomes, Tried};
+use super::{Outcomes, SelfTestGroup, Tried};
 
 /// Group, beginning of the ID, and why nothing can tell.
-const REASONS: &[(Group, &str, &str)] = &[(
-    Group::Cnc,
+const REASONS: &[(SelfTestGroup, &str, &str)] = &[(
+    SelfTestGroup::Cnc,
     "object-descriptor.write_access.swap",
     "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
 )];
 
 /// The reason for a survivor, if there is one.
-pub(super) fn of(group: Group, id: &str) -> Option<&'static str> {
+pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
     let mine = REASONS.iter().find(|(of, start, _)| *of == group && id.starts_with(start));
     mine.map(|(_, _, reason)| *reason)
 }
 
 /// Of what there are reasons.
 #[cfg(test)]
-pub(super) fn names() -> impl Iterator<Item = (Group, &'static str)> {
+pub(super) fn names() -> impl Iterator<Item = (SelfTestGroup, &'static str)> {
     REASONS.iter().map(|(group, start, _)| (*group, *start))
 }
 
 /// Reasons that no survivor needs.
 pub(super) fn stale(tried: &[Tried]) -> Vec<String> {
-    let needed = |(group, start, _): &&(Group, &str, &str)| {
+    let needed = |(group, start, _): &&(SelfTestGroup, &str, &str)| {
         tried.iter().any(|one| {
             one.group == *group
                 && one.id.starts_with(start)

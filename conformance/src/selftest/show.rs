@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::detection::{CheckedTable, Figures, Mode};
-use super::{Group, Outcomes, SelfTest, Tried};
+use super::{Outcomes, SelfTest, SelfTestGroup, Tried};
 use crate::judge::Exit;
 
 /// The most targets on a line.
@@ -26,15 +26,15 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     if test.tried.is_empty() {
         return writeln!(out, "Nothing was tried.");
     }
-    for group in Group::ALL {
+    for group in SelfTestGroup::ALL {
         let (right, all) = test.rate(group);
         if all == 0 {
             continue;
         }
         match group {
             // Below, by what is sent to it.
-            Group::Cnc => {}
-            Group::Different => {
+            SelfTestGroup::Cnc => {}
+            SelfTestGroup::Different => {
                 let alarms = all.saturating_sub(right);
                 writeln!(out, "{:<10}  {alarms} false alarms of {all}", group.name())?;
             }
@@ -87,7 +87,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             mode.name()
         )?;
     }
-    let (right, all) = test.rate(Group::Cnc);
+    let (right, all) = test.rate(SelfTestGroup::Cnc);
     if all > 0 {
         let missed = all.saturating_sub(right);
         writeln!(out, "{:<10} {all:>8} {right:>7} {:>10} {missed:>7}", "inside", "")?;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Candidate, Group, Outcomes};
+use super::{Candidate, Outcomes, SelfTestGroup};
 use crate::edition::Edition;
-use crate::faults::{self, Faulty, Kind, Seed};
-use crate::judge::{Case, Needs, Outcome};
+use crate::faults::{self, Faulty, Seed, SeedKind};
+use crate::judge::{Case, CaseOutcome, Needs};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
@@ -20,10 +20,10 @@ pub(super) fn candidates() -> Vec<Candidate> {
 }
 
 fn of_seed(seed: &'static Seed) -> Candidate {
-    let is_right = seed.kind == Kind::Different;
+    let is_right = seed.kind == SeedKind::Different;
     Candidate {
         id: seed.id.clone(),
-        group: if is_right { Group::Different } else { Group::Cnc },
+        group: if is_right { SelfTestGroup::Different } else { SelfTestGroup::Cnc },
         what: seed.what.clone(),
         targets: seed.requirements.clone(),
         run: Box::new(move || against(seed)),
@@ -38,11 +38,11 @@ const IMPATIENCE: Duration = Duration::from_millis(400);
 /// new enough for whatever there is.
 ///
 /// First those alone that can judge what the defect breaks: what is caught by them is caught.
-fn against(seed: &Seed) -> Result<Option<Vec<Outcome>>, Trouble> {
+fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, Trouble> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
     let is_caught =
-        |outcomes: &[Outcome]| super::judge(&seed.requirements, outcomes).1 == Outcomes::Caught;
+        |outcomes: &[CaseOutcome]| super::judge(&seed.requirements, outcomes).1 == Outcomes::Caught;
     let targeted = |case: &Case| seed.requirements.iter().any(|id| case.requirements.contains(id));
     if !seed.requirements.is_empty() {
         let (outcomes, _) = run(seed, by_default, targeted)?;
@@ -64,7 +64,7 @@ fn run(
     seed: &Seed,
     settings: Settings,
     wanted: impl Fn(&Case) -> bool,
-) -> Result<(Vec<Outcome>, bool), Trouble> {
+) -> Result<(Vec<CaseOutcome>, bool), Trouble> {
     let internal = |error| Trouble::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
     let faulty = Arc::new(Faulty::new(Cnc::new(model.map_err(internal)?), Some(seed)));
@@ -75,8 +75,8 @@ fn run(
     // The CNC runs as long as it is held.
     let (client, _running) = session.into_parts();
     let client = match seed.kind {
-        Kind::Different => client,
-        Kind::Codec | Kind::Cnc => client.with_timeout(IMPATIENCE),
+        SeedKind::Different => client,
+        SeedKind::Codec | SeedKind::Cnc => client.with_timeout(IMPATIENCE),
     };
     let mut session = TargetState::new(client, profile).with_cnc(cnc);
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);

@@ -1,19 +1,19 @@
 //! What counts as caught, and what the self-test says of it.
 
-use super::detection::{Found, Mode, Table};
+use super::detection::{DetectionTable, Found, Mode};
 use super::*;
 use crate::judge::RequirementVerdict;
 use crate::suite;
 
 /// Outcomes in which these requirements got these verdicts.
-fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<Outcome> {
+fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<CaseOutcome> {
     let case = suite::cases().swap_remove(0);
     let verdicts = verdicts.iter().map(|&(requirement, verdict)| RequirementVerdict {
         requirement,
         verdict,
         judgements: Vec::new(),
     });
-    vec![Outcome { case, verdicts: verdicts.collect(), checks: 1, note: None, refused: false }]
+    vec![CaseOutcome { case, verdicts: verdicts.collect(), checks: 1, note: None, refused: false }]
 }
 
 fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> Outcomes {
@@ -52,7 +52,7 @@ fn who_is_right_may_differ_and_not_fail() {
 fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
     Tried {
         id: "an-id".to_owned(),
-        group: Group::Cnc,
+        group: SelfTestGroup::Cnc,
         what: "something".to_owned(),
         targets: vec!["VAR-4".to_owned()],
         failed: Vec::new(),
@@ -62,7 +62,7 @@ fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
 }
 
 fn test(tried: Vec<Tried>) -> SelfTest {
-    let table = Table::published().unwrap();
+    let table = DetectionTable::published().unwrap();
     let detection = CheckedTable { table, measured: 0, differences: Vec::new() };
     SelfTest { tried, stale: Vec::new(), detection }
 }
@@ -95,7 +95,7 @@ fn only_a_reason_lets_a_defect_survive() {
 fn what_changes_nothing_counts_neither_way() {
     let all = [Outcomes::Caught, Outcomes::Same, Outcomes::Survived, Outcomes::Same];
     let test = test(all.map(|result| tried(result, None)).into());
-    assert_eq!(test.rate(Group::Cnc), (1, 2));
+    assert_eq!(test.rate(SelfTestGroup::Cnc), (1, 2));
     let mut shown = Vec::new();
     print(&test, false, &mut shown).unwrap();
     let shown = String::from_utf8(shown).unwrap();
@@ -121,7 +121,7 @@ fn every_reason_is_of_something_that_is_tried() {
 /// The committed files are those that one renewal wrote, and each defect has its row.
 #[test]
 fn the_table_is_whole() {
-    let table = Table::published().unwrap();
+    let table = DetectionTable::published().unwrap();
     assert_eq!(table.to_text(), include_str!("../../doc/detection.tsv"));
     assert_eq!(table.to_markdown(), include_str!("../../doc/detection.md"));
     assert_eq!(

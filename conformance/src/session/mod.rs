@@ -17,7 +17,7 @@ use ads_cnc::{Kind, address::Channel};
 
 use crate::client::{Client, Inquiry, Said, Tap, Target};
 use crate::deadline::Deadline;
-use crate::exchange::{Exchange, Fault};
+use crate::exchange::{Exchange, ExchangeError};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
@@ -112,7 +112,7 @@ impl Session {
     pub fn simulated_to_try(cnc: impl Responder + 'static) -> Result<Self, Trouble> {
         let session = Self::simulated(cnc, Gate::queries())?;
         match session.simulated.as_ref().map(Gate::of_server) {
-            Some(gate) => session.behind(gate),
+            Some(gate) => session.with_gate(gate),
             None => Ok(session),
         }
     }
@@ -130,7 +130,7 @@ impl Session {
     ///
     /// # Errors
     /// [`Trouble::Usage`] for anything but a simulated CNC.
-    pub fn behind(self, gate: Gate) -> Result<Self, Trouble> {
+    pub fn with_gate(self, gate: Gate) -> Result<Self, Trouble> {
         let Self { client, simulated: Some(server), .. } = self else {
             return Err(Trouble::Usage("only a simulated CNC can have another gate".to_owned()));
         };
@@ -209,7 +209,7 @@ impl Session {
                 Ok(answer.data.unwrap_or_default())
             }
             // Nothing is waited for.
-            Err(Fault::NotSent) if function.spec().reply.is_none() => Ok(Vec::new()),
+            Err(ExchangeError::NotSent) if function.spec().reply.is_none() => Ok(Vec::new()),
             Err(fault) => Err(Trouble::fault(&self.client, fault, self.answered)),
         }
     }
@@ -348,8 +348,8 @@ impl fmt::Display for Shown<'_> {
         let spec = call.dispatch().ok().map(|request| request.function().spec());
         let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
         let verdict = match &self.0.outcome {
-            Err(Fault::Refused(refusal)) => format!("would be refused: {refusal}"),
-            Err(Fault::Unsendable(error)) => format!("has no form on the wire: {error}"),
+            Err(ExchangeError::Refused(refusal)) => format!("would be refused: {refusal}"),
+            Err(ExchangeError::Unsendable(error)) => format!("has no form on the wire: {error}"),
             _ => "would be sent".to_owned(),
         };
         writeln!(f, "{verdict}\n  {name} ({clause}): {}", self.0)?;

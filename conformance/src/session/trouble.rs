@@ -8,7 +8,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::Function;
 
 use crate::client::{Client, Target};
-use crate::exchange::Fault;
+use crate::exchange::ExchangeError;
 use crate::gate::Refusal;
 use crate::judge::Exit;
 
@@ -105,7 +105,7 @@ impl Trouble {
         })
     }
 
-    pub(super) fn fault(client: &Client, fault: Fault, answered: bool) -> Self {
+    pub(super) fn fault(client: &Client, fault: ExchangeError, answered: bool) -> Self {
         let Target { addr, net_id, timeout, .. } = client.target();
         let source = client.source();
         let route = format!(
@@ -113,34 +113,36 @@ impl Trouble {
              this machine, by TCP/IP"
         );
         Self::NoAnswer(match fault {
-            Fault::Refused(refusal) => return Self::Refused(refusal),
-            Fault::NotSent | Fault::Unseen => return Self::NotSent,
-            Fault::Unsendable(error) => return Self::Unsendable(error),
-            Fault::Malformed(error) if answered => return Self::Reply(error),
-            Fault::Malformed(error) => {
+            ExchangeError::Refused(refusal) => return Self::Refused(refusal),
+            ExchangeError::NotSent | ExchangeError::Unseen => return Self::NotSent,
+            ExchangeError::Unsendable(error) => return Self::Unsendable(error),
+            ExchangeError::Malformed(error) if answered => return Self::Reply(error),
+            ExchangeError::Malformed(error) => {
                 format!("{addr} does not speak AMS/TCP: {error}. Is this the port of ADS?")
             }
-            Fault::Closed | Fault::Io(_) if answered => format!(
+            ExchangeError::Closed | ExchangeError::Io(_) if answered => format!(
                 "{addr} ended the connection: {fault}. Was the device restarted, or does another \
                  client use the AMS NetId {source}? Whether the last request was carried out is \
                  not known."
             ),
-            Fault::Closed | Fault::Io(_) => format!(
+            ExchangeError::Closed | ExchangeError::Io(_) => format!(
                 "{addr} closed the connection without an answer. A device does so with who has no \
                  route: add {route}. If there is one, end other ADS connections of this machine to \
                  it: some devices keep one for an address."
             ),
-            Fault::Silence(_) if answered => format!(
+            ExchangeError::Silence(_) if answered => format!(
                 "{addr} has stopped answering: nothing within {} ms. If it is busy, give it more \
                  with --timeout.",
                 timeout.as_millis()
             ),
-            Fault::Silence(_) => format!(
+            ExchangeError::Silence(_) => format!(
                 "{addr} takes the connection and does not answer within {} ms. Is {net_id} its AMS \
                  NetId, and is there {route}?",
                 timeout.as_millis()
             ),
-            Fault::Gone(error) => format!("no connection to {addr} any more: {error}."),
+            ExchangeError::Disconnected(error) => {
+                format!("no connection to {addr} any more: {error}.")
+            }
         })
     }
 

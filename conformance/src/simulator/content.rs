@@ -6,28 +6,8 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 
 use super::model::{Item, Meaning, Model};
-use super::state::State;
-
-/// What an object or an element belongs to. Places are counted from 0 here.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Owner {
-    /// COM: the platform.
-    Platform,
-    /// COM: a channel.
-    Channel(usize),
-    /// COM: a platform axis.
-    Axis(usize),
-    /// COM: whatever axis is at a place of a channel.
-    Place { channel: usize, place: usize },
-    /// A class: a channel.
-    ClassChannel(Class, usize),
-    /// A class: a platform axis.
-    ClassAxis(Class, usize),
-    /// A class: whatever axis is at a place of a channel.
-    ClassPlace { class: Class, channel: usize, place: usize },
-    /// A spindle.
-    Spindle(usize),
-}
+use super::owner::Owner;
+use super::state::CncState;
 
 /// The objects or elements of an owner.
 pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
@@ -50,7 +30,7 @@ pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
 /// The content; blank where no axis is (SDA-11).
 pub(super) fn read<'s>(
     model: &Model,
-    state: &'s State,
+    state: &'s CncState,
     owner: Owner,
     index: usize,
 ) -> Result<Cow<'s, [u8]>, AdsError> {
@@ -72,7 +52,7 @@ pub(super) fn read<'s>(
 /// Writes a content of the right size that may be written.
 pub(super) fn write(
     model: &Model,
-    state: &mut State,
+    state: &mut CncState,
     owner: Owner,
     index: usize,
     bytes: &[u8],
@@ -97,7 +77,7 @@ pub(super) fn write(
         (Meaning::Value, _) => {
             let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
             // Where no axis is there is nothing to be written.
-            put(content.ok_or(AdsError::INVALID_DATA)?, bytes);
+            copy_padded(content.ok_or(AdsError::INVALID_DATA)?, bytes);
             Ok(())
         }
     }
@@ -111,12 +91,12 @@ pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(),
 }
 
 /// The bytes, and zeros behind them.
-pub(super) fn put(place: &mut [u8], bytes: &[u8]) {
+pub(super) fn copy_padded(place: &mut [u8], bytes: &[u8]) {
     let bytes = bytes.iter().copied().chain(std::iter::repeat(0));
     place.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = new);
 }
 
-fn axis(state: &State, owner: Owner) -> Option<usize> {
+fn axis(state: &CncState, owner: Owner) -> Option<usize> {
     match owner {
         Owner::Axis(axis) | Owner::ClassAxis(_, axis) => Some(axis),
         Owner::Place { channel, place } | Owner::ClassPlace { channel, place, .. } => {

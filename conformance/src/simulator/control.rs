@@ -6,7 +6,7 @@ use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use super::Cnc;
 use super::model::{Parameter, Times, parameter_kind};
 use super::program::service::ServiceInterface;
-use super::program::{Program, ProgramConfig, Script};
+use super::program::{ProgramConfig, Script, StreamingProgram};
 use super::state::ChannelState;
 
 /// What the CNC cannot be made to do.
@@ -127,7 +127,7 @@ impl Cnc {
     pub fn set_program(&self, channel: u8, config: ProgramConfig) -> Result<(), ControlError> {
         let (now, policy) = (self.now(), self.policy());
         self.of_channel(channel, |channel| {
-            channel.program = Program::with_policy(config, policy);
+            channel.program = StreamingProgram::with_policy(config, policy);
             channel.program.advance(now);
         })
     }
@@ -140,7 +140,7 @@ impl Cnc {
     pub fn with_program<T>(
         &self,
         channel: u8,
-        then: impl FnOnce(&mut Program) -> T,
+        then: impl FnOnce(&mut StreamingProgram) -> T,
     ) -> Result<T, ControlError> {
         self.of_channel(channel, |channel| then(&mut channel.program))
     }

@@ -5,8 +5,9 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::{CncString, VariablePath, VariableType};
 
 use super::Cnc;
-use super::content::{self, Owner};
+use super::content;
 use super::model::{Meaning, Model};
+use super::owner::Owner;
 
 /// Whose content it is: channels by their numbers, axes and places from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +32,7 @@ pub(crate) enum Holder {
 
 /// A content of an object or an element, as it is at the moment.
 #[derive(Clone, Debug)]
-pub(crate) struct Held {
+pub(crate) struct StoredContent {
     pub(crate) holder: Holder,
     /// Its place among those of the holder.
     pub(crate) element: u32,
@@ -65,7 +66,7 @@ pub(crate) struct HeldParameter {
 impl Cnc {
     /// All contents that are what was put there last: none that says something of the
     /// configuration, none where no axis is.
-    pub(crate) fn held(&self) -> Vec<Held> {
+    pub(crate) fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
             let elements = elements(self.model(), owner);
@@ -74,7 +75,7 @@ impl Cnc {
             let items = content::items(self.model(), owner).iter().zip(elements).zip(values);
             for (index, ((item, element), value)) in items.enumerate() {
                 if item.meaning == Meaning::Value {
-                    all.push(Held {
+                    all.push(StoredContent {
                         holder,
                         element,
                         name: item.name.clone(),
@@ -92,7 +93,7 @@ impl Cnc {
     }
 
     /// Puts this value there; it has the size of the old one.
-    pub(crate) fn hold(&self, held: &Held, value: &[u8]) {
+    pub(crate) fn hold(&self, held: &StoredContent, value: &[u8]) {
         let mut state = self.state();
         let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
         if let Some(content) = content.filter(|content| content.len() == value.len()) {
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn what_is_put_there_is_held() {
         let cnc = Cnc::with_default_model().unwrap();
-        let all = cnc.held();
+        let all = cnc.stored_contents();
         let of = |holder: Holder, name: &str| {
             all.iter().find(|one| one.holder == holder && one.name.as_cnc_str() == name).unwrap()
         };
@@ -236,7 +237,7 @@ mod tests {
         cnc.hold(speed, &[7; 8]);
         cnc.hold(cycle, &[1; 3]);
         let changed: Vec<(Holder, Vec<u8>)> = cnc
-            .held()
+            .stored_contents()
             .into_iter()
             .zip(&all)
             .filter(|(new, old)| new.value != old.value)

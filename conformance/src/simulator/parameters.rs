@@ -17,7 +17,7 @@ pub(super) struct ParameterState {
 
 /// All of a channel, those too that are not there now.
 #[derive(Clone, Debug)]
-pub(super) struct Parameters(Vec<ParameterState>);
+pub(super) struct ParameterStates(Vec<ParameterState>);
 
 impl ParameterState {
     fn new(is: Parameter) -> Self {
@@ -29,7 +29,7 @@ impl ParameterState {
     }
 }
 
-impl Parameters {
+impl ParameterStates {
     /// As at the start.
     pub(super) fn new(parameters: &[Parameter]) -> Self {
         Self(parameters.iter().cloned().map(ParameterState::new).collect())

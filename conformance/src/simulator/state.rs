@@ -6,22 +6,22 @@ use ads_cnc::address::{Addressing, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
 
-use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
-use super::parameters::{ParameterState, Parameters};
+use super::owner::Owner;
+use super::parameters::{ParameterState, ParameterStates};
 use super::program::service::ServiceInterface;
-use super::program::{Policy, Program, Script};
+use super::program::{Policy, Script, StreamingProgram};
 
 /// Contents, in the order of what they belong to.
-pub(super) type Values = Vec<Vec<u8>>;
+pub(super) type Contents = Vec<Vec<u8>>;
 
 #[derive(Debug)]
-pub(super) struct State {
+pub(super) struct CncState {
     /// In the model's order.
     pub(super) channels: Vec<ChannelState>,
     axes: Vec<AxisState>,
-    spindles: Vec<Values>,
-    platform: Values,
+    spindles: Vec<Contents>,
+    platform: Contents,
 }
 
 /// Of a channel.
@@ -30,13 +30,13 @@ pub(super) struct ChannelState {
     pub(super) active: bool,
     /// Which axis is at which place now.
     pub(super) places: Vec<Option<usize>>,
-    objects: Values,
-    variables: Values,
-    elements: [Values; 6],
-    pub(super) parameters: Parameters,
+    objects: Contents,
+    variables: Contents,
+    elements: [Contents; 6],
+    pub(super) parameters: ParameterStates,
     pub(super) service: ServiceInterface,
     /// Its streaming program, with what is in the interface.
-    pub(super) program: Program,
+    pub(super) program: StreamingProgram,
     /// Its NC program that asks services, if it has one.
     pub(super) script: Option<Script>,
 }
@@ -45,21 +45,21 @@ pub(super) struct ChannelState {
 #[derive(Clone, Debug)]
 struct AxisState {
     /// Of the COM task, on the platform and at a place.
-    objects: Values,
-    of_place: Values,
-    variables: Values,
-    elements: [Values; 6],
+    objects: Contents,
+    of_place: Contents,
+    variables: Contents,
+    elements: [Contents; 6],
 }
 
-fn items(items: &[Item], instance: usize) -> Values {
+fn items(items: &[Item], instance: usize) -> Contents {
     items.iter().map(|item| item.initial.of(instance)).collect()
 }
 
-fn variables(variables: &Variables, instance: usize) -> Values {
+fn variables(variables: &Variables, instance: usize) -> Contents {
     variables.list.iter().map(|variable| variable.initial.of(instance)).collect()
 }
 
-impl State {
+impl CncState {
     /// As at the start.
     pub(super) fn new(model: &Model, policy: Policy) -> Self {
         let channel = |(place, channel): (usize, &ChannelModel)| ChannelState {
@@ -73,9 +73,9 @@ impl State {
                     .map(|class| items(&class.channel.items, place))
                     .unwrap_or_default()
             }),
-            parameters: Parameters::new(&channel.parameters),
+            parameters: ParameterStates::new(&channel.parameters),
             service: ServiceInterface::new(),
-            program: Program::with_policy(channel.program.clone(), policy),
+            program: StreamingProgram::with_policy(channel.program.clone(), policy),
             // The model was checked: it is one.
             script: channel
                 .script
@@ -143,7 +143,7 @@ impl State {
     }
 
     /// Contents of objects and elements; none where no axis is.
-    pub(super) fn values(&self, owner: Owner) -> Option<&Values> {
+    pub(super) fn values(&self, owner: Owner) -> Option<&Contents> {
         match owner {
             Owner::Platform => Some(&self.platform),
             Owner::Channel(channel) => self.channels.get(channel).map(|channel| &channel.objects),
@@ -164,7 +164,7 @@ impl State {
     }
 
     /// The same, to be written.
-    pub(super) fn values_mut(&mut self, owner: Owner) -> Option<&mut Values> {
+    pub(super) fn values_mut(&mut self, owner: Owner) -> Option<&mut Contents> {
         match owner {
             Owner::Platform => Some(&mut self.platform),
             Owner::Channel(channel) => {
@@ -190,17 +190,17 @@ impl State {
     }
 
     /// Values of the variables of a channel.
-    pub(super) fn variables(&self, channel: usize) -> Option<&Values> {
+    pub(super) fn variables(&self, channel: usize) -> Option<&Contents> {
         self.channels.get(channel).map(|channel| &channel.variables)
     }
 
     /// The same, to be written.
-    pub(super) fn variables_mut(&mut self, channel: usize) -> Option<&mut Values> {
+    pub(super) fn variables_mut(&mut self, channel: usize) -> Option<&mut Contents> {
         self.channels.get_mut(channel).map(|channel| &mut channel.variables)
     }
 
     /// Values of V.A of the axis at a place; none where no axis is.
-    pub(super) fn axis_variables(&self, channel: usize, place: usize) -> Option<&Values> {
+    pub(super) fn axis_variables(&self, channel: usize, place: usize) -> Option<&Contents> {
         self.axes.get(self.axis_at(channel, place)?).map(|axis| &axis.variables)
     }
 
@@ -209,7 +209,7 @@ impl State {
         &mut self,
         channel: usize,
         place: usize,
-    ) -> Option<&mut Values> {
+    ) -> Option<&mut Contents> {
         let axis = self.axis_at(channel, place)?;
         self.axes.get_mut(axis).map(|axis| &mut axis.variables)
     }

@@ -81,7 +81,7 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
 fn within(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let addresses = Addresses::new(probe)?;
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     for held in &all {
         let Some(element) = addresses.element(held)? else { continue };
         let at = format!("{} ({:?})", held.name, held.holder);

@@ -200,7 +200,7 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
     let claimed: Vec<u8> = probe.channels()?.iter().map(|channel| channel.number()).collect();
     let addresses = Addresses::new(probe)?;
     let objects = addresses.objects();
-    for held in cnc.held() {
+    for held in cnc.stored_contents() {
         let Some(element) = addresses.element(&held)? else {
             text(probe, &held.name, objects.iter().map(|object| object.name.as_bytes()));
             continue;

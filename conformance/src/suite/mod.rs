@@ -49,7 +49,7 @@ pub use kit::{Changes, Probe, TargetState};
 pub use run::run;
 pub(crate) use variable::holds_together;
 
-use crate::judge::{Body, Case, Needs, Step, Subject, codec_cases, in_catalogue};
+use crate::judge::{Body, Case, CaseSubject, Needs, Step, codec_cases, in_catalogue};
 
 /// The function that tries a case.
 type Try = fn(&mut Probe<'_>) -> Step;
@@ -127,7 +127,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(rows().map(|row| Case {
         id: row.id.to_owned(),
         title: row.title.to_owned(),
-        subject: Subject::Target,
+        subject: CaseSubject::Target,
         requirements: row.clauses.to_vec(),
         needs: row.needs,
         body: Body::Probe,

@@ -8,7 +8,7 @@ use super::kit::{Probe, TargetState};
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
-use crate::judge::{Body, Case, Needs, Outcome, Stop, Subject, Verdict, caught};
+use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, caught};
 use crate::process::interrupt;
 use crate::testee::{self, Terms};
 
@@ -24,13 +24,13 @@ pub fn run(
     mut target: Option<&mut TargetState>,
     defect: Option<&Seed>,
     seed: u32,
-) -> Vec<Outcome> {
+) -> Vec<CaseOutcome> {
     let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
         cases.into_iter().partition(|case| case.needs == Needs::Codec);
     let mut outcomes = Vec::new();
     if !of_codec.is_empty() {
         let mut own = testee::Own { defect: defect.cloned() };
-        let terms = Terms { seed, subject: Subject::Codec, edition: None, strict: true };
+        let terms = Terms { seed, subject: CaseSubject::Codec, edition: None, strict: true };
         outcomes = testee::judge(&mut own, of_codec, terms).outcomes;
     }
     outcomes.extend(of_target.into_iter().map(|case| {
@@ -44,29 +44,29 @@ pub fn run(
     outcomes
 }
 
-fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Outcome {
+fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOutcome {
     let Some(target) = target else {
-        return Outcome::untried(case, Verdict::NotRun, "no target");
+        return CaseOutcome::untried(case, Verdict::NotRun, "no target");
     };
-    if interrupt::came() {
-        return Outcome::interrupted(case);
+    if interrupt::is_requested() {
+        return CaseOutcome::interrupted(case);
     }
     // Frames are judged by what there was of them, whatever became of the target.
     if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
-        return Outcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
+        return CaseOutcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
     }
     let late = target.deadline.filter(|_| case.needs != Needs::Frames);
     if let Some(deadline) = late.filter(Deadline::is_over) {
-        return Outcome::untried(case, Verdict::Inconclusive, deadline.to_string());
+        return CaseOutcome::untried(case, Verdict::Inconclusive, deadline.to_string());
     }
     let (gate, inside) = (target.client.gate(), target.cnc.is_some());
     if let Some((verdict, why)) = case.needs.unmet(gate, &target.profile, inside) {
-        return Outcome::untried(case, verdict, why);
+        return CaseOutcome::untried(case, verdict, why);
     }
     let writes = matches!(case.needs, Needs::Writes | Needs::MalformedWrites);
     if writes && target.changes.any_given_up() {
         let note = "writes: nothing more is written when a value could not be restored";
-        return Outcome::untried(case, Verdict::NotRun, note);
+        return CaseOutcome::untried(case, Verdict::NotRun, note);
     }
     // What a case has changed is restored after the deadline too.
     let mut probe = Probe::new(target).with_deadline(late);
@@ -91,7 +91,7 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Outcom
     let step = step.and(put_back);
     let step = probe.end(step);
     let (judgements, checks) = probe.into_findings();
-    Outcome::tried(case, judgements, checks, step.err())
+    CaseOutcome::tried(case, judgements, checks, step.err())
 }
 
 #[cfg(test)]
@@ -144,7 +144,7 @@ mod tests {
         let case = || Case {
             id: "write-and-panic".to_owned(),
             title: String::new(),
-            subject: Subject::Target,
+            subject: CaseSubject::Target,
             requirements: vec!["VAR-13"],
             needs: Needs::Writes,
             body: Body::Probe,

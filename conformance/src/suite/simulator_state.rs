@@ -5,7 +5,7 @@ use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 use crate::objects::{List, Object, ValueAddress};
-use crate::simulator::{Held, Holder};
+use crate::simulator::{Holder, StoredContent};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
@@ -29,18 +29,18 @@ const ROUNDS: u32 = 6;
 /// Rounds of longer contents.
 const ROUNDS_OF_NUMBERS: u32 = 2;
 
-fn is_bit(held: &Held) -> bool {
+fn is_bit(held: &StoredContent) -> bool {
     matches!(held.type_name, "BOOL" | "BOOLEAN")
 }
 
 /// Whether its bytes have an order.
-fn is_number(held: &Held) -> bool {
+fn is_number(held: &StoredContent) -> bool {
     held.type_name != "STRING" && held.value.len() > 1
 }
 
 /// A value of the content with this number, another in each round. No two bytes of a number are
 /// the same, and no REAL is an odd one.
-fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
+fn value(held: &StoredContent, number: u32, round: u32) -> Vec<u8> {
     if is_bit(held) {
         return vec![u8::from(number.checked_shr(round).unwrap_or_default() & 1 == 1)];
     }
@@ -61,7 +61,7 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
     }
 }
 
-fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
+fn same(held: &StoredContent, one: &[u8], other: &[u8]) -> bool {
     kit::same(one, other, held.type_name == "STRING")
 }
 
@@ -70,7 +70,7 @@ fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
 fn judge(
     probe: &mut Probe<'_>,
     rules: &[Rule],
-    held: &Held,
+    held: &StoredContent,
     (expected, found): (&[u8], Option<&[u8]>),
     result: &str,
 ) {
@@ -88,7 +88,7 @@ fn judge(
 /// Every content with its values over the rounds; they are put back whatever comes of it.
 fn is_read(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     if all.is_empty() {
         return Err(Stop::not_applicable("the CNC holds nothing"));
     }
@@ -98,7 +98,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
         let values: Vec<Vec<u8>> =
             (1..).zip(&all).map(|(number, held)| value(held, number, round)).collect();
         all.iter().zip(&values).for_each(|(held, value)| cnc.hold(held, value));
-        let of_round = |held: &Held| is_bit(held) || round < ROUNDS_OF_NUMBERS;
+        let of_round = |held: &StoredContent| is_bit(held) || round < ROUNDS_OF_NUMBERS;
         for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
             done = done.and_then(|()| read(probe, &addresses, held, value));
         }
@@ -107,7 +107,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
     done
 }
 
-fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &Held, value: &[u8]) -> Step {
+fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &StoredContent, value: &[u8]) -> Step {
     for (place, rules) in addresses.of(held)? {
         // Of the program stream, and where functions are, nothing is read.
         let Ok(request) = place.read() else { continue };
@@ -120,7 +120,7 @@ fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &Held, value: &[u8])
 
 fn is_held(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
     for (number, held) in (1..).zip(&all).filter(|(_, held)| held.writable) {
@@ -137,8 +137,8 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
 
 fn write(
     probe: &mut Probe<'_>,
-    all: &[Held],
-    held: &Held,
+    all: &[StoredContent],
+    held: &StoredContent,
     addresses: &[JudgedAddress],
     value: &[u8],
 ) -> Step {
@@ -156,7 +156,7 @@ fn write(
             continue;
         }
         let mut others = Vec::new();
-        for (now, before) in cnc.held().iter().zip(all) {
+        for (now, before) in cnc.stored_contents().iter().zip(all) {
             if (now.holder, now.element) == (held.holder, held.element) {
                 judge(probe, &rules, held, (value, Some(&now.value)), "");
             } else if now.value != before.value {
@@ -186,7 +186,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let addresses = Addresses::new(probe)?;
     let objects = addresses.objects();
-    let all = cnc.held();
+    let all = cnc.stored_contents();
     for held in &all {
         let mine = |object: &&Object| is_list_of(held.holder, object.list);
         // What instances there are is judged elsewhere.
@@ -235,8 +235,8 @@ mod tests {
     /// What is read in place of another, or in another order, is not taken for it.
     #[test]
     fn values_are_told_apart() {
-        let all = Cnc::with_default_model().unwrap().held();
-        let sequence = |number: u32, held: &Held| {
+        let all = Cnc::with_default_model().unwrap().stored_contents();
+        let sequence = |number: u32, held: &StoredContent| {
             let rounds = if is_bit(held) { ROUNDS } else { ROUNDS_OF_NUMBERS };
             (0..rounds).map(|round| value(held, number, round)).collect::<Vec<_>>()
         };

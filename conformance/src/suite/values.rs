@@ -10,7 +10,7 @@ use super::kit::{
     element_name, name_of, order, part, places_tried, same,
 };
 use super::{Row, case};
-use crate::explain::{Values, type_by_name};
+use crate::explain::{ValueFormat, type_by_name};
 use crate::judge::{Evidence, Needs, Rule, Step};
 use crate::text::hex::spaced;
 
@@ -56,9 +56,9 @@ fn compare_with_whole<'r>(
 }
 
 /// How a report reads the value of a variable.
-fn typed(variable: &Description, dimensions: &[u32]) -> Values {
+fn typed(variable: &Description, dimensions: &[u32]) -> ValueFormat {
     let ty = variable.var_type.name().and_then(|name| type_by_name(name).ok());
-    Values { ty, dimensions: dimensions.to_vec() }
+    ValueFormat { ty, dimensions: dimensions.to_vec() }
 }
 
 fn whole(channel: Channel, variable: &Description) -> ReadByHandle<'static> {

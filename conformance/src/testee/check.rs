@@ -4,7 +4,7 @@ use ads_cnc_vectors::{Expect, Vector, vector};
 
 use super::describe::describe;
 use super::plan::{forms, of_vector};
-use super::{Process, Reaction, Testee, compare};
+use super::{Testee, TesteeProcess, TesteeReaction, compare};
 use crate::codec::message::{Answer, Capabilities, Output, Question};
 use crate::text::{escape, hex::compact};
 
@@ -34,7 +34,7 @@ const SAMPLES: [&str; 8] = [
 const EDITION: &str = "en-1.05";
 
 /// Tries every step of the protocol.
-pub fn check_protocol(process: &mut Process) -> Vec<Finding> {
+pub fn check_protocol(process: &mut TesteeProcess) -> Vec<Finding> {
     let mut steps = Steps { process, findings: Vec::new() };
     let hello = steps.process.hello();
     let capabilities = match hello {
@@ -73,7 +73,7 @@ pub fn check_protocol(process: &mut Process) -> Vec<Finding> {
 }
 
 struct Steps<'p> {
-    process: &'p mut Process,
+    process: &'p mut TesteeProcess,
     findings: Vec<Finding>,
 }
 
@@ -105,9 +105,9 @@ impl Steps<'_> {
         self.note("streams are those of the vectors", fault);
     }
 
-    fn ask(&mut self, question: &Question) -> Result<Output, Reaction> {
+    fn ask(&mut self, question: &Question) -> Result<Output, TesteeReaction> {
         match self.process.ask(question) {
-            Reaction::Answer(Answer::Ok(output)) => Ok(output),
+            TesteeReaction::Answer(Answer::Ok(output)) => Ok(output),
             other => Err(other),
         }
     }
@@ -117,7 +117,7 @@ impl Steps<'_> {
         if !capabilities.claim("decode", &vector.stream) {
             return;
         }
-        let Some(question) = asked("decode", vector) else { return };
+        let Some(question) = question_of("decode", vector) else { return };
         let fault = match self.ask(&question) {
             Ok(Output { value: Some(value), .. }) => {
                 match compare::compare(&accept.value, &value) {
@@ -136,7 +136,7 @@ impl Steps<'_> {
         if !capabilities.claim("encode", &vector.stream) {
             return;
         }
-        let Some(question) = asked("encode", vector) else { return };
+        let Some(question) = question_of("encode", vector) else { return };
         let fault = match self.ask(&question) {
             Ok(Output { hex: Some(hex), .. }) => {
                 let right = forms(vector, accept).contains(&hex);
@@ -155,10 +155,10 @@ impl Steps<'_> {
         }
         let mut bytes = vector.bytes();
         bytes.pop();
-        let Some(question) = asked("decode", vector) else { return };
+        let Some(question) = question_of("decode", vector) else { return };
         let question = Question { hex: Some(bytes), ..question };
         let fault = match self.process.ask(&question) {
-            Reaction::Answer(Answer::Reject(_)) => None,
+            TesteeReaction::Answer(Answer::Reject(_)) => None,
             other => {
                 let hint = r#"{"seq":…,"reject":{"class":"truncated"}} is expected"#;
                 Some(format!("{}; {hint}", describe(&other)))
@@ -171,7 +171,7 @@ impl Steps<'_> {
         let blank = Question::new(op, stream, EDITION);
         let blank = Question { hex: Some(vec![1, 0, 0, 0]), ..blank };
         let fault = match self.process.ask(&blank) {
-            Reaction::Answer(Answer::Unsupported { .. }) => None,
+            TesteeReaction::Answer(Answer::Unsupported { .. }) => None,
             other => {
                 let hint = r#"{"seq":…,"unsupported":{"what":"…"}} is expected"#;
                 Some(format!("{}; {hint}", describe(&other)))
@@ -182,6 +182,6 @@ impl Steps<'_> {
 }
 
 /// What is asked of a vector by this op.
-fn asked(op: &str, vector: &Vector) -> Option<Question> {
+fn question_of(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
 }

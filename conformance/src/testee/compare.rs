@@ -125,12 +125,13 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             let given = text("value");
             let number = given.and_then(|text| text.parse::<i128>().ok());
             let expected = meant.value.as_deref().unwrap_or_default();
-            match number.is_some() && number == meant.integer() {
-                true => None,
-                false => other(
+            if number.is_some() && number == meant.integer() {
+                None
+            } else {
+                other(
                     place,
                     format_args!("{} where {expected} is expected", given.unwrap_or("nothing")),
-                ),
+                )
             }
         }
     }
@@ -169,8 +170,9 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
         (false, []) => "one NUL behind it".to_owned(),
         (false, tail) => format!("{} behind its NUL", compact::show(tail)),
     };
-    match said {
-        true => other(place, format_args!("{expected} is expected")),
-        false => Some(Difference::Untold(format!("{place}: {expected}, which is not told"))),
+    if said {
+        other(place, format_args!("{expected} is expected"))
+    } else {
+        Some(Difference::Untold(format!("{place}: {expected}, which is not told")))
     }
 }

@@ -1,24 +1,24 @@
 //! What a testee was asked and did, for people.
 
-use super::Reaction;
+use super::TesteeReaction;
 use crate::codec::message::{Answer, Output, Question};
 use crate::judge::{Evidence, TEXT_MAX};
 use crate::show::show;
 use crate::text::{hex::compact, shorten};
 
-pub(super) fn describe(reaction: &Reaction) -> String {
+pub(super) fn describe(reaction: &TesteeReaction) -> String {
     shorten(&described(reaction), TEXT_MAX)
 }
 
-fn described(reaction: &Reaction) -> String {
+fn described(reaction: &TesteeReaction) -> String {
     match reaction {
-        Reaction::Answer(Answer::Ok(output)) => match output {
+        TesteeReaction::Answer(Answer::Ok(output)) => match output {
             Output { value: Some(value), .. } => format!("accepted: {value}"),
             Output { hex: Some(hex), .. } => format!("accepted: {}", compact::show(hex)),
             Output { packets: Some(packets), .. } => format!("{} packets", packets.len()),
             _ => "accepted".to_owned(),
         },
-        Reaction::Answer(Answer::Reject(reject)) => {
+        TesteeReaction::Answer(Answer::Reject(reject)) => {
             let mut text = "refused".to_owned();
             if let Some(class) = &reject.class {
                 text.push_str(&format!(": {class}"));
@@ -31,27 +31,29 @@ fn described(reaction: &Reaction) -> String {
             }
             text
         }
-        Reaction::Answer(Answer::Unsupported { what }) => {
+        TesteeReaction::Answer(Answer::Unsupported { what }) => {
             format!("unsupported: {what}, which it claims to support")
         }
-        Reaction::Answer(Answer::Error { message }) => format!("an error of its own: {message}"),
-        Reaction::Garbled(why) => format!("no answer of the protocol: {why}"),
-        Reaction::Died(how) => format!("a crash: {how}"),
-        Reaction::Silent(limit) => format!("no answer within {} ms", limit.as_millis()),
-        Reaction::Broken(why) => why.clone(),
+        TesteeReaction::Answer(Answer::Error { message }) => {
+            format!("an error of its own: {message}")
+        }
+        TesteeReaction::Garbled(why) => format!("no answer of the protocol: {why}"),
+        TesteeReaction::Died(how) => format!("a crash: {how}"),
+        TesteeReaction::Silent(limit) => format!("no answer within {} ms", limit.as_millis()),
+        TesteeReaction::Broken(why) => why.clone(),
     }
 }
 
 pub(super) fn evidence(
     question: &Question,
-    reaction: &Reaction,
+    reaction: &TesteeReaction,
     id: &str,
     expected: Option<Vec<u8>>,
 ) -> Evidence {
     let stream = ads_cnc::layout::Stream::by_name(&question.stream);
     let stream = stream.map(|stream| stream.layout().name);
     let received = match reaction {
-        Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
+        TesteeReaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
             Some(Evidence::start(hex).to_vec())
         }
         _ => None,

@@ -6,9 +6,9 @@ use super::describe::describe;
 use super::plan::{PlannedQuestion, Purpose, plan};
 use super::protocol_rules::ProtocolRules;
 use super::verdicts::{Reactions, Terms, Verdicts};
-use super::{Reaction, Testee};
-use crate::codec::message::{Answer, Hello};
-use crate::judge::{Case, Outcome, Stop, Subject, Verdict, caught};
+use super::{Testee, TesteeReaction};
+use crate::codec::message::{Answer, TesteeHello};
+use crate::judge::{Case, CaseOutcome, CaseSubject, Stop, Verdict, caught};
 use crate::process::interrupt;
 
 /// Questions in a row that end with a crash or in silence, after which no more are asked.
@@ -18,26 +18,26 @@ const LOST_MAX: usize = 12;
 const ANSWERS_MAX: usize = 32 << 20;
 
 #[derive(Debug)]
-pub struct Judged {
-    pub hello: Option<Hello>,
+pub struct JudgedTestee {
+    pub hello: Option<TesteeHello>,
     /// Of each case, and of the protocol.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
     /// How often it had to be started anew.
     pub restarts: usize,
 }
 
 /// Asks a testee all that these cases have.
-pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> Judged {
+pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> JudgedTestee {
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
         Ok(hello) => hello,
-        Err(_) if interrupt::came() => return untried(cases, Outcome::interrupted),
+        Err(_) if interrupt::is_requested() => return untried(cases, CaseOutcome::interrupted),
         // Whether it would have answered is not known.
         Err(reaction) => {
             return match testee.over() {
                 Some(why) => untried(cases, |case| {
-                    Outcome::untried(case, Verdict::Inconclusive, why.clone())
+                    CaseOutcome::untried(case, Verdict::Inconclusive, why.clone())
                 }),
                 None => without_hello(cases, &reaction, terms.subject),
             };
@@ -53,10 +53,10 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     {
         let untried = |case| {
             let note = format!("the testee does not claim the edition {asked}");
-            Outcome::untried(case, Verdict::NotApplicable, note)
+            CaseOutcome::untried(case, Verdict::NotApplicable, note)
         };
         let outcomes = cases.into_iter().map(untried).collect();
-        return Judged { hello: Some(hello), outcomes, asked: 0, restarts: 0 };
+        return JudgedTestee { hello: Some(hello), outcomes, asked: 0, restarts: 0 };
     }
     // Siblings decide, so they are asked even if nobody wants to know of them.
     let wanted = cases.len();
@@ -79,22 +79,25 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             }
             (Err(_), Purpose::MadeUp) => continue,
         };
-        if interrupt::came() {
+        if interrupt::is_requested() {
             // Whether it would have answered is not known.
             gone = Some(Stop::Interrupted);
             break;
         }
-        if let (Reaction::Silent(_), Some(why)) = (&reaction, testee.over()) {
+        if let (TesteeReaction::Silent(_), Some(why)) = (&reaction, testee.over()) {
             gone = Some(Stop::Inconclusive(format!("not answered: {why}")));
             break;
         }
         asked = asked.saturating_add(1);
-        if matches!(reaction, Reaction::Died(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
+        if matches!(
+            reaction,
+            TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)
+        ) {
             (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
         } else {
             lost = 0;
         }
-        if let Reaction::Answer(Answer::Ok(output)) = &reaction {
+        if let TesteeReaction::Answer(Answer::Ok(output)) = &reaction {
             kept = kept.saturating_add(output.weight());
         }
         if kept > ANSWERS_MAX {
@@ -130,33 +133,39 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         };
         judged.unwrap_or_else(|why| {
             let case = cases.get(place)?.clone();
-            Some(Outcome::tried(case, Vec::new(), 0, Some(Stop::Harness(why))))
+            Some(CaseOutcome::tried(case, Vec::new(), 0, Some(Stop::Harness(why))))
         })
     };
-    let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(outcome).collect();
+    let mut outcomes: Vec<CaseOutcome> = (0..wanted).filter_map(outcome).collect();
     // Our own codec is asked without a protocol in between.
-    if terms.subject != Subject::Codec {
+    if terms.subject != CaseSubject::Codec {
         let protocol = protocol.outcome(terms.subject);
-        outcomes.push(match interrupt::came() {
-            true => Outcome::interrupted(protocol.case),
-            false => protocol,
+        outcomes.push(if interrupt::is_requested() {
+            CaseOutcome::interrupted(protocol.case)
+        } else {
+            protocol
         });
     }
-    Judged { hello: Some(hello), outcomes, asked, restarts }
+    JudgedTestee { hello: Some(hello), outcomes, asked, restarts }
 }
 
-fn untried(cases: Vec<Case>, outcome: impl Fn(Case) -> Outcome) -> Judged {
+fn untried(cases: Vec<Case>, outcome: impl Fn(Case) -> CaseOutcome) -> JudgedTestee {
     let outcomes = cases.into_iter().map(outcome).collect();
-    Judged { hello: None, outcomes, asked: 0, restarts: 0 }
+    JudgedTestee { hello: None, outcomes, asked: 0, restarts: 0 }
 }
 
-fn without_hello(cases: Vec<Case>, reaction: &Reaction, subject: Subject) -> Judged {
+fn without_hello(
+    cases: Vec<Case>,
+    reaction: &TesteeReaction,
+    subject: CaseSubject,
+) -> JudgedTestee {
     let mut protocol = ProtocolRules::default();
     protocol.fault("an answer to hello", describe(reaction), None);
-    let untried = |case| Outcome::untried(case, Verdict::NotRun, "there was no answer to hello");
-    let mut outcomes: Vec<Outcome> = cases.into_iter().map(untried).collect();
+    let untried =
+        |case| CaseOutcome::untried(case, Verdict::NotRun, "there was no answer to hello");
+    let mut outcomes: Vec<CaseOutcome> = cases.into_iter().map(untried).collect();
     outcomes.push(protocol.outcome(subject));
-    Judged { hello: None, outcomes, asked: 0, restarts: 0 }
+    JudgedTestee { hello: None, outcomes, asked: 0, restarts: 0 }
 }
 
 #[cfg(test)]
@@ -165,14 +174,14 @@ mod tests {
     use super::*;
 
     /// The codec, which panics when it is asked one op.
-    struct Panics(Own);
+    struct PanickingTestee(Own);
 
-    impl Testee for Panics {
-        fn hello(&mut self) -> Result<Hello, Reaction> {
+    impl Testee for PanickingTestee {
+        fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
             Testee::hello(&mut self.0)
         }
 
-        fn ask(&mut self, question: &Question) -> Reaction {
+        fn ask(&mut self, question: &Question) -> TesteeReaction {
             assert_ne!(question.op, "check", "asked");
             self.0.ask(question)
         }
@@ -185,8 +194,8 @@ mod tests {
     #[test]
     fn only_a_case_that_panics_is_a_harness_error() {
         let cases = crate::judge::codec_cases();
-        let terms = Terms { seed: 1, subject: Subject::Codec, edition: None, strict: true };
-        let judged = judge(&mut Panics(Own::default()), cases, terms);
+        let terms = Terms { seed: 1, subject: CaseSubject::Codec, edition: None, strict: true };
+        let judged = judge(&mut PanickingTestee(Own::default()), cases, terms);
         let (panicked, others): (Vec<_>, Vec<_>) = judged.outcomes.iter().partition(|outcome| {
             matches!(outcome.case.body, crate::judge::Body::Sequence(one) if one.kind() == "nc-check")
         });

@@ -2,7 +2,7 @@
 
 use super::Own;
 use crate::codec::message::{
-    Answer, Capabilities, Command, Hello, Output, Question, Rejection, Reply,
+    Answer, Capabilities, Output, Question, Rejection, Reply, TesteeCommand, TesteeHello,
 };
 use crate::text::named;
 
@@ -64,7 +64,7 @@ impl Miniature {
         })
     }
 
-    pub fn hello(self, own: &Own) -> Hello {
+    pub fn hello(self, own: &Own) -> TesteeHello {
         let mut hello = own.hello();
         hello.testee.name = format!("miniature {}", self.name());
         if self == Self::DecodesOnly {
@@ -76,7 +76,7 @@ impl Miniature {
 
     /// What it does with a line, the `seq`th case.
     pub fn act(self, own: &Own, line: &str, seq: u64) -> Act {
-        let Ok(Command::Case { question, .. }) = serde_json::from_str(line) else {
+        let Ok(TesteeCommand::Case { question, .. }) = serde_json::from_str(line) else {
             return Act::Say(r#"{"seq":null,"error":{"message":"no case"}}"#.to_owned());
         };
         let tenth = seq % 10 == 9;

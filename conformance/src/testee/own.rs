@@ -5,10 +5,10 @@ use ads_cnc::streaming::{CheckEvent, Checker, LineErrorKind, NcText};
 use ads_cnc_vectors::vectors;
 
 use crate::codec::message::{
-    Answer, Capabilities, Hello, Identity, Output, PROTOCOL, Question, Rejection,
+    Answer, Capabilities, Identity, Output, PROTOCOL, Question, Rejection, TesteeHello,
 };
 use crate::codec::{self, Refused};
-use crate::faults::{Defect, Seed};
+use crate::faults::{FieldDefect, Seed};
 
 /// The codec's answers, with a defect if that is asked for.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +18,7 @@ pub struct Own {
 
 impl Own {
     /// What it says of itself: it does whatever the vectors have.
-    pub fn hello(&self) -> Hello {
+    pub fn hello(&self) -> TesteeHello {
         let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
         streams.sort();
         streams.dedup();
@@ -26,7 +26,7 @@ impl Own {
             None => "ads-cnc".to_owned(),
             Some(defect) => format!("ads-cnc with the defect {}", defect.id),
         };
-        Hello {
+        TesteeHello {
             protocol: PROTOCOL,
             testee: Identity {
                 name,
@@ -43,7 +43,7 @@ impl Own {
 
     pub fn answer(&self, question: &Question) -> Answer {
         match self.defect.as_ref().and_then(Seed::of_codec) {
-            Some(twist) => twist.answer(&|question| self.answer_right(question), question),
+            Some(fault) => fault.answer(&|question| self.answer_right(question), question),
             None => self.answer_right(question),
         }
     }
@@ -81,7 +81,7 @@ impl Own {
 
     fn changed(&self, stream: &str, bytes: &[u8]) -> Vec<u8> {
         let stream = ads_cnc::layout::Stream::by_name(stream);
-        let touches = |defect: &&Defect| stream.is_some_and(|stream| defect.touches(stream));
+        let touches = |defect: &&FieldDefect| stream.is_some_and(|stream| defect.touches(stream));
         match self.defect.as_ref().and_then(Seed::field).filter(touches) {
             None => bytes.to_vec(),
             Some(defect) => defect.apply(bytes),
@@ -104,10 +104,13 @@ fn refusal(refused: Refused) -> Answer {
         Refused::Unfit(why) => {
             Answer::Reject(Rejection { message: Some(why), ..Rejection::default() })
         }
-        Refused::Unsupported(what) => match what.starts_with("stream ") {
-            true => unsupported("stream"),
-            false => unsupported("context"),
-        },
+        Refused::Unsupported(what) => {
+            if what.starts_with("stream ") {
+                unsupported("stream")
+            } else {
+                unsupported("context")
+            }
+        }
     }
 }
 

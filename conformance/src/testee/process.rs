@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use super::{Reaction, Testee};
-use crate::codec::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
+use super::{Testee, TesteeReaction};
+use crate::codec::message::{Answer, PROTOCOL, Question, Reply, TesteeCommand, TesteeHello};
 use crate::deadline::Deadline;
 use crate::process::{START, Subprocess, cut};
 use crate::text::shorten;
@@ -13,7 +13,7 @@ const SHOWN: usize = 400;
 
 /// Who is started to be judged.
 #[derive(Debug)]
-pub struct Process {
+pub struct TesteeProcess {
     process: Subprocess,
     seq: u64,
     sent: Option<String>,
@@ -22,7 +22,7 @@ pub struct Process {
     pub starts: usize,
 }
 
-impl Process {
+impl TesteeProcess {
     /// A testee that is started by a command line, with so much time for each answer.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self {
@@ -50,9 +50,13 @@ impl Process {
         (self.sent.clone(), self.received.clone())
     }
 
-    fn exchange(&mut self, command: &Command, timeout: Duration) -> Result<String, Reaction> {
+    fn exchange(
+        &mut self,
+        command: &TesteeCommand,
+        timeout: Duration,
+    ) -> Result<String, TesteeReaction> {
         let line = serde_json::to_vec(command)
-            .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
+            .map_err(|error| TesteeReaction::Broken(format!("the question: {error}")))?;
         (self.sent, self.received) = (Some(shorten(&String::from_utf8_lossy(&line), SHOWN)), None);
         self.process.send(line);
         let line = self.process.recv(timeout)?;
@@ -61,23 +65,23 @@ impl Process {
     }
 }
 
-impl Testee for Process {
-    fn hello(&mut self) -> Result<Hello, Reaction> {
+impl Testee for TesteeProcess {
+    fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
         self.process.start([])?;
         self.starts = self.starts.saturating_add(1);
         let timeout = START.max(self.process.timeout);
-        let line = self.exchange(&Command::Hello { protocol: PROTOCOL }, timeout)?;
+        let line = self.exchange(&TesteeCommand::Hello { protocol: PROTOCOL }, timeout)?;
         greeted(&line)
     }
 
-    fn ask(&mut self, question: &Question) -> Reaction {
+    fn ask(&mut self, question: &Question) -> TesteeReaction {
         if self.process.running.is_none()
             && let Err(reaction) = self.hello()
         {
             return reaction;
         }
         self.seq = self.seq.saturating_add(1);
-        let command = Command::Case { seq: self.seq, question: Box::new(question.clone()) };
+        let command = TesteeCommand::Case { seq: self.seq, question: Box::new(question.clone()) };
         let line = match self.exchange(&command, self.process.timeout) {
             Ok(line) => line,
             Err(reaction) => return reaction,
@@ -90,14 +94,14 @@ impl Testee for Process {
     }
 
     fn bye(&mut self) -> Result<(), String> {
-        match self.process.bye(serde_json::to_vec(&Command::Bye).unwrap_or_default()) {
+        match self.process.bye(serde_json::to_vec(&TesteeCommand::Bye).unwrap_or_default()) {
             (_, Some(unasked)) => Err(format!("it said {unasked}, which nobody asked for")),
             (end, None) => end,
         }
     }
 
     fn stderr(&self) -> String {
-        Process::stderr(self)
+        TesteeProcess::stderr(self)
     }
 
     fn over(&self) -> Option<String> {
@@ -109,13 +113,15 @@ impl Testee for Process {
 ///
 /// # Errors
 /// That this is no answer to it.
-pub fn greeted(line: &str) -> Result<Hello, Reaction> {
-    let hello: Hello = serde_json::from_str(line).map_err(|error| {
-        Reaction::Garbled(format!("{error} in the answer to hello: {}", cut(line)))
+pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
+    let hello: TesteeHello = serde_json::from_str(line).map_err(|error| {
+        TesteeReaction::Garbled(format!("{error} in the answer to hello: {}", cut(line)))
     })?;
     match hello.protocol {
         PROTOCOL => Ok(hello),
-        other => Err(Reaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}"))),
+        other => {
+            Err(TesteeReaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}")))
+        }
     }
 }
 
@@ -123,23 +129,23 @@ pub fn greeted(line: &str) -> Result<Hello, Reaction> {
 /// next case. After the answer to another case it cannot be told from what was said too late.
 ///
 /// ```
-/// use ads_cnc_conformance::testee::{Answer, Output, Reaction, answered};
+/// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};
 ///
-/// let ok = Reaction::Answer(Answer::Ok(Output::default()));
+/// let ok = TesteeReaction::Answer(Answer::Ok(Output::default()));
 /// assert_eq!(answered(r#"{"seq": 7, "ok": {}}"#, 7), (ok, true));
-/// assert!(matches!(answered(r#"{"seq": 6, "ok": {}}"#, 7), (Reaction::Garbled(_), false)));
-/// assert!(matches!(answered("Hello!", 7), (Reaction::Garbled(_), true)));
+/// assert!(matches!(answered(r#"{"seq": 6, "ok": {}}"#, 7), (TesteeReaction::Garbled(_), false)));
+/// assert!(matches!(answered("Hello!", 7), (TesteeReaction::Garbled(_), true)));
 /// ```
-pub fn answered(line: &str, seq: u64) -> (Reaction, bool) {
+pub fn answered(line: &str, seq: u64) -> (TesteeReaction, bool) {
     match serde_json::from_str::<Reply>(line) {
-        Ok(reply) if reply.seq == Some(seq) => (Reaction::Answer(reply.answer), true),
+        Ok(reply) if reply.seq == Some(seq) => (TesteeReaction::Answer(reply.answer), true),
         Ok(Reply { seq: None, answer: Answer::Error { message } }) => {
-            (Reaction::Garbled(format!("it could not read the case: {message}")), true)
+            (TesteeReaction::Garbled(format!("it could not read the case: {message}")), true)
         }
         Ok(reply) => {
             let found = reply.seq.map_or_else(|| "none".to_owned(), |seq| seq.to_string());
-            (Reaction::Garbled(format!("seq {found} answers seq {seq}")), false)
+            (TesteeReaction::Garbled(format!("seq {found} answers seq {seq}")), false)
         }
-        Err(error) => (Reaction::Garbled(format!("{error}: {}", cut(line))), true),
+        Err(error) => (TesteeReaction::Garbled(format!("{error}: {}", cut(line))), true),
     }
 }

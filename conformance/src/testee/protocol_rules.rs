@@ -2,11 +2,13 @@
 
 use ads_cnc_vectors::Level;
 
-use super::Reaction;
+use super::TesteeReaction;
 use super::describe::{describe, evidence};
 use super::verdicts::Reactions;
 use crate::codec::message::{Answer, Question};
-use crate::judge::{Body, Case, Evidence, Judgement, Needs, Outcome, Subject, TESTEE, Verdict};
+use crate::judge::{
+    Body, Case, CaseOutcome, CaseSubject, Evidence, Judgement, Needs, TESTEE, Verdict,
+};
 
 /// How a testee keeps to the protocol.
 #[derive(Default)]
@@ -22,7 +24,7 @@ impl ProtocolRules {
         case: usize,
         first: bool,
         question: Question,
-        reaction: Reaction,
+        reaction: TesteeReaction,
     ) {
         if first {
             self.first.insert((case, question.op), reaction);
@@ -41,9 +43,9 @@ impl ProtocolRules {
         }
     }
 
-    pub(super) fn made_up(&mut self, question: &Question, reaction: &Reaction) {
+    pub(super) fn made_up(&mut self, question: &Question, reaction: &TesteeReaction) {
         self.checks = self.checks.saturating_add(1);
-        if !matches!(reaction, Reaction::Answer(Answer::Unsupported { .. })) {
+        if !matches!(reaction, TesteeReaction::Answer(Answer::Unsupported { .. })) {
             let expected = format!("unsupported, for the op {}", question.op);
             self.fault(expected, describe(reaction), Some(evidence(question, reaction, "", None)));
         }
@@ -66,7 +68,7 @@ impl ProtocolRules {
         });
     }
 
-    pub(super) fn outcome(self, subject: Subject) -> Outcome {
+    pub(super) fn outcome(self, subject: CaseSubject) -> CaseOutcome {
         let case = Case {
             id: "testee-manners".to_owned(),
             title: "It keeps to the protocol, and does at the end what it did at the start"
@@ -86,6 +88,6 @@ impl ProtocolRules {
             more: 0,
         };
         let judgements = if self.faults.is_empty() { vec![pass] } else { self.faults };
-        Outcome::tried(case, judgements, self.checks.max(1), None)
+        CaseOutcome::tried(case, judgements, self.checks.max(1), None)
     }
 }

@@ -6,9 +6,11 @@ use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence,
 
 use super::describe::{describe, evidence};
 use super::plan::{forms, questions};
-use super::{Reaction, compare};
-use crate::codec::message::{Answer, Hello, Output, Question};
-use crate::judge::{Body, Case, Evidence, Judgement, Outcome, Stop, Subject, TEXT_MAX, Verdict};
+use super::{TesteeReaction, compare};
+use crate::codec::message::{Answer, Output, Question, TesteeHello};
+use crate::judge::{
+    Body, Case, CaseOutcome, CaseSubject, Evidence, Judgement, Stop, TEXT_MAX, Verdict,
+};
 use crate::show::show;
 use crate::text::{hex::compact, shorten};
 
@@ -17,7 +19,7 @@ use crate::text::{hex::compact, shorten};
 pub struct Terms<'t> {
     pub seed: u32,
     /// As whom it is judged.
-    pub subject: Subject,
+    pub subject: CaseSubject,
     /// The edition it is judged by, if one was chosen.
     pub edition: Option<&'t str>,
     /// Whether assumed requirements can fail too, as for this project's own codec.
@@ -25,13 +27,13 @@ pub struct Terms<'t> {
 }
 
 /// The answers to the questions of a case, by op.
-pub(super) type Reactions = HashMap<(usize, String), Reaction>;
+pub(super) type Reactions = HashMap<(usize, String), TesteeReaction>;
 
 /// Everything that was asked and answered.
 pub(super) struct Verdicts<'v> {
     pub(super) cases: &'v [Case],
     pub(super) reactions: &'v Reactions,
-    pub(super) hello: &'v Hello,
+    pub(super) hello: &'v TesteeHello,
     pub(super) edition: String,
     pub(super) terms: Terms<'v>,
     /// Why not everything was asked.
@@ -48,7 +50,7 @@ struct Check {
 }
 
 impl Verdicts<'_> {
-    pub(super) fn outcome(&self, place: usize) -> Option<Outcome> {
+    pub(super) fn outcome(&self, place: usize) -> Option<CaseOutcome> {
         let case = self.cases.get(place)?;
         let questions = questions(case, &self.edition);
         if questions.is_empty() {
@@ -60,7 +62,7 @@ impl Verdicts<'_> {
             .collect();
         if claimed.is_empty() {
             let note = "the testee does not claim it";
-            return Some(Outcome::untried(case.clone(), Verdict::NotApplicable, note));
+            return Some(CaseOutcome::untried(case.clone(), Verdict::NotApplicable, note));
         }
         let mut stop = None;
         let mut judgements = Vec::new();
@@ -77,7 +79,7 @@ impl Verdicts<'_> {
             }
             judgements.extend(case.requirements.iter().map(|&id| self.judgement(id, &check)));
         }
-        Some(Outcome::tried(case.clone(), judgements, claimed.len(), stop))
+        Some(CaseOutcome::tried(case.clone(), judgements, claimed.len(), stop))
     }
 
     fn judgement(&self, id: &'static str, check: &Check) -> Judgement {
@@ -100,7 +102,7 @@ impl Verdicts<'_> {
         }
     }
 
-    fn check(&self, case: &Case, question: &Question, reaction: &Reaction) -> Check {
+    fn check(&self, case: &Case, question: &Question, reaction: &TesteeReaction) -> Check {
         let (verdict, expected, found) = match &case.body {
             Body::Vector(vector) => self.vector(vector, question, reaction),
             Body::Sequence(sequence) => self.sequence(sequence, reaction),
@@ -113,12 +115,15 @@ impl Verdicts<'_> {
         let evidence = evidence(question, reaction, &case.id, canonical);
         let (expected, found) = (shorten(&expected, TEXT_MAX), shorten(&found, TEXT_MAX));
         // Only an answer can differ: a crash is one whatever was asked.
-        let answered = matches!(reaction, Reaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
+        let answered =
+            matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
-        let level = match lenient {
-            true if !self.is_of_edition(&case.body) => Level::Info,
-            true => level(&case.body, verdict, &question.op),
-            false => Level::Must,
+        let level = if !lenient {
+            Level::Must
+        } else if self.is_of_edition(&case.body) {
+            level(&case.body, verdict, &question.op)
+        } else {
+            Level::Info
         };
         Check { verdict, level, evidence, expected, found }
     }
@@ -138,7 +143,7 @@ impl Verdicts<'_> {
         &self,
         vector: &Vector,
         question: &Question,
-        reaction: &Reaction,
+        reaction: &TesteeReaction,
     ) -> (Verdict, String, String) {
         match (&vector.expect, question.op.as_str()) {
             (Expect::Accept(accept), "encode") => {
@@ -146,7 +151,7 @@ impl Verdicts<'_> {
                 let shown: Vec<String> = forms.iter().map(|form| compact::show(form)).collect();
                 let expected = shown.join(" or ");
                 match reaction {
-                    Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
+                    TesteeReaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
                         let found = compact::show(hex);
                         let verdict =
                             if forms.contains(hex) { Verdict::Pass } else { Verdict::Fail };
@@ -157,7 +162,8 @@ impl Verdicts<'_> {
             }
             (Expect::Accept(accept), _) => {
                 let expected = show(&accept.value);
-                let Reaction::Answer(Answer::Ok(Output { value: Some(value), .. })) = reaction
+                let TesteeReaction::Answer(Answer::Ok(Output { value: Some(value), .. })) =
+                    reaction
                 else {
                     return (Verdict::Fail, expected, describe(reaction));
                 };
@@ -175,7 +181,7 @@ impl Verdicts<'_> {
                     format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
                 let expected = format!("refused: {place}");
                 match reaction {
-                    Reaction::Answer(Answer::Reject(_)) => {
+                    TesteeReaction::Answer(Answer::Reject(_)) => {
                         match self.sibling(&vector.sibling, "decode") {
                             Ok(()) => (Verdict::Pass, expected, String::new()),
                             Err(why) => (Verdict::Vacuous, expected, why),
@@ -199,7 +205,7 @@ impl Verdicts<'_> {
             return Err(format!("{wanted}, which lacks this fault, was not tried"));
         };
         match self.reactions.get(&(place, op.to_owned())) {
-            Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
+            Some(TesteeReaction::Answer(Answer::Ok(_))) => Ok(()),
             Some(other) => {
                 Err(format!("refused, but {wanted}, which lacks this fault: {}", describe(other)))
             }
@@ -207,9 +213,13 @@ impl Verdicts<'_> {
         }
     }
 
-    fn sequence(&self, sequence: &Sequence, reaction: &Reaction) -> (Verdict, String, String) {
+    fn sequence(
+        &self,
+        sequence: &Sequence,
+        reaction: &TesteeReaction,
+    ) -> (Verdict, String, String) {
         match (&sequence.expect, reaction) {
-            (SequenceExpect::Accept(accept), Reaction::Answer(Answer::Ok(output))) => {
+            (SequenceExpect::Accept(accept), TesteeReaction::Answer(Answer::Ok(output))) => {
                 let Some(packets) = &accept.packets else {
                     return (Verdict::Pass, String::new(), String::new());
                 };
@@ -233,7 +243,7 @@ impl Verdicts<'_> {
                 let line = reject.line.map(|line| format!(" in line {line}")).unwrap_or_default();
                 let expected = format!("refused: {}{line}", reject.class);
                 match reaction {
-                    Reaction::Answer(Answer::Reject(_)) => {
+                    TesteeReaction::Answer(Answer::Reject(_)) => {
                         let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
                         match self.sibling(&sequence.sibling, op) {
                             Ok(()) => (Verdict::Pass, expected, String::new()),
@@ -278,11 +288,10 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
         }
     }
     let all = packets.concat();
-    match all == text {
-        true => None,
-        false => {
-            let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
-            Some(format!("{} bytes in all, another one at offset {same}", all.len()))
-        }
+    if all == text {
+        None
+    } else {
+        let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
+        Some(format!("{} bytes in all, another one at offset {same}", all.len()))
     }
 }

@@ -19,9 +19,10 @@ pub(crate) fn is_escaped(one: char) -> bool {
 fn escape_unless(text: &str, is_kept: impl Fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len());
     for one in text.chars() {
-        match is_escaped(one) && !is_kept(one) {
-            true => escaped.extend(one.escape_debug()),
-            false => escaped.push(one),
+        if is_escaped(one) && !is_kept(one) {
+            escaped.extend(one.escape_debug())
+        } else {
+            escaped.push(one)
         }
     }
     escaped

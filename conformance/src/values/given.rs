@@ -5,7 +5,7 @@ use ads_cnc::value::DataType;
 
 /// How values and contents are to be read.
 #[derive(Clone, Debug, Default)]
-pub struct Values {
+pub struct ValueFormat {
     /// The type; without it a value is bytes.
     pub ty: Option<DataType>,
     /// Elements in each dimension; none for a single element.

@@ -6,7 +6,7 @@ mod json;
 mod parse;
 mod show;
 
-pub use given::{UnknownType, Values, type_by_name};
+pub use given::{UnknownType, ValueFormat, type_by_name};
 pub use json::value_of;
 pub use parse::{Unfit, parse};
 pub(crate) use show::number;

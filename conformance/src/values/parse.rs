@@ -86,9 +86,10 @@ fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T,
     let number = if in_digits { text.parse().map_err(|_| no())? } else { return Err(no()) };
     let digits = text.split(['e', 'E']).next().unwrap_or(text);
     let is_nothing = number == T::default() && digits.contains(|c: char| ('1'..='9').contains(&c));
-    match is_nothing {
-        true => Err(Unfit(format!("{text} is no {}, which would take it for 0", ty.name()))),
-        false => Ok(number),
+    if is_nothing {
+        Err(Unfit(format!("{text} is no {}, which would take it for 0", ty.name())))
+    } else {
+        Ok(number)
     }
 }
 
@@ -99,9 +100,10 @@ fn within<T: std::fmt::Debug>(
     (least, most): (T, T),
     ty: DataType,
 ) -> Result<T, Unfit> {
-    match is_within {
-        true => Ok(number),
-        false => Err(Unfit(format!("{text} is no {}, which has {least:?} to {most:?}", ty.name()))),
+    if is_within {
+        Ok(number)
+    } else {
+        Err(Unfit(format!("{text} is no {}, which has {least:?} to {most:?}", ty.name())))
     }
 }
 
@@ -112,10 +114,12 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, Unfit> {
         return Ok(if count == 1 { Vec::new() } else { vec![count] });
     }
     let needed = ty.dimensions.iter().fold(1_u32, |count, &len| count.saturating_mul(len));
-    match needed == count {
-        true => Ok(ty.dimensions.clone()),
-        false if needed == 1 => Err(Unfit(format!("{ty} is one element, {count} are given"))),
-        false => Err(Unfit(format!("{ty} has {needed} elements, {count} given"))),
+    if needed == count {
+        Ok(ty.dimensions.clone())
+    } else if needed == 1 {
+        Err(Unfit(format!("{ty} is one element, {count} are given")))
+    } else {
+        Err(Unfit(format!("{ty} has {needed} elements, {count} given")))
     }
 }
 
@@ -130,10 +134,7 @@ fn items<T: Scalar>(
 }
 
 fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
-    let all = match ty.dimensions.is_empty() {
-        true => vec![given.to_owned()],
-        false => split(given)?,
-    };
+    let all = if ty.dimensions.is_empty() { vec![given.to_owned()] } else { split(given)? };
     let dimensions = counted(ty, all.len())?;
     let encoded = |text| {
         let foreign = |error| Unfit(format!("{text:?} is no STRING: {error}"));

@@ -31,9 +31,10 @@ pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
 
 /// A text among others: in quotes if it would be taken for two.
 fn listed(text: &str) -> String {
-    match text.contains([',', '"']) || text != text.trim() {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
+    if text.contains([',', '"']) || text != text.trim() {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
     }
 }
 
@@ -57,7 +58,7 @@ pub(crate) fn number(element: Element<'_>) -> String {
 }
 
 /// An element as it is shown: a text in quotes, what is odd about it behind it.
-fn shown(element: Element<'_>) -> String {
+fn display(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.0 > 1 => format!("TRUE ({})", flag.0),
         Element::String(text) => {
@@ -94,7 +95,7 @@ fn shown(element: Element<'_>) -> String {
 /// None if its type is not known or the bytes are not of it.
 pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     let elements = ty.elements(bytes).ok().flatten()?;
-    let texts: Vec<String> = elements.iter().map(shown).collect();
+    let texts: Vec<String> = elements.iter().map(display).collect();
     let Some(&row) = ty.dimensions.last() else { return Some(texts) };
     let row = usize::try_from(row).unwrap_or(usize::MAX).max(1);
     let widest = |texts: &[String]| texts.iter().map(|text| text.chars().count()).max();

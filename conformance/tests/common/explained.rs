@@ -1,9 +1,11 @@
 //! What holds of the explanation of any bytes whatever. The fuzz targets hold it to the same.
 
-use ads_cnc_conformance::explain::{Explanation, Outcome, Paint, Part, parse_hex, print};
+use ads_cnc_conformance::explain::{
+    ExplainedStream, Explanation, ExplanationOutcome, Paint, parse_hex, print,
+};
 
 /// Rows and what was not read are all of the part's bytes, in their order, without a gap.
-fn check_part(part: &Part, bytes: &[u8]) {
+fn check_part(part: &ExplainedStream, bytes: &[u8]) {
     let given = &bytes[part.at..part.at + part.length];
     let mut end = 0;
     for row in &part.rows {
@@ -36,7 +38,7 @@ fn check_whole(explanation: &Explanation, bytes: &[u8]) {
         }
     }
     let right = |times: &i32| match explanation.outcome {
-        Outcome::Faulty => *times >= 1,
+        ExplanationOutcome::Faulty => *times >= 1,
         _ => *times == 1,
     };
     assert!(shown.iter().all(right), "{shown:?} of {explanation:#?}");
@@ -58,7 +60,7 @@ pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
     }
     check_whole(explanation, bytes);
     let faulty = explanation.parts.iter().any(|part| !part.faults.is_empty());
-    assert_eq!(explanation.outcome == Outcome::Faulty, faulty);
+    assert_eq!(explanation.outcome == ExplanationOutcome::Faulty, faulty);
     print(explanation, Paint::Colour, &mut Vec::new()).unwrap();
 }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, ProgramEnd};
 use ads_cnc_conformance::simulator::program::{
-    Pace, Program, ProgramConfig, Start, StartError, State, digest,
+    Pace, ProgramConfig, Start, StartError, State, StreamingProgram, digest,
 };
 use proptest::prelude::*;
 
@@ -17,16 +17,16 @@ fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)
 }
 
-fn program(pace: Pace) -> Program {
-    Program::new(ProgramConfig { pace, ..ProgramConfig::default() })
+fn program(pace: Pace) -> StreamingProgram {
+    StreamingProgram::new(ProgramConfig { pace, ..ProgramConfig::default() })
 }
 
-fn lines(rate: u32) -> Program {
+fn lines(rate: u32) -> StreamingProgram {
     program(Pace::lines_per_second(rate).unwrap())
 }
 
 #[track_caller]
-fn aborted(program: &Program) -> String {
+fn aborted(program: &StreamingProgram) -> String {
     match program.state() {
         State::Aborted(message) => message.to_string(),
         other => panic!("{other:?}"),
@@ -35,12 +35,12 @@ fn aborted(program: &Program) -> String {
 
 #[test]
 fn default_is_started_and_not_without_end() {
-    let mut program = Program::new(ProgramConfig::default());
+    let mut program = StreamingProgram::new(ProgramConfig::default());
     assert_eq!(program.state(), State::Dry);
     let line = [&[b'X'; 990][..], b"\r\n"].concat();
     let taken = (0..10).take_while(|_| program.write(&line, ZERO) == Ack::Accepted).count();
     // One is being run, four wait.
-    assert_eq!((taken, program.refusals(), program.held()), (5, 1, 4 * 992));
+    assert_eq!((taken, program.refusals(), program.buffered()), (5, 1, 4 * 992));
     program.advance(ms(1));
     assert_eq!(program.write(&line, ms(1)), Ack::Accepted);
     program.advance(ms(6));
@@ -50,10 +50,11 @@ fn default_is_started_and_not_without_end() {
 #[test]
 fn writes_of_a_wrong_size_are_refused_in_any_state() {
     for start in [Start::ByHand, Start::Once, Start::Again] {
-        let mut program = Program::new(ProgramConfig { start, ..ProgramConfig::default() });
+        let mut program =
+            StreamingProgram::new(ProgramConfig { start, ..ProgramConfig::default() });
         assert_eq!(program.write(b"", ZERO), Ack::Rejected);
         assert_eq!(program.write(&[b'X'; STREAM_PACKET_MAX + 1], ZERO), Ack::Rejected);
-        assert_eq!((program.held(), program.refusals()), (0, 0));
+        assert_eq!((program.buffered(), program.refusals()), (0, 0));
     }
 }
 
@@ -113,10 +114,10 @@ fn ends() {
         program.advance(ms(200));
         assert_eq!(program.state(), State::Ended(end));
         assert_eq!(program.executed().line_count(), 2);
-        assert_eq!(program.held(), 7);
+        assert_eq!(program.buffered(), 7);
         assert_eq!(program.write(b"N5 $DO\r\n", ms(300)), Ack::Accepted);
         program.advance(ms(9000));
-        assert_eq!(program.held(), 15);
+        assert_eq!(program.buffered(), 15);
         program.start(ms(10_000)).unwrap();
         assert_eq!(program.start(ms(10_000)), Err(StartError::Running));
         program.advance(ms(10_100));
@@ -133,7 +134,7 @@ fn ends() {
 fn a_program_that_is_started_again_and_again() {
     let config =
         ProgramConfig { start: Start::Again, pace: Pace::Fast, ..ProgramConfig::default() };
-    let mut program = Program::new(config);
+    let mut program = StreamingProgram::new(config);
     program.write(b"N1:\r\nM30\r\nN2\r\n", ZERO);
     assert_eq!(program.state(), State::Dry);
     // The label was that of the program before.
@@ -159,10 +160,10 @@ fn faults_abort_in_place_of_their_line() {
         assert_eq!(aborted(&program), message);
         // Nothing goes on: writes fill the interface, and a start needs a reset.
         while program.write(b"N9 X1\r\n", ms(2000)) == Ack::Accepted {}
-        assert_eq!((program.held(), program.refusals()), (STREAM_MAX / 7 * 7, 1));
+        assert_eq!((program.buffered(), program.refusals()), (STREAM_MAX / 7 * 7, 1));
         assert_eq!(program.start(ms(2000)), Err(StartError::Aborted));
         program.reset(ms(2000));
-        assert_eq!((program.held(), program.state()), (0, State::Stopped));
+        assert_eq!((program.buffered(), program.state()), (0, State::Stopped));
         program.start(ms(2000)).unwrap();
         program.write(b"$DO\r\n", ms(2000));
         assert_eq!(aborted(&program), "streaming.nc:1:1: $DO in a stream");
@@ -182,7 +183,7 @@ fn a_missing_line_end_aborts_when_it_is_read() {
         "streaming.nc:3:3: error 21476: streaming data without a correct line end: \
         CR LF expected, LF alone found"
     );
-    assert_eq!((program.executed().line_count(), program.held()), (1, 0));
+    assert_eq!((program.executed().line_count(), program.buffered()), (1, 0));
 }
 
 /// Borders of writes vanish: a line may come in two if they are read together.
@@ -211,12 +212,12 @@ fn comments_hide_over_packets_and_calls_return() {
 fn without_a_name_there_is_no_streaming() {
     let config =
         ProgramConfig { name: String::new(), pace: Pace::Fast, ..ProgramConfig::default() };
-    let mut program = Program::new(config);
+    let mut program = StreamingProgram::new(config);
     assert_eq!(program.state(), State::Stopped);
     assert_eq!(program.start(ZERO), Err(StartError::NoName));
     assert_eq!(program.write(b"N1\r\n", ZERO), Ack::Accepted);
     program.advance(ms(1000));
-    assert_eq!((program.held(), program.executed().line_count()), (4, 0));
+    assert_eq!((program.buffered(), program.executed().line_count()), (4, 0));
 }
 
 #[test]
@@ -226,7 +227,7 @@ fn a_reset_runs_what_was_due_and_no_more() {
     program.write(b"N4\r\n", ZERO);
     program.reset(ms(250));
     program.advance(ms(9000));
-    assert_eq!((program.state(), program.held()), (State::Stopped, 0));
+    assert_eq!((program.state(), program.buffered()), (State::Stopped, 0));
     assert_eq!(program.executed().digest(), digest(b"N1\r\nN2\r\n"));
     program.forget_executed();
     assert_eq!(program.executed().digest(), digest(b""));
@@ -236,17 +237,17 @@ fn a_reset_runs_what_was_due_and_no_more() {
 fn what_was_run_is_kept_within_bounds() {
     for kept in [0, 1, 10, 100, 5000] {
         let config = ProgramConfig { pace: Pace::Fast, kept, ..ProgramConfig::default() };
-        let mut program = Program::new(config);
+        let mut program = StreamingProgram::new(config);
         let mut all = Vec::new();
         for n in 0..2000_usize {
             let line = format!("N{n} {}\r\n", "X".repeat(n * 7 % 60));
             program.write(line.as_bytes(), ZERO);
             all.extend_from_slice(line.as_bytes());
             let executed = program.executed();
-            assert!(executed.kept().len() <= 2 * kept + 70, "{kept}");
-            assert!(executed.kept().len() + 70 >= kept.min(all.len()), "{kept}");
-            assert!(all.ends_with(executed.kept()));
-            let first = executed.first_kept() as usize - 1;
+            assert!(executed.recent().len() <= 2 * kept + 70, "{kept}");
+            assert!(executed.recent().len() + 70 >= kept.min(all.len()), "{kept}");
+            assert!(all.ends_with(executed.recent()));
+            let first = executed.first_recent() as usize - 1;
             assert_eq!(executed.lines().count(), n + 1 - first);
             let wanted = format!("N{first} ");
             assert!(executed.lines().next().unwrap().starts_with(wanted.as_bytes()));
@@ -289,7 +290,7 @@ fn all_goes_as_if_it_ran_all_the_time(
 ) {
     let start = if again { Start::Again } else { Start::Once };
     let config = ProgramConfig { pace, start, ..ProgramConfig::default() };
-    let (mut busy, mut lazy) = (Program::new(config.clone()), Program::new(config));
+    let (mut busy, mut lazy) = (StreamingProgram::new(config.clone()), StreamingProgram::new(config));
     let mut now = ZERO;
     for (data, wait, ticks) in writes {
         let next = now + ms(wait);
@@ -301,8 +302,8 @@ fn all_goes_as_if_it_ran_all_the_time(
         prop_assert_eq!(busy.write(&data, now), lazy.write(&data, now));
         prop_assert_eq!(busy.state(), lazy.state());
         prop_assert_eq!(busy.executed(), lazy.executed());
-        prop_assert_eq!(busy.held(), lazy.held());
-        prop_assert!(busy.held() <= STREAM_MAX);
+        prop_assert_eq!(busy.buffered(), lazy.buffered());
+        prop_assert!(busy.buffered() <= STREAM_MAX);
     }
 }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use ads_cnc::CncString;
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_conformance::simulator::program::service::*;
-use ads_cnc_conformance::simulator::program::{Request, ServiceOutcome, Wait};
+use ads_cnc_conformance::simulator::program::{ServiceOutcome, ServiceRequest, Wait};
 use ads_cnc_conformance::suite::replay::*;
 use ads_cnc_vectors::Given;
 
@@ -16,7 +16,7 @@ use crate::{cases, stated_fault};
 /// The cases that say when the interface sets REQUEST_STATE to 0 of itself.
 const ABOUT_CLEARING: [&str; 2] = ["interface-clears", "interface-clears-not"];
 
-fn goes_as_stated<P: Asking>(ask: fn(Request) -> Result<P, CallError>, clears: Clears) {
+fn goes_as_stated<P: Asking>(ask: fn(ServiceRequest) -> Result<P, CallError>, clears: Clears) {
     for case in cases("service", 50) {
         let Given::Service(given) = &case.given else { unreachable!() };
         if clears == Clears::Never && ABOUT_CLEARING.contains(&case.id.as_str()) {
@@ -41,7 +41,7 @@ fn single_requests_go_as_stated() {
 }
 
 struct Interfaces<P> {
-    ask: fn(Request) -> Result<P, CallError>,
+    ask: fn(ServiceRequest) -> Result<P, CallError>,
     clears: Clears,
     channels: BTreeMap<u32, ServiceInterface>,
 }
@@ -55,7 +55,7 @@ impl<P> Interfaces<P> {
 impl<P: Asking> ServiceActor for Interfaces<P> {
     type Program = P;
 
-    fn ask(&self, request: Request) -> Result<P, CallError> {
+    fn ask(&self, request: ServiceRequest) -> Result<P, CallError> {
         (self.ask)(request)
     }
 
@@ -79,8 +79,8 @@ impl<P: Asking> ServiceActor for Interfaces<P> {
     }
 }
 
-fn call(request: Request) -> Result<Call, CallError> {
-    let Request { uuid, text, state, wait } = request;
+fn call(request: ServiceRequest) -> Result<Call, CallError> {
+    let ServiceRequest { uuid, text, state, wait } = request;
     let wait = match wait {
         Wait::Loop => SysServiceWait::default(),
         Wait::Cycle { p1, p2, p3 } => SysServiceWait::from_parameters(p1, p2, p3)?,

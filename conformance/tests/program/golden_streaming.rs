@@ -1,9 +1,9 @@
-//! The golden sequences of streaming, run by `Program`.
+//! The golden sequences of streaming, run by `StreamingProgram`.
 
 use std::time::Duration;
 
 use ads_cnc::streaming::Ack;
-use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, Start};
+use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, Start, StreamingProgram};
 use ads_cnc_conformance::suite::replay::{Done, StreamActor, play_stream, take};
 use ads_cnc_vectors::{Given, StreamAck, StreamStep};
 
@@ -15,12 +15,12 @@ fn streams_go_as_stated() {
         let Given::Streaming(given) = &case.given else { unreachable!() };
         let config =
             ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..ProgramConfig::default() };
-        let fault = play_stream(&mut Direct(Program::new(config)), given).expect(&case.id);
+        let fault = play_stream(&mut Direct(StreamingProgram::new(config)), given).expect(&case.id);
         assert_eq!(fault, stated_fault(case), "{}", case.id);
     }
 }
 
-struct Direct(Program);
+struct Direct(StreamingProgram);
 
 impl StreamActor for Direct {
     fn start(&mut self, now: Duration) -> Done<()> {
@@ -34,7 +34,7 @@ impl StreamActor for Direct {
     }
 
     fn held(&mut self) -> Done<usize> {
-        Ok(self.0.held())
+        Ok(self.0.buffered())
     }
 
     fn write(&mut self, data: &[u8], _: StreamAck, _: &StreamStep, now: Duration) -> Done<Ack> {

@@ -6,7 +6,7 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
 use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceInterface};
 use ads_cnc_conformance::simulator::program::{
-    Repeat, Request, Script, ScriptConfig, ScriptState, ServiceOutcome, Wait,
+    Repeat, Script, ScriptConfig, ScriptState, ServiceOutcome, ServiceRequest, Wait,
 };
 use ads_cnc_conformance::suite::replay::square_root;
 use proptest::prelude::*;
@@ -20,8 +20,8 @@ fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)
 }
 
-fn request(wait: Wait) -> Request {
-    Request {
+fn request(wait: Wait) -> ServiceRequest {
+    ServiceRequest {
         uuid: ServiceId::new("19719079-BA06-4740-BC02-DE5215211751").unwrap(),
         text: CncString::from(CncStr::new("some-command").unwrap()),
         state: 1,
@@ -172,7 +172,7 @@ fn nothing_to_ask() {
 fn bad_requests_are_refused_by_their_place() {
     let good = request(Wait::Loop);
     let long = "x".repeat(128);
-    let refused = |request: Request, kind: ErrorKind, text: &str| {
+    let refused = |request: ServiceRequest, kind: ErrorKind, text: &str| {
         let requests = vec![good.clone(), request];
         let config = ScriptConfig { requests, ..config(PRINTED, Repeat::Endless, ZERO) };
         let error = Script::new(config).unwrap_err();
@@ -184,9 +184,9 @@ fn bad_requests_are_refused_by_their_place() {
         ErrorKind::Missing,
         "request 2 of the script: sys-service-wait: @P3",
     );
-    refused(Request { state: 0, ..good.clone() }, ErrorKind::OutOfRange, "request 2");
+    refused(ServiceRequest { state: 0, ..good.clone() }, ErrorKind::OutOfRange, "request 2");
     let text = CncString::from(CncStr::new(&long).unwrap());
-    refused(Request { text, ..good.clone() }, ErrorKind::TooLong, "request 2");
+    refused(ServiceRequest { text, ..good.clone() }, ErrorKind::TooLong, "request 2");
 }
 
 fn any_wait() -> impl Strategy<Value = Wait> {

@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender};
-use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, State, digest};
+use ads_cnc_conformance::simulator::program::{
+    Pace, ProgramConfig, State, StreamingProgram, digest,
+};
 use proptest::prelude::*;
 
 use crate::kept;
@@ -12,7 +14,7 @@ use crate::kept;
 /// way without having got there.
 fn stream(
     text: NcText<'_>,
-    program: &mut Program,
+    program: &mut StreamingProgram,
     mut between: impl FnMut(Option<Ack>) -> (Duration, bool),
 ) -> Duration {
     let mut sender = Sender::new(text);
@@ -43,7 +45,7 @@ fn ten_megabytes_arrive() {
     let text = NcText::new(&wire).unwrap();
     let pace = Pace::bytes_per_second(100_000).unwrap();
     let mut program =
-        Program::new(ProgramConfig { pace, kept: 10_000, ..ProgramConfig::default() });
+        StreamingProgram::new(ProgramConfig { pace, kept: 10_000, ..ProgramConfig::default() });
     let cycle = Duration::from_millis(2);
     let mut most = 0;
     let now = stream(text, &mut program, |ack| {
@@ -57,7 +59,7 @@ fn ten_megabytes_arrive() {
     let executed = program.executed();
     assert_eq!(executed.line_count(), text.line_count() as u64);
     assert_eq!((executed.byte_count(), executed.digest()), (wire.len() as u64, digest(&wire)));
-    assert!(wire.ends_with(executed.kept()) && executed.kept().len() <= 20_100);
+    assert!(wire.ends_with(executed.recent()) && executed.recent().len() <= 20_100);
     // It never ran dry for long: 10 MB take it 100 s.
     let seconds = now.as_secs_f64();
     assert!((99.0..102.0).contains(&seconds), "{seconds}");
@@ -90,7 +92,7 @@ fn what_is_run_is_the_text(
 ) {
     let bytes = lines.join(end).into_bytes();
     let text = NcText::new(&bytes).unwrap();
-    let mut program = Program::new(ProgramConfig { pace, ..ProgramConfig::default() });
+    let mut program = StreamingProgram::new(ProgramConfig { pace, ..ProgramConfig::default() });
     // It gets through at times.
     let mut waits = waits.iter().chain([&(100, false)]).cycle();
     let now = stream(text, &mut program, |_| {

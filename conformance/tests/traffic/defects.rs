@@ -3,7 +3,7 @@
 use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Call;
-use ads_cnc_conformance::faults::Defect;
+use ads_cnc_conformance::faults::FieldDefect;
 use ads_cnc_conformance::judge::Verdict;
 
 use crate::maker::{Link, Message, Side, checked, passes, pcap, segments, with};
@@ -11,7 +11,7 @@ use crate::talk::{a_little, conversation, everything, recorded};
 
 /// The requirements that fail of a CNC with this defect.
 fn failing(id: &str) -> Vec<String> {
-    let defect = Defect::by_id(id).unwrap();
+    let defect = FieldDefect::by_id(id).unwrap();
     // Of what has no answer that is an answer a little is enough.
     let is_header = id.starts_with("ams-") || id.starts_with("read-");
     let talk = if is_header { a_little } else { everything };
@@ -60,7 +60,7 @@ fn defects_of_a_cnc_fail_their_requirement() {
 }
 
 /// The messages with a defect in the data of each request that it is about.
-fn spoilt(all: &[Message], defect: &Defect) -> Vec<Message> {
+fn spoilt(all: &[Message], defect: &FieldDefect) -> Vec<Message> {
     let spoil = |bytes: &[u8]| -> Option<Vec<u8>> {
         let (frame, _) = FrameRef::split(bytes, u32::MAX).ok()??;
         let touched = |name: &str| defect.stream.layout().name == name;
@@ -106,7 +106,7 @@ fn defects_of_a_client_fail_their_requirement() {
         ("variable-kind.kind.invert", "VAR-1"),
         ("dynamic-index.index.zero", "DYN-5"),
     ] {
-        let id = Defect::by_id(defect).unwrap();
+        let id = FieldDefect::by_id(defect).unwrap();
         let checked = checked(&pcap(&segments(&spoilt(&all, &id), 1460, (1, 1)), Link::Raw));
         assert_eq!(with(&checked, Verdict::HarnessError), [""; 0], "{defect}");
         let failed = with(&checked, Verdict::Fail);

@@ -1,6 +1,6 @@
 //! Captures made anew: other files, other links, other segments.
 
-use ads_cnc_conformance::capture::{Checked, Options, Ports, check};
+use ads_cnc_conformance::capture::{CaptureOptions, Checked, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
 use etherparse::{PacketBuilder, PacketHeaders, TransportHeader};
 use pcap_parser::pcapng::Block;
@@ -229,12 +229,12 @@ pub(crate) fn pcap_every(segments: &[Segment], link: Link, millis: u32) -> Vec<u
 
 /// What comes of a file.
 pub(crate) fn checked(file: &[u8]) -> Checked {
-    check(file, Options::default()).unwrap()
+    check(file, CaptureOptions::default()).unwrap()
 }
 
 /// What comes of a file, whatever its ports.
 pub(crate) fn checked_anywhere(file: &[u8]) -> Checked {
-    check(file, Options { ports: Ports::Any, vectors: None }).unwrap()
+    check(file, CaptureOptions { ports: Ports::Any, vectors: None }).unwrap()
 }
 
 /// The requirements with this verdict, each with its case.

@@ -2,7 +2,7 @@
 //! hide is inconclusive, what is wrong in spite of them fails.
 
 use ads_cnc_conformance::capture::Checked;
-use ads_cnc_conformance::faults::Defect;
+use ads_cnc_conformance::faults::FieldDefect;
 use ads_cnc_conformance::judge::Verdict;
 
 use crate::defects::written;
@@ -267,7 +267,7 @@ fn defects_fail_in_any_order() {
         ("ams-header.command.flip", "ADS-5"),
         ("read-write-reply.length.flip", "ADS-3"),
     ] {
-        let talk = conversation(Defect::by_id(defect).as_ref(), a_little);
+        let talk = conversation(FieldDefect::by_id(defect).as_ref(), a_little);
         let all = segments(&talk, 1460, (1, 1));
         for seed in 0..3 {
             let checked = checked(&pcap(&shuffled(&all, SHAKE, seed), Link::Raw));

@@ -14,7 +14,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, Encode as _, U32List};
 use ads_cnc_conformance::capture::Capture;
-use ads_cnc_conformance::faults::{Defect, Faulty};
+use ads_cnc_conformance::faults::{Faulty, FieldDefect};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::session::Session;
 use ads_cnc_conformance::simulator::Cnc;
@@ -38,7 +38,7 @@ impl Write for Memory {
 
 /// What a client and a CNC said to each other.
 pub(crate) fn conversation(
-    defect: Option<&Defect>,
+    defect: Option<&FieldDefect>,
     talk: impl FnOnce(&mut Session),
 ) -> Vec<Message> {
     let seed = defect.cloned().map(Into::into);
@@ -54,7 +54,7 @@ pub(crate) fn conversation(
 }
 
 /// The same in a file, at the port of AMS.
-pub(crate) fn recorded(defect: Option<&Defect>, talk: impl FnOnce(&mut Session)) -> Vec<u8> {
+pub(crate) fn recorded(defect: Option<&FieldDefect>, talk: impl FnOnce(&mut Session)) -> Vec<u8> {
     pcap(&segments(&conversation(defect, talk), 1460, (1, 1)), Link::Ethernet)
 }
 

@@ -1,6 +1,8 @@
 //! However a conversation comes over the wire, the same comes of it; and what is missing is told.
 
-use ads_cnc_conformance::capture::{Checked, Collector, End, FileError, Options, Ports, check};
+use ads_cnc_conformance::capture::{
+    CaptureOptions, Checked, Collector, FileEnd, FileError, Ports, check,
+};
 use ads_cnc_conformance::judge::Verdict;
 
 use crate::maker::{
@@ -159,13 +161,13 @@ fn a_file_may_end_anywhere() {
     ];
     for file in files {
         for length in 0..file.len() {
-            match check(&file[..length], Options::default()) {
+            match check(&file[..length], CaptureOptions::default()) {
                 Ok(checked) => {
                     passes(&checked);
                     let end = checked.tally.end.clone().unwrap();
                     let told =
                         checked.tally.lines().iter().any(|line| line.contains("a cut of the file"));
-                    assert_eq!(told, end != End::Whole);
+                    assert_eq!(told, end != FileEnd::Whole);
                 }
                 Err(error) => {
                     assert!(matches!(error, FileError::Empty | FileError::Format), "{error}");
@@ -191,8 +193,9 @@ fn hostile_files_are_read() {
                 let mut spoilt = file.clone();
                 spoilt[place] = value;
                 // Whatever comes of it.
-                let _ = check(&spoilt[..], Options::default()).is_ok();
-                let anywhere = Options { ports: Ports::Any, vectors: Some(Collector::new(false)) };
+                let _ = check(&spoilt[..], CaptureOptions::default()).is_ok();
+                let anywhere =
+                    CaptureOptions { ports: Ports::Any, vectors: Some(Collector::new(false)) };
                 let _ = check(&spoilt[..], anywhere).is_ok();
             }
         }

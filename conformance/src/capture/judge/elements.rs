@@ -14,13 +14,13 @@ use crate::judge::{Checks as _, Rule, assumed, online};
 
 /// What is known of the elements of a CNC.
 #[derive(Debug, Default)]
-pub(super) struct Elements {
+pub(super) struct ObservedElements {
     /// By the group of the content, and the offset.
-    known: BTreeMap<(u32, u32), Element>,
+    known: BTreeMap<(u32, u32), ObservedElement>,
 }
 
 #[derive(Clone, Debug, Default)]
-struct Element {
+struct ObservedElement {
     data_type: Option<DataType>,
     length: Option<u32>,
     writable: Option<bool>,

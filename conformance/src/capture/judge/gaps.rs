@@ -11,10 +11,12 @@ use super::super::table::{Ending, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
-use super::{CapturedFrame, Judge, Lost, PATIENCE, is_cnc, is_reply, location, service_clause};
+use super::{
+    CapturedFrame, Lost, PATIENCE, TrafficJudge, is_cnc, is_reply, location, service_clause,
+};
 use crate::judge::Checks as _;
 
-impl Judge {
+impl TrafficJudge {
     pub(super) fn broken(
         &mut self,
         error: Error,
@@ -144,9 +146,10 @@ impl Judge {
     /// Nothing was captured of one direction, that of the CNC or that of the client.
     fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
         let observation = Observation::Bytes(&[], location(way, None, None));
-        let (topic, found) = match is_cnc {
-            true => (Topic::CncFrames, "nothing of what the CNC sent was captured"),
-            false => (Topic::ClientFrames, "nothing of what the client sent was captured"),
+        let (topic, found) = if is_cnc {
+            (Topic::CncFrames, "nothing of what the CNC sent was captured")
+        } else {
+            (Topic::ClientFrames, "nothing of what the client sent was captured")
         };
         self.records.on(topic, &observation).open("ADS-5", found);
     }

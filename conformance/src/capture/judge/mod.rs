@@ -9,11 +9,8 @@ mod replies;
 mod requests;
 mod service;
 mod streaming;
-mod target;
 mod values;
 mod variables;
-
-pub(super) use target::TargetVariable;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;
@@ -24,13 +21,13 @@ use ads_cnc::operation::{Call, Request, Task};
 use self::pair::Early;
 use super::findings::{Location, Observation, Topic, TopicRecords};
 use super::frames::Span;
-use super::table::{Event, SegmentDirection, Table};
-use super::tally::{Tally, count, count_of};
+use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
+use super::tally::{CaptureTally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
 use crate::client::{answer, violations};
-use crate::exchange::{Exchange, Fault};
-use crate::judge::{Checks as _, Outcome, assumed};
+use crate::exchange::{Exchange, ExchangeError};
+use crate::judge::{CaseOutcome, Checks as _, assumed};
 use crate::wire_service;
 
 /// CNCs that are told apart.
@@ -63,16 +60,16 @@ struct Lost {
 
 /// What is known of one CNC.
 #[derive(Debug, Default)]
-struct Cnc {
+struct ObservedCnc {
     objects: objects::Objects,
-    elements: elements::Elements,
-    parameters: parameters::Parameters,
+    elements: elements::ObservedElements,
+    parameters: parameters::ObservedParameters,
     variables: variables::Variables,
     streams: streaming::Streams,
     services: service::Services,
 }
 
-impl Cnc {
+impl ObservedCnc {
     /// Of one to which more may have been said before.
     fn new(is_lost: bool) -> Self {
         Self {
@@ -84,9 +81,9 @@ impl Cnc {
 }
 
 #[derive(Debug)]
-pub(super) struct Judge {
+pub(super) struct TrafficJudge {
     records: TopicRecords,
-    pub(super) tally: Tally,
+    pub(super) tally: CaptureTally,
     /// By connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
     /// The same keys by invoke ID.
@@ -101,7 +98,7 @@ pub(super) struct Judge {
     gap: Option<u64>,
     /// Whether requests and answers of one went over several connections.
     is_crossed: bool,
-    cncs: BTreeMap<AmsNetId, Cnc>,
+    cncs: BTreeMap<AmsNetId, ObservedCnc>,
     /// Whether there may be more to know of a CNC than was captured.
     is_lost: bool,
     vectors: Option<Collector>,
@@ -136,7 +133,7 @@ impl Room {
 /// What a judgement of one exchange needs.
 struct Bench<'j> {
     records: &'j mut TopicRecords,
-    cnc: &'j mut Cnc,
+    cnc: &'j mut ObservedCnc,
     room: &'j mut Room,
 }
 
@@ -165,11 +162,11 @@ fn service_clause(command: Command) -> &'static str {
     wire_service::service_of(command).map_or("ADS-5", wire_service::clause)
 }
 
-impl Judge {
+impl TrafficJudge {
     pub(super) fn new(vectors: Option<Collector>) -> Self {
         Self {
             records: TopicRecords::new(),
-            tally: Tally::default(),
+            tally: CaptureTally::default(),
             waiting: BTreeMap::new(),
             waiting_ids: BTreeSet::new(),
             waiting_of: BTreeMap::new(),
@@ -188,7 +185,7 @@ impl Judge {
     }
 
     /// What came of everything.
-    pub(super) fn finish(mut self) -> (Vec<Outcome>, Tally, Option<Collector>) {
+    pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
         self.tally.unkept = self.room.missed;
         for line in self.tally.lines().into_iter().skip(1) {
             self.records.note(Topic::CncFrames, line);
@@ -202,41 +199,50 @@ impl Judge {
     }
 
     /// Takes what happened on a connection.
-    pub(super) fn take(&mut self, event: Event, table: &Table) {
+    pub(super) fn take(&mut self, event: ConnectionEvent, table: &ConnectionTable) {
         match event {
-            Event::Frame(frame, way, span) => self.frame(frame, way, span, table),
-            Event::Router => count(&mut self.tally.router),
-            Event::Broken(error, bytes, way, span) => self.broken(error, &bytes, &way, span),
-            Event::Cut(bytes, way, span) => self.cut(&bytes, &way, span),
-            Event::Gap(length, way, mark) => self.gap(length, &way, mark),
-            Event::Skipped(length) => {
+            ConnectionEvent::Frame(frame, way, span) => self.frame(frame, way, span, table),
+            ConnectionEvent::Router => count(&mut self.tally.router),
+            ConnectionEvent::Broken(error, bytes, way, span) => {
+                self.broken(error, &bytes, &way, span)
+            }
+            ConnectionEvent::Cut(bytes, way, span) => self.cut(&bytes, &way, span),
+            ConnectionEvent::Gap(length, way, mark) => self.gap(length, &way, mark),
+            ConnectionEvent::Skipped(length) => {
                 let length = u64::try_from(length).unwrap_or(u64::MAX);
                 self.tally.skipped = self.tally.skipped.saturating_add(length);
             }
-            Event::Joined(connection) => {
+            ConnectionEvent::Joined(connection) => {
                 count(&mut self.tally.joined);
                 self.lost.entry(connection).or_default().joined = true;
                 self.lose();
             }
-            Event::Unfinished => count(&mut self.tally.unfinished),
-            Event::Ended(ending) => self.ended(ending),
+            ConnectionEvent::Unfinished => count(&mut self.tally.unfinished),
+            ConnectionEvent::Ended(ending) => self.ended(ending),
         }
     }
 
-    fn frame(&mut self, frame: Vec<u8>, way: SegmentDirection, span: Span, table: &Table) {
+    fn frame(
+        &mut self,
+        frame: Vec<u8>,
+        way: SegmentDirection,
+        span: Span,
+        table: &ConnectionTable,
+    ) {
         count(&mut self.tally.frames);
         let Ok(Some((whole, _))) = FrameRef::split(&frame, u32::MAX) else { return };
         let header = whole.header();
         self.newest = self.newest.max(span.last.packet);
         let seen = CapturedFrame { number: self.tally.frames, header, way, span, frame };
-        match is_reply(&header) {
-            true => self.reply(seen),
-            false => self.request(seen, table),
+        if is_reply(&header) {
+            self.reply(seen)
+        } else {
+            self.request(seen, table)
         }
         self.tidy(table);
     }
 
-    fn request(&mut self, seen: CapturedFrame, table: &Table) {
+    fn request(&mut self, seen: CapturedFrame, table: &ConnectionTable) {
         let header = seen.header;
         if !is_cnc(header.target.port) {
             count_of(&mut self.tally.other_ports, header.target.port.0);
@@ -246,7 +252,7 @@ impl Judge {
         let call = Call::from_frame(&frame);
         let exchange = call.as_ref().ok().copied().flatten().map(|call| Exchange {
             sent: seen.frame.clone(),
-            outcome: Err(Fault::Unseen),
+            outcome: Err(ExchangeError::Unseen),
             ..Exchange::new(&call)
         });
         let place = location(&seen.way, Some(seen.span), None);
@@ -314,7 +320,7 @@ impl Judge {
         if !self.cncs.contains_key(&net_id) && self.cncs.len() >= CNCS_MAX {
             return;
         }
-        let cnc = self.cncs.entry(net_id).or_insert_with(|| Cnc::new(self.is_lost));
+        let cnc = self.cncs.entry(net_id).or_insert_with(|| ObservedCnc::new(self.is_lost));
         let mut bench = Bench { records: &mut self.records, cnc, room: &mut self.room };
         replies::judge(&mut bench, &observation, &call, answer);
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {

@@ -15,13 +15,13 @@ use crate::suite::descriptor_holds_together;
 #[derive(Debug, Default)]
 pub(super) struct Objects {
     /// By the index group of the list.
-    lists: BTreeMap<u32, List>,
+    lists: BTreeMap<u32, ObservedList>,
     /// By the address of the content.
-    contents: BTreeMap<(u32, u32), Content>,
+    contents: BTreeMap<(u32, u32), ObservedContent>,
 }
 
 #[derive(Debug, Default)]
-struct List {
+struct ObservedList {
     count: Option<u32>,
     /// By index: the descriptor, and whether it was read alone.
     known: BTreeMap<u32, (Descriptor, bool)>,
@@ -29,7 +29,7 @@ struct List {
 }
 
 #[derive(Clone, Debug)]
-struct Content {
+struct ObservedContent {
     name: String,
     size: u32,
     /// Bytes of its type, if it has a fixed size.
@@ -90,7 +90,7 @@ impl Bench<'_> {
         }
     }
 
-    fn content(&self, call: &Call<'_>) -> Option<Content> {
+    fn content(&self, call: &Call<'_>) -> Option<ObservedContent> {
         let place = (call.index_group.get(), call.index_offset.get());
         self.cnc.objects.contents.get(&place).cloned()
     }
@@ -98,7 +98,7 @@ impl Bench<'_> {
     fn count(&mut self, observation: &Observation<'_>, group: u32, count: u32) {
         let list = self.cnc.objects.lists.entry(group).or_default();
         if list.count.is_some_and(|known| known != count) {
-            *list = List::default();
+            *list = ObservedList::default();
         }
         list.count = Some(count);
         let beyond = list.known.last_key_value().map_or(0, |(&last, _)| last);
@@ -174,7 +174,7 @@ impl Bench<'_> {
             if contents.contains_key(&place) || self.room.take(0) {
                 contents.insert(
                     place,
-                    Content {
+                    ObservedContent {
                         name: object.name().to_string(),
                         size: object.size(),
                         type_size: object.type_size(),

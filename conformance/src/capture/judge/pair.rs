@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::findings::{Observation, Topic};
-use super::super::table::{SegmentDirection, Table};
+use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, Judge, is_cnc, location, service_clause};
+use super::{CapturedFrame, TrafficJudge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Requests of a connection that wait for their answers, and bytes of those of all connections; of
@@ -56,10 +56,10 @@ impl Early {
     }
 
     /// The number of the first that fits, of the first with this invoke ID.
-    fn find(&self, id: u32, fits: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
+    fn find(&self, id: u32, matches: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
         let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let alike = alike.filter_map(|(_, number)| self.all.get(number));
-        alike.into_iter().find(|reply| fits(reply)).map(|reply| reply.number)
+        alike.into_iter().find(|reply| matches(reply)).map(|reply| reply.number)
     }
 
     fn first_of(&self, connection: u64) -> Option<u64> {
@@ -95,7 +95,7 @@ impl CapturedFrame {
     }
 }
 
-impl Judge {
+impl TrafficJudge {
     /// A request that is to be answered, if it was not before it was captured.
     pub(super) fn wait(&mut self, seen: CapturedFrame) {
         let id = seen.header.invoke_id;
@@ -153,7 +153,11 @@ impl Judge {
 
     /// Whether another request with this invoke ID still waits; none if its answer may only not
     /// have been captured.
-    pub(super) fn is_repeated(&self, seen: &CapturedFrame, table: &Table) -> Option<bool> {
+    pub(super) fn is_repeated(
+        &self,
+        seen: &CapturedFrame,
+        table: &ConnectionTable,
+    ) -> Option<bool> {
         let lost = self.lost.get(&seen.way.connection);
         let back = SegmentDirection { from: seen.way.to, to: seen.way.from, ..seen.way };
         let got = seen.span.last.acknowledged?;
@@ -163,27 +167,26 @@ impl Judge {
     }
 
     pub(super) fn reply(&mut self, reply: CapturedFrame) {
-        match self.asked(&reply) {
+        match self.request_of(&reply) {
             Some(asked) => self.exchange(&asked, &reply),
             None => self.early.push(reply),
         }
     }
 
     /// The request that a reply answers, from whom it goes to.
-    fn asked(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
+    fn request_of(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
         let key = (reply.way.connection, reply.header.invoke_id);
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
-        let fits = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
-        let here = self.waiting.get(&key).and_then(|all| match lost {
+        let matches = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
+        let here = self.waiting.get(&key).and_then(|all| {
             // Whoever uses an invoke ID once more has got the answer before, which was lost.
-            true => {
+            if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
-                latest.into_iter().find(|&place| all.get(place).is_some_and(fits))
-            }
-            false => {
+                latest.into_iter().find(|&place| all.get(place).is_some_and(matches))
+            } else {
                 let mut first = all.iter().take(ALIKE_MAX);
                 let mirrored = || all.iter().take(ALIKE_MAX).position(|one| one.mirrors(reply));
-                first.position(fits).or_else(mirrored)
+                first.position(matches).or_else(mirrored)
             }
         });
         if let Some(place) = here {
@@ -195,13 +198,13 @@ impl Judge {
         let mut others = others.map(|(id, connection)| (*connection, *id));
         let (key, place) = others.find_map(|key| {
             let all = self.waiting.get(&key)?;
-            Some((key, all.iter().take(ALIKE_MAX).position(fits)?))
+            Some((key, all.iter().take(ALIKE_MAX).position(matches)?))
         })?;
         self.forget(key, place)
     }
 
     /// Gives up the requests of replies for which none will come any more.
-    pub(super) fn tidy(&mut self, table: &Table) {
+    pub(super) fn tidy(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
             let last = first.span.last.packet.saturating_add(REORDERED_MAX);

@@ -10,12 +10,12 @@ use crate::judge::Checks as _;
 
 /// What is known of the dynamic parameters of a CNC.
 #[derive(Debug, Default)]
-pub(super) struct Parameters {
+pub(super) struct ObservedParameters {
     /// By index group and kind.
     counts: BTreeMap<(u32, String), u32>,
 }
 
-impl Parameters {
+impl ObservedParameters {
     /// Forgets nothing but what changes: indices move (DYN-4), so names are not kept.
     fn learn(&mut self, room: &mut Room, (group, kind): (u32, String), count: u32) {
         let length = kind.len();

@@ -7,7 +7,7 @@ use ads_cnc_vectors::requirement;
 
 use super::super::findings::{Observation, Topic, TopicRecords};
 use super::Bench;
-use crate::exchange::{Answer, Exchange, Violation};
+use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::wire_service;
 
@@ -32,7 +32,7 @@ pub(super) fn service<'e>(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
     exchange: &'e Exchange,
-) -> Option<&'e Answer> {
+) -> Option<&'e AdsReply> {
     let clause = wire_service::clause(exchange.service);
     let mut page = records.on(Topic::CncServices, observation);
     match &exchange.outcome {
@@ -58,7 +58,7 @@ pub(super) fn service<'e>(
 fn short_error(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
-    answer: &Answer,
+    answer: &AdsReply,
     header: &AmsHeader,
 ) {
     let is_error = !answer.ams_error.is_ok() || !answer.result.is_ok();
@@ -71,7 +71,7 @@ pub(super) fn judge(
     bench: &mut Bench<'_>,
     observation: &Observation<'_>,
     call: &Call<'_>,
-    answer: &Answer,
+    answer: &AdsReply,
 ) {
     let data = answer.success();
     let request = match call.dispatch() {

@@ -14,7 +14,7 @@ use crate::judge::{Checks as _, assumed};
 /// What is known of the Service Interface of each channel, by its index group.
 #[derive(Debug, Default)]
 pub(super) struct Services {
-    known: BTreeMap<u32, Interface>,
+    known: BTreeMap<u32, ObservedInterface>,
     /// Whether what was said before may not have been captured.
     is_lost: bool,
 }
@@ -27,7 +27,7 @@ impl Services {
 
 /// One channel's, as a client left it.
 #[derive(Debug, Default)]
-struct Interface {
+struct ObservedInterface {
     /// More may have been read and written than was captured, for what is asked now.
     is_lost: bool,
     /// A service has read that it is asked, and who is.
@@ -70,7 +70,7 @@ impl Bench<'_> {
             _ => return,
         };
         let Services { known, is_lost } = &mut self.cnc.services;
-        let new = || Interface { is_lost: *is_lost, ..Interface::default() };
+        let new = || ObservedInterface { is_lost: *is_lost, ..ObservedInterface::default() };
         let interface = known.entry(group).or_insert_with(new);
         match (written, reply) {
             (Some(value), _) => {
@@ -108,7 +108,7 @@ fn is_set(value: &[u8]) -> bool {
     value.iter().any(|byte| *byte != 0)
 }
 
-impl Interface {
+impl ObservedInterface {
     fn read(&mut self, page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::RequestState => {

@@ -18,7 +18,7 @@ const GIVEN_UP: Duration = Duration::from_secs(30);
 /// What is known of the streams of a CNC, by the index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Streams {
-    known: BTreeMap<u32, Stream>,
+    known: BTreeMap<u32, ObservedStream>,
     /// Whether what was written before may not have been captured.
     is_lost: bool,
 }
@@ -30,16 +30,16 @@ impl Streams {
 }
 
 #[derive(Default)]
-struct Stream {
+struct ObservedStream {
     /// What was refused last, and when.
     refused: Option<(Vec<u8>, Option<super::Time>)>,
     /// What is wrong with the program so far; none while its beginning is not known.
     checker: Option<Checker>,
 }
 
-impl fmt::Debug for Stream {
+impl fmt::Debug for ObservedStream {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Stream").field("refused", &self.refused).finish_non_exhaustive()
+        f.debug_struct("ObservedStream").field("refused", &self.refused).finish_non_exhaustive()
     }
 }
 

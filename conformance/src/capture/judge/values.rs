@@ -4,8 +4,8 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
 
 use super::super::findings::{Observation, Topic};
+use super::super::target::TargetVariable;
 use super::Bench;
-use super::target::TargetVariable;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.
@@ -19,7 +19,7 @@ impl TargetVariable {
     }
 
     /// Whether the number of indices addresses anything.
-    fn fits(&self) -> bool {
+    fn has_valid_index_count(&self) -> bool {
         self.indices.is_empty() || self.indices.len() == self.description.dimensions.len()
     }
 
@@ -47,7 +47,7 @@ impl Bench<'_> {
         };
         let dimensions = target.description.dimensions.len();
         let indices = target.indices.len();
-        let fits = target.fits();
+        let fits = target.has_valid_index_count();
         let mut page = self.records.on(Topic::ClientVar, observation);
         let found = format!("{indices} indices of {name}");
         let rule = assumed(if by_handle { "VAR-11" } else { "VAR-20" });

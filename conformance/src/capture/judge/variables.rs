@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::findings::{Observation, Topic};
-use super::target::TargetVariable;
+use super::super::target::TargetVariable;
 use super::{Bench, Room};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
@@ -18,11 +18,11 @@ const CHANNELS_MAX: usize = 512;
 #[derive(Debug, Default)]
 pub(super) struct Variables {
     /// By the index group of the channel.
-    channels: BTreeMap<u32, Channel>,
+    channels: BTreeMap<u32, ChannelVariables>,
 }
 
 #[derive(Debug, Default)]
-struct Channel {
+struct ChannelVariables {
     /// By kind; that of no kind is the sum.
     counts: BTreeMap<String, u32>,
     /// By name: with the kind and index it was described at.
@@ -32,7 +32,7 @@ struct Channel {
     names: BTreeMap<String, u32>,
 }
 
-impl Channel {
+impl ChannelVariables {
     /// Keeps the name of a handle, if there is room for a new one.
     fn handle(&mut self, handle: u32, name: &str, room: &mut Room) {
         if self.handles.contains_key(&handle) || room.take(name.len()) {
@@ -45,7 +45,7 @@ impl Channel {
 }
 
 impl Variables {
-    fn channel(&mut self, call: &Call<'_>) -> Option<&mut Channel> {
+    fn channel(&mut self, call: &Call<'_>) -> Option<&mut ChannelVariables> {
         let group = call.index_group.get();
         if !self.channels.contains_key(&group) && self.channels.len() >= CHANNELS_MAX {
             return None;
@@ -170,7 +170,7 @@ impl Bench<'_> {
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
             // Another configuration: what is known is of the one before.
-            *channel = Channel::default();
+            *channel = ChannelVariables::default();
         }
         if channel.counts.len() < 64 {
             channel.counts.insert(kind, number);

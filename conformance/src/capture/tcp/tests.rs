@@ -7,12 +7,15 @@ const MARK: Mark = Mark { packet: 1, time: None, acknowledged: None };
 /// What comes out of segments: bytes, and `_` for each byte of a gap.
 fn joined(half: &mut Half, parts: &[(u32, &[u8])], end: bool) -> String {
     let mut all = String::new();
-    let mut out = |piece: Piece<'_>| match piece {
-        Piece::Data(bytes, _) => all.push_str(std::str::from_utf8(bytes).unwrap()),
-        Piece::Gap(length, _) => all.extend((0..length).map(|_| '_')),
+    let mut out = |piece: ReassembledPiece<'_>| match piece {
+        ReassembledPiece::Data(bytes, _) => all.push_str(std::str::from_utf8(bytes).unwrap()),
+        ReassembledPiece::Gap(length, _) => all.extend((0..length).map(|_| '_')),
     };
     for &(sequence, payload) in parts {
-        half.push(Part { sequence, syn: false, payload, missing: 0, mark: MARK }, &mut out);
+        half.push(
+            DirectedSegment { sequence, syn: false, payload, missing: 0, mark: MARK },
+            &mut out,
+        );
     }
     if end {
         half.flush(&mut out);
@@ -26,8 +29,13 @@ fn segments_come_in_any_order() {
         let at = |offset: u32| start.wrapping_add(offset);
         let begun = || {
             let mut half = Half::default();
-            let syn =
-                Part { sequence: at(u32::MAX), syn: true, payload: &[], missing: 0, mark: MARK };
+            let syn = DirectedSegment {
+                sequence: at(u32::MAX),
+                syn: true,
+                payload: &[],
+                missing: 0,
+                mark: MARK,
+            };
             half.push(syn, &mut |_| panic!("there is nothing in it"));
             half
         };
@@ -57,7 +65,7 @@ fn what_never_came_is_a_gap() {
     assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"fg")], false), "ab");
     assert_eq!((half.ahead.len(), half.early), (1, 1));
     assert_eq!(joined(&mut half, &[], true), "___fg");
-    assert_eq!(half.held(), 0);
+    assert_eq!(half.memory_size(), 0);
 }
 
 /// The other side has it: it was sent, and not captured.
@@ -97,14 +105,14 @@ fn what_is_missing_at_the_end_is_a_gap() {
 fn no_more_is_held_back_than_a_limit() {
     let mut half = Half::default();
     let payload = vec![b'x'; 60_000];
-    let mut out = |_: Piece<'_>| {};
+    let mut out = |_: ReassembledPiece<'_>| {};
     for place in 0..200_u32 {
         let sequence = 10_u32.wrapping_add(place.wrapping_mul(70_000));
         half.push(
-            Part { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
+            DirectedSegment { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
             &mut out,
         );
-        assert!(half.held() <= AHEAD_MAX + 60_000);
+        assert!(half.memory_size() <= AHEAD_MAX + 60_000);
     }
 }
 
@@ -112,11 +120,11 @@ fn no_more_is_held_back_than_a_limit() {
 fn what_was_cut_off_is_a_gap() {
     let mut half = Half::default();
     let mut all = Vec::new();
-    let mut out = |piece: Piece<'_>| all.push(format!("{piece:?}"));
-    let part = Part { sequence: 5, syn: false, payload: b"ab", missing: 3, mark: MARK };
+    let mut out = |piece: ReassembledPiece<'_>| all.push(format!("{piece:?}"));
+    let part = DirectedSegment { sequence: 5, syn: false, payload: b"ab", missing: 3, mark: MARK };
     half.push(part, &mut out);
-    half.push(Part { sequence: 10, payload: b"f", missing: 0, ..part }, &mut out);
-    half.push(Part { sequence: 8, payload: b"d", missing: 3, ..part }, &mut out);
+    half.push(DirectedSegment { sequence: 10, payload: b"f", missing: 0, ..part }, &mut out);
+    half.push(DirectedSegment { sequence: 8, payload: b"d", missing: 3, ..part }, &mut out);
     let mark = format!("{MARK:?}");
     let gap = |length: u64| format!("Gap({length}, {mark})");
     let data = |bytes: &[u8]| format!("Data({bytes:?}, {mark})");

@@ -9,7 +9,7 @@ use super::{Run, Stopped};
 use crate::cli::report_output::show;
 use crate::cli::{complain, run_dry};
 use crate::faults::{Faulty, Seed};
-use crate::judge::{Needs, Outcome, Plan, RequirementVerdict, Verdict, Waivers};
+use crate::judge::{CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
@@ -122,7 +122,7 @@ impl Run {
 }
 
 /// Whether it is a case that writes, and something came of it.
-fn has_written(outcome: &Outcome) -> bool {
+fn has_written(outcome: &CaseOutcome) -> bool {
     let judged = |one: &RequirementVerdict| one.verdict.is_judged();
     outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
 }

@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 
-use super::response::{Answer, Ended, KEPT, answer};
+use super::response::{Ended, KEPT, ServiceResponse, answer};
 use super::utf8;
-use crate::process::Running;
+use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
 /// How long stdout may stay open when the command has ended: what it has started may hold it.
@@ -27,7 +27,7 @@ const LOOK: Duration = Duration::from_millis(5);
 const HOLDERS_MAX: usize = 8;
 
 /// What is run for each request.
-pub(super) struct Command<'s> {
+pub(super) struct ServiceCommand<'s> {
     /// The program and its arguments.
     pub(super) words: &'s [String],
     pub(super) channel: u8,
@@ -37,14 +37,14 @@ pub(super) struct Command<'s> {
     pub(super) readers: Arc<AtomicUsize>,
 }
 
-impl Command<'_> {
+impl ServiceCommand<'_> {
     /// Runs it for a request, for as long as it may take.
-    pub(super) fn run(&self, uuid: ServiceId, request: CncStr<'_>, state: u32) -> Answer {
+    pub(super) fn run(&self, uuid: ServiceId, request: CncStr<'_>, state: u32) -> ServiceResponse {
         let started = Instant::now();
         match self.start(uuid, state) {
             Err(why) => answer(&Ended::NotStarted(why), &[]),
             Ok(child) => {
-                let stdout = Capture::start(&child, &self.readers);
+                let stdout = CapturedOutput::start(&child, &self.readers);
                 if let Some(mut stdin) = child.take_stdin() {
                     // A command need not read it. It fits every pipe.
                     let _unread = writeln!(stdin, "{}", utf8(request));
@@ -54,7 +54,7 @@ impl Command<'_> {
                 // With all that it has started and that still runs.
                 drop(child);
                 stdout.closes();
-                let mut answer = answer(&ended, &stdout.kept());
+                let mut answer = answer(&ended, &stdout.bytes());
                 if !closed {
                     let warning = "a process that the command has started still had its stdout, \
                                    and was ended unless it has a session of its own";
@@ -65,7 +65,7 @@ impl Command<'_> {
         }
     }
 
-    fn start(&self, uuid: ServiceId, state: u32) -> Result<Running, String> {
+    fn start(&self, uuid: ServiceId, state: u32) -> Result<RunningCommand, String> {
         if self.readers.load(Ordering::SeqCst) >= HOLDERS_MAX {
             return Err(format!(
                 "{HOLDERS_MAX} processes that earlier commands have started still have their \
@@ -82,10 +82,10 @@ impl Command<'_> {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::inherit());
-        Running::start(command).map_err(|error| format!("{program}: {error}"))
+        RunningCommand::start(command).map_err(|error| format!("{program}: {error}"))
     }
 
-    fn wait(&self, child: &Running, started: Instant) -> Ended {
+    fn wait(&self, child: &RunningCommand, started: Instant) -> Ended {
         loop {
             match child.try_wait() {
                 Ok(Some(status)) => return Ended::Exited(status),
@@ -104,13 +104,13 @@ impl Command<'_> {
 }
 
 /// The front of what a command writes.
-struct Capture {
+struct CapturedOutput {
     kept: Arc<Mutex<Vec<u8>>>,
     closed: mpsc::Receiver<()>,
 }
 
-impl Capture {
-    fn start(child: &Running, readers: &Arc<AtomicUsize>) -> Self {
+impl CapturedOutput {
+    fn start(child: &RunningCommand, readers: &Arc<AtomicUsize>) -> Self {
         let (tell, closed) = mpsc::channel::<()>();
         let kept = Arc::new(Mutex::new(Vec::new()));
         if let Some(stdout) = child.take_stdout() {
@@ -134,7 +134,7 @@ impl Capture {
         self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
     }
 
-    fn kept(&self) -> Vec<u8> {
+    fn bytes(&self) -> Vec<u8> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }

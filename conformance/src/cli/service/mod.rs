@@ -28,8 +28,8 @@ use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::simulator::program::{Repeat, Script, ScriptConfig};
 use crate::text::some_time;
-use command::Command;
-use response::Answer;
+use command::ServiceCommand;
+use response::ServiceResponse;
 
 /// How often writes may fail, one after the other.
 const FAILED_WRITES_MAX: u32 = 5;
@@ -41,7 +41,7 @@ const FAILED_WRITES_MAX: u32 = 5;
 /// code the response state.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
-pub(super) struct Service {
+pub(super) struct ServiceArguments {
     /// UUID of the service; several, with commas between them, share the command
     #[arg(long, value_name = "UUID", required = true, value_delimiter = ',', value_parser = uuid)]
     uuid: Vec<ServiceId>,
@@ -116,13 +116,10 @@ fn uuid(text: &str) -> Result<ServiceId, String> {
         .map_err(|error| format!("{error}: 8, 4, 4, 4 and 12 hex digits are needed"))
 }
 
-impl Service {
+impl ServiceArguments {
     /// Serves, and says how the process ends.
     pub(super) fn execute(&self) -> Exit {
-        let done = match self.target.is_dry() {
-            true => self.show(),
-            false => self.serve(),
-        };
+        let done = if self.target.is_dry() { self.show() } else { self.serve() };
         self.target.end(done.map(|()| Exit::Success), |_| None)
     }
 
@@ -182,7 +179,7 @@ impl Service {
         check(&session)?;
         let mut serving = Serving {
             host: Host::new(&self.uuid),
-            command: Command {
+            command: ServiceCommand {
                 words: &self.command,
                 channel: channel.number(),
                 limit: self.time_limit,
@@ -216,7 +213,7 @@ impl Service {
 /// A host at work.
 struct Serving<'s> {
     host: Host<'s>,
-    command: Command<'s>,
+    command: ServiceCommand<'s>,
     channel: Channel,
     /// The request that was answered, as it is shown, until it is known how that ended.
     served: Option<String>,
@@ -265,7 +262,7 @@ impl Serving<'_> {
                 }
             }
             HostStep::Serve { uuid, request, request_state } => {
-                let Answer { response, state, warnings } =
+                let ServiceResponse { response, state, warnings } =
                     self.command.run(*uuid, request, request_state);
                 let shown = format!(
                     "{uuid} {:?}, state {request_state}: {:?}, state {state}",

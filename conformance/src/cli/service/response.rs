@@ -19,7 +19,7 @@ const NOT_STARTED: u32 = 1004;
 
 /// What the NC program is told.
 #[derive(Debug)]
-pub(super) struct Answer {
+pub(super) struct ServiceResponse {
     pub(super) response: CncString,
     pub(super) state: u32,
     pub(super) warnings: Vec<String>,
@@ -68,7 +68,7 @@ impl Ended {
 }
 
 /// What the NC program is told when a command ended so with this on stdout.
-pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> Answer {
+pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
     let mut warnings = Vec::new();
     match ended {
         Ended::NotStarted(why) => warnings.push(format!("the command could not be started: {why}")),
@@ -88,7 +88,7 @@ pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> Answer {
         response.truncate(most);
     }
     let response = CncStr::from_bytes(&response).map(CncString::from).unwrap_or_default();
-    Answer { response, state: ended.state(), warnings }
+    ServiceResponse { response, state: ended.state(), warnings }
 }
 
 /// Text of a command in CP1252, without its last line end.
@@ -135,7 +135,7 @@ mod tests {
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
         // Any end that leaves stdout alone.
-        let Answer { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
+        let ServiceResponse { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }
 

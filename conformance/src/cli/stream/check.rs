@@ -25,7 +25,7 @@ pub(super) fn check<'a>(
     let Ok(text) = NcText::new(bytes) else {
         for (line, error) in line_errors(bytes) {
             let (column, kind, clause) = (error.column(), error.kind(), error.kind().clause());
-            messages.say(format_args!("{name}:{line}:{column}: error: {kind} ({clause})"));
+            messages.write(format_args!("{name}:{line}:{column}: error: {kind} ({clause})"));
         }
         messages.end();
         return None;
@@ -33,16 +33,13 @@ pub(super) fn check<'a>(
     let mut ends = 0_usize;
     for finding in text.diagnostics() {
         let (line, column) = (finding.line, finding.column);
-        let level = match finding.kind.ends_streaming() {
-            true => "error",
-            false => "warning",
-        };
+        let level = if finding.kind.ends_streaming() { "error" } else { "warning" };
         ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
         // It says its place itself, though not as compilers do.
         let whole = finding.to_string();
         let place = format!("line {line}, column {column}: ");
         let what = whole.strip_prefix(&place).unwrap_or(&whole);
-        messages.say(format_args!("{name}:{line}:{column}: {level}: {what}"));
+        messages.write(format_args!("{name}:{line}:{column}: {level}: {what}"));
     }
     messages.end();
     Some(CheckedText { text, ends })
@@ -54,7 +51,7 @@ struct Messages<'o> {
 }
 
 impl Messages<'_> {
-    fn say(&mut self, message: std::fmt::Arguments<'_>) {
+    fn write(&mut self, message: std::fmt::Arguments<'_>) {
         self.count = self.count.saturating_add(1);
         if self.count <= SHOWN_MAX {
             let _unread: io::Result<()> = writeln!(self.out, "{message}");
@@ -87,7 +84,7 @@ fn line_errors(bytes: &[u8]) -> impl Iterator<Item = (u32, LineError)> {
 mod tests {
     use super::*;
 
-    fn said(bytes: &[u8]) -> (String, Option<usize>) {
+    fn output_of(bytes: &[u8]) -> (String, Option<usize>) {
         let mut out = Vec::new();
         let checked = check(bytes, "part.nc", &mut out);
         let ends = checked.map(|checked| checked.ends);
@@ -99,7 +96,7 @@ mod tests {
     fn every_bad_line_is_named() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();
         let bytes = [&b"N1 (\xE4 \xF6)\r\n\nN3\n\0N4\rN5 \x80"[..], &long].concat();
-        let (said, ends) = said(&bytes);
+        let (said, ends) = output_of(&bytes);
         assert_eq!(
             said,
             "part.nc:1:5: error: ASCII character expected, byte 0xE4 found (STM-7)\n\
@@ -113,7 +110,7 @@ mod tests {
 
     #[test]
     fn findings_have_a_level() {
-        let (said, ends) = said(b"N10: G0 X0\nN20 $GOTO N10\nN30 $WHILE 1\nN40 M30\nN50 X1\n");
+        let (said, ends) = output_of(b"N10: G0 X0\nN20 $GOTO N10\nN30 $WHILE 1\nN40 M30\nN50 X1\n");
         assert_eq!(
             said,
             "part.nc:2:5: error: $GOTO back to line 1 (STM-8)\n\
@@ -125,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_picture_is_not_shown_whole() {
-        let (said, _) = said(&b"\xFF\n".repeat(1000));
+        let (said, _) = output_of(&b"\xFF\n".repeat(1000));
         assert_eq!(said.lines().count(), SHOWN_MAX + 1);
         assert!(said.ends_with("\n… and 900 more\n"), "{said}");
     }

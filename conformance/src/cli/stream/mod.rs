@@ -29,7 +29,7 @@ use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::text::duration;
 use check::CheckedText;
-use progress::Progress;
+use progress::StreamProgress;
 use send::{Retry, SendEnd, Sending};
 
 const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
@@ -40,7 +40,7 @@ const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 /// what it has. A packet that the CNC cannot take for now is sent again.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
-pub(super) struct Stream {
+pub(super) struct StreamArguments {
     /// The NC program; - reads it from stdin
     #[arg(value_name = "FILE.nc")]
     file: PathBuf,
@@ -93,7 +93,7 @@ Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 
 3 unfinished: a signal, no connection or no answer; 4 refused for safety; 70 internal error.
 Once it sends, stdout says which lines were taken, and which were not if it ends before its time.";
 
-impl Stream {
+impl StreamArguments {
     /// Sends, and says how the process ends.
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |_| None)
@@ -119,10 +119,7 @@ impl Stream {
         let Some(lines) = NonZeroUsize::new(text.line_count()) else {
             return Err(Trouble::Usage(format!("{name} is empty: there is nothing to send")));
         };
-        match self.target.is_dry() {
-            true => self.show(text),
-            false => self.send(&name, text, lines),
-        }
+        if self.target.is_dry() { self.show(text) } else { self.send(&name, text, lines) }
     }
 
     fn open(&self) -> Result<Session, Trouble> {
@@ -159,7 +156,7 @@ impl Stream {
             refusals: 0,
             out: 0,
         };
-        let mut progress = Progress::new(text, self.quiet);
+        let mut progress = StreamProgress::new(text, self.quiet);
         let end = sending.run(&mut session, &interrupt, &mut progress);
         progress.clear();
         let channel = self.channel.channel.number();
@@ -202,17 +199,19 @@ impl Stream {
 
     /// The program as messages name it.
     fn name(&self) -> String {
-        match self.file == Path::new("-") {
-            true => "stdin".to_owned(),
-            false => crate::text::escape_lines(&self.file.display().to_string()),
+        if self.file == Path::new("-") {
+            "stdin".to_owned()
+        } else {
+            crate::text::escape_lines(&self.file.display().to_string())
         }
     }
 
     fn read(&self, name: &str) -> Result<Vec<u8>, Trouble> {
         let failed = |error: io::Error| Trouble::Usage(format!("{name}: {error}"));
-        let from: &mut dyn Read = match self.file == Path::new("-") {
-            true => &mut io::stdin().lock(),
-            false => &mut File::open(&self.file).map_err(failed)?,
+        let from: &mut dyn Read = if self.file == Path::new("-") {
+            &mut io::stdin().lock()
+        } else {
+            &mut File::open(&self.file).map_err(failed)?
         };
         let mut bytes = Vec::new();
         from.take(PROGRAM_MAX.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;

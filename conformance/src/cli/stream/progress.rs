@@ -11,22 +11,22 @@ use super::super::progress::{self, EVERY};
 const ELSEWHERE: Duration = Duration::from_secs(5);
 
 /// Shows how far it is: one line that changes on a terminal, one every few seconds elsewhere.
-pub(super) struct Progress {
+pub(super) struct StreamProgress {
     lines: usize,
     bytes: usize,
     started: Instant,
-    line: progress::Progress,
+    line: progress::ProgressLine,
     quiet: bool,
     waited: bool,
 }
 
-impl Progress {
+impl StreamProgress {
     pub(super) fn new(text: NcText<'_>, quiet: bool) -> Self {
         Self {
             lines: text.line_count(),
             bytes: text.wire_len(),
             started: Instant::now(),
-            line: progress::Progress::new(),
+            line: progress::ProgressLine::new(),
             quiet,
             waited: false,
         }
@@ -38,11 +38,13 @@ impl Progress {
 
     /// Shows how much was accepted, if that is due, and why it waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
-        let due = match self.line.live {
+        let due = if !self.line.live {
+            ELSEWHERE
+        } else if waits.is_some() && !self.waited {
             // Nothing may come after it for long.
-            true if waits.is_some() && !self.waited => Duration::ZERO,
-            true => EVERY,
-            false => ELSEWHERE,
+            Duration::ZERO
+        } else {
+            EVERY
         };
         self.waited = waits.is_some();
         if !self.quiet && self.line.is_due(due) {
@@ -52,8 +54,8 @@ impl Progress {
 
     fn text(&self, sent: streaming::Progress, waits: Option<&str>) -> String {
         let streaming::Progress { lines, bytes, .. } = sent;
-        let (all, of, rate) = (self.lines, Size(self.bytes), Rate(bytes, self.elapsed()));
-        let bytes = Size(bytes);
+        let (all, of, rate) = (self.lines, ByteCount(self.bytes), Rate(bytes, self.elapsed()));
+        let bytes = ByteCount(bytes);
         let (comma, waits) = waits.map_or(("", ""), |waits| (", ", waits));
         format!("{lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}")
     }
@@ -65,9 +67,9 @@ impl Progress {
 }
 
 /// Bytes as people count them.
-pub(super) struct Size(pub(super) usize);
+pub(super) struct ByteCount(pub(super) usize);
 
-impl fmt::Display for Size {
+impl fmt::Display for ByteCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         scaled(u32::try_from(self.0).map_or(f64::MAX, f64::from), f)
     }
@@ -103,7 +105,7 @@ mod tests {
         for (bytes, shown) in
             [(0, "0 bytes"), (9_999, "9999 bytes"), (10_000, "10.0 kB"), (10_485_760, "10.5 MB")]
         {
-            assert_eq!(Size(bytes).to_string(), shown);
+            assert_eq!(ByteCount(bytes).to_string(), shown);
         }
         assert_eq!(Rate(4000, Duration::from_secs(2)).to_string(), "2000 bytes/s");
         assert_eq!(Rate(10, Duration::ZERO).to_string(), "10.0 kB/s");
@@ -112,12 +114,12 @@ mod tests {
     #[test]
     fn a_line_says_how_far_it_is() {
         let text = NcText::new(b"N10 G0 X0\nN20 M30\n").unwrap();
-        let progress = Progress::new(text, false);
+        let progress = StreamProgress::new(text, false);
         let sent = streaming::Progress { packets: 1, lines: 1, bytes: 11 };
         let line = progress.text(sent, Some("refused 3 times"));
         assert!(line.starts_with("1 of 2 lines, 11 bytes of 20 bytes, "), "{line}");
         assert!(line.ends_with("/s, refused 3 times"), "{line}");
-        let mut progress = Progress { lines: 12_345_678, ..progress };
+        let mut progress = StreamProgress { lines: 12_345_678, ..progress };
         progress.line.live = true;
         let sent = streaming::Progress { packets: 123_456, lines: 1_234_567, bytes: 123_456_789 };
         let line = progress.text(sent, Some("refused 1200 times with 0x706"));

@@ -8,7 +8,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, Sender};
 
-use super::progress::{Progress, Rate, Size};
+use super::progress::{ByteCount, Rate, StreamProgress};
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 
@@ -49,10 +49,10 @@ impl Sending<'_> {
         &mut self,
         session: &mut Session,
         interrupt: &Interrupt,
-        progress: &mut Progress,
+        progress: &mut StreamProgress,
     ) -> SendEnd {
         loop {
-            if interrupt.came() {
+            if interrupt.is_requested() {
                 return SendEnd::Interrupted;
             }
             let Some(packet) = self.sender.packet() else { return SendEnd::Done };
@@ -101,7 +101,7 @@ impl Sending<'_> {
         took: Duration,
     ) -> String {
         let sent = self.sender.sent();
-        let (packets, bytes, rate) = (sent.packets, Size(sent.bytes), Rate(sent.bytes, took));
+        let (packets, bytes, rate) = (sent.packets, ByteCount(sent.bytes), Rate(sent.bytes, took));
         let channel = self.channel.number();
         let mut summary = match sent.lines {
             0 => format!("{name}: channel {channel} has taken nothing"),
@@ -139,10 +139,7 @@ impl Sending<'_> {
 }
 
 fn range(first: usize, last: usize) -> String {
-    match first == last {
-        true => format!("line {first}"),
-        false => format!("lines {first} to {last}"),
-    }
+    if first == last { format!("line {first}") } else { format!("lines {first} to {last}") }
 }
 
 pub(super) fn acknowledge(sender: &mut Sender<'_>, ack: Ack) -> Result<(), Trouble> {

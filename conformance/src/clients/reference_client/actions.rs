@@ -84,7 +84,7 @@ fn numbers(text: &str) -> Result<Vec<u32>, Fail> {
     text.split(',').map(|one| Ok(one.trim().parse()?)).collect()
 }
 
-fn shown(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
+fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
     let mut ty = ty.clone();
     if wire.has(Flaw::Unsigned) {
         ty.data_type = ty.data_type.map(|data_type| match data_type {
@@ -108,7 +108,7 @@ pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail>
             let (group, offset) = (object.index_group(), object.index_offset());
             let read = ReadObject::new(group, offset, object.size())?;
             let bytes = wire.call(&read, &mut reply)?.bytes;
-            shown(wire, &content(&object), bytes)?
+            to_json(wire, &content(&object), bytes)?
         }
         "write-object" => {
             let object = object(wire, args)?;
@@ -155,7 +155,7 @@ pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail>
         "read-by-name" => {
             let (channel, name, ty) = (args.channel()?, args.text()?, args.data_type()?);
             let bytes = wire.call(&ReadByName::new(channel, name)?, &mut reply)?.bytes;
-            shown(wire, &ty, bytes)?
+            to_json(wire, &ty, bytes)?
         }
         "write-by-name" => {
             let (channel, name, ty) = (args.channel()?, args.text()?, args.data_type()?);
@@ -172,7 +172,7 @@ pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail>
             let (channel, axis, name) = (args.channel()?, args.axis()?, args.text()?);
             let ty = args.data_type()?;
             let bytes = wire.call(&AxisReadByName::new(channel, axis, name)?, &mut reply)?.bytes;
-            shown(wire, &ty, bytes)?
+            to_json(wire, &ty, bytes)?
         }
         "write-axis" => {
             let (channel, axis, name) = (args.channel()?, args.axis()?, args.text()?);
@@ -231,7 +231,7 @@ fn by_handle(
         (U32List::from(indices.as_slice()), args.data_type()?, Vec::new());
     if action.action == "read-by-handle" {
         let bytes = wire.call(&ReadByHandle::new(channel, handle, indices), &mut reply)?.bytes;
-        return shown(wire, &ty, bytes);
+        return to_json(wire, &ty, bytes);
     }
     let bytes = values::parse(&ty, args.text()?)?;
     wire.call(&WriteByHandle::new(channel, handle, indices, &bytes), &mut reply)?;
@@ -325,7 +325,7 @@ fn element(
             let ty = args.data_type()?;
             let length = ty.size.ok_or("the length of a text is not known")?;
             let bytes = wire.call(&ReadElement::new(at, length)?, &mut reply)?.bytes;
-            shown(wire, &ty, bytes)?
+            to_json(wire, &ty, bytes)?
         }
         "write-element" => {
             let bytes = values::parse(&args.data_type()?, args.text()?)?;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Defect {
+pub struct ClientDefect {
     /// `client.no-nul`.
     pub id: &'static str,
     /// The requirement that has to fail; none of a habit.
@@ -13,7 +13,7 @@ pub struct Defect {
     pub flaw: Flaw,
 }
 
-impl fmt::Display for Defect {
+impl fmt::Display for ClientDefect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "a client that {}", self.what)
     }
@@ -24,17 +24,17 @@ macro_rules! flaws {
         defects { $( $flaw:ident $id:literal $requirement:literal $what:literal; )+ }
         habits { $( $habit:ident $habit_id:literal $other:literal; )+ }
     ) => {
-        /// One thing done wrong; its [`Defect`] says what.
+        /// One thing done wrong; its [`ClientDefect`] says what.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Flaw { $( $flaw, )+ $( $habit, )+ }
 
-        const ALL: &[Defect] = &[$(
-            Defect { id: $id, requirement: $requirement, what: $what, flaw: Flaw::$flaw },
+        const ALL: &[ClientDefect] = &[$(
+            ClientDefect { id: $id, requirement: $requirement, what: $what, flaw: Flaw::$flaw },
         )+];
 
-        const HABITS: &[Defect] = &[$(
-            Defect { id: $habit_id, requirement: "", what: $other, flaw: Flaw::$habit },
+        const HABITS: &[ClientDefect] = &[$(
+            ClientDefect { id: $habit_id, requirement: "", what: $other, flaw: Flaw::$habit },
         )+];
     };
 }
@@ -156,16 +156,16 @@ flaws! {
 /// assert!(defects().iter().all(|one| one.id.starts_with("client.")));
 /// assert_eq!(find_defect("client.no-nul").unwrap().requirement, "VAR-9");
 /// ```
-pub const fn defects() -> &'static [Defect] {
+pub const fn defects() -> &'static [ClientDefect] {
     ALL
 }
 
 /// What a client may do otherwise than this project's: it is as right, and must raise nothing.
-pub const fn habits() -> &'static [Defect] {
+pub const fn habits() -> &'static [ClientDefect] {
     HABITS
 }
 
 /// The defect with this ID, or the habit.
-pub fn find_defect(id: &str) -> Option<&'static Defect> {
+pub fn find_defect(id: &str) -> Option<&'static ClientDefect> {
     ALL.iter().chain(HABITS).find(|one| one.id == id)
 }

@@ -12,10 +12,11 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-pub use defects::{Defect, Flaw, defects, find_defect, habits};
+pub use defects::{ClientDefect, Flaw, defects, find_defect, habits};
 
-use super::message::{Answer, CncAddress, Hello, Identity, PROTOCOL, Reaction};
+use super::message::{ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL};
 use super::{Action, Actor, VOCABULARY};
+use crate::codec::message::Identity;
 use error::Fail;
 use wire::Connection;
 
@@ -26,8 +27,8 @@ pub struct ReferenceClient {
 }
 
 impl ReferenceClient {
-    pub fn hello() -> Hello {
-        Hello {
+    pub fn hello() -> ClientHello {
+        ClientHello {
             protocol: PROTOCOL,
             client: Identity {
                 name: "ads-cnc".to_owned(),
@@ -41,11 +42,11 @@ impl ReferenceClient {
 }
 
 impl Actor for ReferenceClient {
-    fn hello(&mut self, _: &CncAddress) -> Result<Hello, Reaction> {
+    fn hello(&mut self, _: &CncAddress) -> Result<ClientHello, ClientReaction> {
         Ok(Self::hello())
     }
 
-    fn act(&mut self, place: &CncAddress, _: &str, action: &Action) -> Reaction {
+    fn act(&mut self, place: &CncAddress, _: &str, action: &Action) -> ClientReaction {
         answer(self.flaw, place, action)
     }
 
@@ -56,20 +57,20 @@ impl Actor for ReferenceClient {
 
 /// What comes of an action; a death and a hang are only told, so that it can be done in a process
 /// that goes on.
-pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> Reaction {
+pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> ClientReaction {
     if flaw == Some(Flaw::Garbles) {
-        return Reaction::Garbled("done!".to_owned());
+        return ClientReaction::Garbled("done!".to_owned());
     }
     let done =
         Connection::connect(place, flaw).and_then(|mut wire| actions::act(&mut wire, action));
     match done {
-        Ok(value) => Reaction::Answer(Answer::Result(value)),
-        Err(Fail::Said(why)) => Reaction::Answer(Answer::Error(why)),
-        Err(Fail::Refused(error)) => {
-            Reaction::Answer(Answer::Error(format!("the CNC refuses it, ADS error {error:#x}")))
-        }
-        Err(Fail::Dies) => Reaction::Died("it would have ended here".to_owned()),
-        Err(Fail::Hangs) => Reaction::Silent(Duration::MAX),
+        Ok(value) => ClientReaction::Answer(ActionResult::Result(value)),
+        Err(Fail::Said(why)) => ClientReaction::Answer(ActionResult::Error(why)),
+        Err(Fail::Refused(error)) => ClientReaction::Answer(ActionResult::Error(format!(
+            "the CNC refuses it, ADS error {error:#x}"
+        ))),
+        Err(Fail::Dies) => ClientReaction::Died("it would have ended here".to_owned()),
+        Err(Fail::Hangs) => ClientReaction::Silent(Duration::MAX),
     }
 }
 

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::clients::Scenario;
 use crate::clients::scenario::{Ask, Expect, Length, read, write};
-use crate::clients::script::Script;
+use crate::clients::script::ScenarioScript;
 
 /// Objects of channel 1 of the default model: its own, the platform's, three at each of three
 /// places. The object of the program stream is one of its own.
@@ -88,7 +88,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
 }
 
 /// The list as the CNC has it.
-pub(super) fn list(script: &Script) -> Option<Value> {
+pub(super) fn list(script: &ScenarioScript) -> Option<Value> {
     let channel = ads_cnc::address::Channel::new(1).ok()?;
     let read = ReadDescriptors::new(ObjectList::from(channel), 1, COUNT).ok()?;
     let reply = script.ask(read)?;

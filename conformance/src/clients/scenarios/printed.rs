@@ -107,10 +107,12 @@ fn literal(example: &Vector) -> Option<Literal> {
         Service::Write => (3, true),
         Service::ReadWrite => (9, true),
     };
-    let request = match is_request {
-        true => example.bytes(),
-        false if has_request => vector(context.request.as_deref()?)?.bytes(),
-        false => Vec::new(),
+    let request = if is_request {
+        example.bytes()
+    } else if has_request {
+        vector(context.request.as_deref()?)?.bytes()
+    } else {
+        Vec::new()
     };
     let padded = match context.request.as_deref().and_then(vector).map(|one| one.stream.as_str()) {
         Some("variable-name") => 256,

@@ -55,7 +55,7 @@ impl ReactionScenario {
     }
 
     /// The reply is right, if not as usual.
-    fn right(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
+    fn valid_reply(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
         let scenario = self.scenario(id, what, tamper).by("ADS-5");
         match (self.result)() {
             Value::Null => scenario.expect(Expect::Done),
@@ -63,7 +63,13 @@ impl ReactionScenario {
         }
     }
 
-    fn wrong(&self, id: &str, what: &str, tamper: Tamper, rule: impl Into<Rule>) -> Scenario {
+    fn invalid_reply(
+        &self,
+        id: &str,
+        what: &str,
+        tamper: Tamper,
+        rule: impl Into<Rule>,
+    ) -> Scenario {
         self.scenario(id, what, tamper).expect(Expect::Error).by(rule)
     }
 }
@@ -86,26 +92,30 @@ pub(super) fn scenarios() -> Vec<Scenario> {
 
 fn ways(told: &ReactionScenario) -> Vec<Scenario> {
     vec![
-        told.right("bytewise", "one byte at a time", Tamper::Bytewise),
-        told.right("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
-        told.right("pieces-data", "in two pieces, cut behind the headers", Tamper::Pieces(39)),
+        told.valid_reply("bytewise", "one byte at a time", Tamper::Bytewise),
+        told.valid_reply("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
+        told.valid_reply(
+            "pieces-data",
+            "in two pieces, cut behind the headers",
+            Tamper::Pieces(39),
+        ),
         // That a client goes on after a reply to nobody is not said; that it takes none is.
         Scenario {
             expect: match (told.result)() {
                 Value::Null => Expect::DoneOrError,
                 result => Expect::ResultOrError(result),
             },
-            ..told.right("foreign", "behind a reply to another invoke ID", Tamper::Foreign)
+            ..told.valid_reply("foreign", "behind a reply to another invoke ID", Tamper::Foreign)
         },
-        told.right("twice", "twice in one piece", Tamper::Twice),
-        told.wrong("other-id", "to another invoke ID only", Tamper::OtherInvokeId, "ADS-5"),
-        told.wrong(
+        told.valid_reply("twice", "twice in one piece", Tamper::Twice),
+        told.invalid_reply("other-id", "to another invoke ID only", Tamper::OtherInvokeId, "ADS-5"),
+        told.invalid_reply(
             "other-command",
             "as the answer to another command",
             Tamper::OtherCommand,
             "ADS-5",
         ),
-        told.wrong("request", "marked as a request", Tamper::Request, "ADS-5"),
+        told.invalid_reply("request", "marked as a request", Tamper::Request, "ADS-5"),
     ]
 }
 
@@ -137,7 +147,7 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
                 WrongLength::Huge => "huge",
             };
             let what = format!("the {name} says {how}");
-            all.push(told.wrong(
+            all.push(told.invalid_reply(
                 &format!("{field}-{lies}"),
                 &what,
                 Tamper::Length(place, lie),
@@ -151,9 +161,9 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
 fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
         // What is no payload is known from help pages; that an error is one is not.
-        told.wrong("ams-error", "an AMS error without payload", Tamper::AmsError, "ADS-5")
+        told.invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, "ADS-5")
             .by("ADS-6"),
-        told.wrong(
+        told.invalid_reply(
             "bare-result",
             "an error as result, and nothing behind it",
             Tamper::BareResult,
@@ -163,13 +173,13 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     ];
     if told.function != Function::WriteByName {
         all.extend([
-            told.wrong(
+            told.invalid_reply(
                 "empty-result",
                 "an error as result, length 0",
                 Tamper::EmptyResult,
                 "ADS-4",
             ),
-            told.wrong(
+            told.invalid_reply(
                 "result-data",
                 "an error as result, with data",
                 Tamper::ResultWithData,
@@ -182,19 +192,24 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
 
 fn ends(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        told.wrong("closed", "closed without a reply", Tamper::CutAt(0), "ADS-5"),
-        told.wrong("closed-header", "closed within the headers", Tamper::CutAt(20), "ADS-5"),
-        told.wrong("closed-data", "closed before the last byte", Tamper::CutEnd, "ADS-5"),
+        told.invalid_reply("closed", "closed without a reply", Tamper::CutAt(0), "ADS-5"),
+        told.invalid_reply(
+            "closed-header",
+            "closed within the headers",
+            Tamper::CutAt(20),
+            "ADS-5",
+        ),
+        told.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, "ADS-5"),
     ];
     // Each takes as long as the client waits.
     if told.function == Function::ReadByName {
-        all.push(told.wrong("silence", "no reply at all", Tamper::Silence, CLIENT));
+        all.push(told.invalid_reply("silence", "no reply at all", Tamper::Silence, CLIENT));
     }
     all
 }
 
 fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
-    let wrong = |id: &str, what: &str, tamper| told.wrong(id, what, tamper, told.data);
+    let wrong = |id: &str, what: &str, tamper| told.invalid_reply(id, what, tamper, told.data);
     vec![
         wrong("more", "four bytes more than there should be", Tamper::More(4)),
         wrong("one-more", "one byte more", Tamper::More(1)),

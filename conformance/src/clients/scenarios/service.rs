@@ -5,7 +5,7 @@ use ads_cnc::service::ServiceVariable;
 use crate::clients::Scenario;
 use crate::clients::ordering::REQUEST;
 use crate::clients::scenario::Order;
-use crate::clients::script::Script;
+use crate::clients::script::ScenarioScript;
 use crate::judge::assumed;
 
 /// The printed one.
@@ -15,13 +15,13 @@ const HOST: &[&str] = &["SVC-1", "SVC-2", "SVC-3", "SVC-5", "ADS-3", "ADS-2"];
 
 const IDLE: &[&str] = &["SVC-2", "ADS-3"];
 
-fn request(script: &Script, uuid: &str, state: u8) {
-    script.put(ServiceVariable::Uuid, uuid.as_bytes());
-    script.put(ServiceVariable::Request, REQUEST.as_bytes());
-    script.put(ServiceVariable::RequestState, &[state, 0, 0, 0]);
+fn request(script: &ScenarioScript, uuid: &str, state: u8) {
+    script.write_variable(ServiceVariable::Uuid, uuid.as_bytes());
+    script.write_variable(ServiceVariable::Request, REQUEST.as_bytes());
+    script.write_variable(ServiceVariable::RequestState, &[state, 0, 0, 0]);
 }
 
-fn host(id: &str, title: &str, seconds: f32, prepare: fn(&Script)) -> Scenario {
+fn host(id: &str, title: &str, seconds: f32, prepare: fn(&ScenarioScript)) -> Scenario {
     let action = format!("serve-echo 1 {UUID} 1 {seconds}");
     let mut scenario = Scenario::new(format!("client-serve-{id}"), title, action);
     scenario.prepare = Some(prepare);
@@ -39,7 +39,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     .ordered(Order::Caller, &["SVC-12", "SVC-6", "ADS-3", "ADS-2"]);
     ask.response = Some("done");
     // Of a request before: who does not wait reads it.
-    ask.prepare = Some(|script| script.put(ServiceVariable::Response, b"stale"));
+    ask.prepare = Some(|script| script.write_variable(ServiceVariable::Response, b"stale"));
     vec![
         host("own", "It answers a request to its service", 5.0, |script| {
             request(script, UUID, 1);

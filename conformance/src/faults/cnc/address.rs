@@ -4,7 +4,7 @@ use ads_cnc::address::{Access, Addressing, Class, ComTable};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::{LOGICAL, Row, class, com_group, group, is, offset, row};
+use super::{CncSeed, LOGICAL, class, com_group, group, is, offset, row};
 
 /// Whether the low byte of the group is a channel.
 fn of_channel(call: &Call<'_>) -> bool {
@@ -20,24 +20,25 @@ fn by_index(call: &Call<'_>) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.index-as-logical", &["ADR-1"],
         "the bit of logical addressing is ignored: a channel by index is the one with that number",
-        |cnc, call| match of_channel(call) {
-            true => cnc.at(call, group(call) | LOGICAL, offset(call)),
-            false => cnc.answer(call),
+        |cnc, call| if of_channel(call) {
+            cnc.at(call, group(call) | LOGICAL, offset(call))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.adr.logical-as-index", &["ADR-1"], "a channel addressed logically is the one of that rank",
-        |cnc, call| match of_channel(call) {
-            true => cnc.at(call, group(call) & !LOGICAL, offset(call)),
-            false => cnc.answer(call),
+        |cnc, call| if of_channel(call) {
+            cnc.at(call, group(call) & !LOGICAL, offset(call))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.adr.index-from-0", &["ADR-1", "GEN-6"], "ranks of channels are counted from 0",
-        |cnc, call| match by_index(call) && (of_channel(call) || class(call).is_some()) {
-            true if class(call).is_some_and(|class| class.class != Class::Spindle) => {
-                cnc.at(call, group(call).wrapping_add(1), offset(call))
-            }
-            _ => cnc.answer(call),
+        |cnc, call| if by_index(call) && class(call).is_some_and(|class| class.class != Class::Spindle) {
+            cnc.at(call, group(call).wrapping_add(1), offset(call))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.adr.rank-of-configured", &["ADR-11"],
         "by index a channel is addressed by its rank among all, those that are deactivated too",

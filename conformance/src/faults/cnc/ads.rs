@@ -4,12 +4,12 @@ use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Service};
 
 use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
-use super::{Row, fits, put, row};
+use super::{CncSeed, row, set_u32, within_length};
 
 const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.ads.read-more", &["ADS-1"], "a Read is answered with all there is, however short the length",
         |cnc, call| match call.service { Service::Read => cnc.whole(call), _ => cnc.answer(call) }),
     row("cnc.ads.read-write-more", &["ADS-3"],
@@ -40,7 +40,7 @@ pub(super) const ROWS: &[Row] = &[
         "the data of a ReadWrite begins with the data that was written",
         |cnc, call| match call.service {
             Service::ReadWrite => {
-                fits(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))
+                within_length(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))
             }
             _ => cnc.answer(call),
         }),
@@ -83,13 +83,13 @@ pub(super) const ROWS: &[Row] = &[
         |_, request, mut bytes| {
             let length = u32::try_from(bytes.len()).unwrap_or_default();
             if is(request, READS) && bytes.len() > DATA {
-                put(&mut bytes, LENGTH, length.saturating_sub(38));
+                set_u32(&mut bytes, LENGTH, length.saturating_sub(38));
             }
             bytes
         }),
     sent("cnc.ads.read-length-0", &["ADS-1", "ADS-3"], "the length in a reply is 0", |_, request, mut bytes| {
         if is(request, READS) {
-            put(&mut bytes, LENGTH, 0);
+            set_u32(&mut bytes, LENGTH, 0);
         }
         bytes
     }),
@@ -108,7 +108,7 @@ pub(super) const ROWS: &[Row] = &[
     }),
     sent("cnc.ads.result-1", &["ADS-4"], "the result of success is 1", |_, _, mut bytes| {
         if result(&bytes) == 0 {
-            put(&mut bytes, RESULT, 1);
+            set_u32(&mut bytes, RESULT, 1);
         }
         bytes
     }),

@@ -3,7 +3,9 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
-use super::{ReplyData, Row, Upstream, function, group, of_decoder, offset, on, row, text, u32_at};
+use super::{
+    CncSeed, ReplyData, Upstream, function, group, of_decoder, offset, on, row, text, u32_at,
+};
 
 const READ: &[Function] = &[Function::AxisReadByName];
 const WRITE: &[Function] = &[Function::AxisWriteByName];
@@ -24,7 +26,7 @@ fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u3
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.axis-first", &["VAR-26"], "the axis interface is always that of the first axis",
         |cnc, call| other_axis(cnc, call, |_| 1)),
     row("cnc.var.axis-from-0", &["VAR-26", "GEN-6"], "axes of the axis interface are counted from 0",
@@ -117,7 +119,7 @@ pub(super) const ROWS: &[Row] = &[
         &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
             let handle = u32_at(&bytes, 0).unwrap_or_default();
             if handle & 0xFF00_FF00 == 0x0100_0000 {
-                super::put(&mut bytes, 0, handle.wrapping_add(0x1_0000));
+                super::set_u32(&mut bytes, 0, handle.wrapping_add(0x1_0000));
             }
             bytes
         })),

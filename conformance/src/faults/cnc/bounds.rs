@@ -7,8 +7,8 @@ use ads_cnc::service::ServiceVariable;
 use super::handle::{joined, parts};
 use super::lookup::{indexed, instance, with_indices};
 use super::{
-    DESCRIPTIONS, LOGICAL, Row, behind, dimensions, fits, function, group, is, number, offset, on,
-    records, reply, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, LOGICAL, after_nul, dimensions, function, group, is, number, offset, on,
+    records, reply, row, text, u32_at, within_length,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -16,7 +16,7 @@ const STREAM: &[Function] = &[Function::WriteProgramStream];
 const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.logical-beyond-number", &["ADR-1"],
         "logical numbers of channels go up to the number of channels: in SDA and GEO channel 6 is refused",
         |cnc, call| match (group(call) & 0xFF_0F00, usize::try_from(instance(call))) {
@@ -29,9 +29,10 @@ pub(super) const ROWS: &[Row] = &[
         "the contents of the last platform axis are refused, its descriptors are not",
         |cnc, call| {
             let next = cnc.read(call.port, (group(call) | 0x13_0000).wrapping_add(1), 0);
-            match group(call) & 0xEF_FF00 == 0x02_0200 && instance(call) > 0 && next.is_err() {
-                true => Err(AdsError::INVALID_GROUP),
-                false => cnc.answer(call),
+            if group(call) & 0xEF_FF00 == 0x02_0200 && instance(call) > 0 && next.is_err() {
+                Err(AdsError::INVALID_GROUP)
+            } else {
+                cnc.answer(call)
             }
         }),
     row("cnc.adr.axis-8-bit", &["ADR-7", "SDA-5"],
@@ -42,15 +43,13 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.com.count-without-platform", &["COM-1", "COM-4"],
         "the number of objects of channel 1 leaves out the platform's, whose descriptors are there",
-        |cnc, call| match is(call, &[Function::CountObjects]) && group(call) | LOGICAL == 0x13_0101
-        {
-            true => {
-                let platform = cnc.read(call.port, 0x13_0100, 0)?;
-                let platform = u32_at(&platform, 0).unwrap_or_default();
-                let all = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
-                Ok(all.wrapping_sub(platform).to_le_bytes().to_vec())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::CountObjects]) && group(call) | LOGICAL == 0x13_0101 {
+            let platform = cnc.read(call.port, 0x13_0100, 0)?;
+            let platform = u32_at(&platform, 0).unwrap_or_default();
+            let all = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
+            Ok(all.wrapping_sub(platform).to_le_bytes().to_vec())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.many-12", &["COM-3"],
         "there are 12 descriptors at most, as many as 1024 bytes have room for",
@@ -73,9 +72,10 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.dyn.name-of-96", &["DYN-6"],
         "a name that takes 96 bytes with its NUL is refused where a value is asked for by name",
-        |cnc, call| match is(call, &[Function::DynamicValueByName]) && call.data.len() == 96 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::DynamicValueByName]) && call.data.len() == 96 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.index-one-digit", &["VAR-20"],
         "of an index in the name of an element the first digit counts: [12] is [1]",
@@ -87,10 +87,7 @@ pub(super) const ROWS: &[Row] = &[
                     .unwrap_or_default()
             };
             let indices: Vec<u32> = indices.iter().map(first).collect();
-            match indices.is_empty() {
-                true => cnc.answer(call),
-                false => cnc.with(call, &with_indices(name, &indices)),
-            }
+            if indices.is_empty() { cnc.answer(call) } else { cnc.with(call, &with_indices(name, &indices)) }
         }),
     row("cnc.var.write-indices-8-bit", &["VAR-12"],
         "of an index in a write by handle the lowest byte counts: 256 is 0",
@@ -103,11 +100,11 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-2048", &["VAR-12", "VAR-13"],
         "a write of 2048 bytes, with what stands in front of the value, is refused",
-        |cnc, call| match is(call, &[Function::WriteByHandle, Function::WriteByName])
-            && call.data.len() == 2048
-        {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::WriteByHandle, Function::WriteByName])
+            && call.data.len() == 2048 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.read-2048", &["VAR-14"], "a value of 2048 bytes is refused by handle",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), cnc.answer(call)) {
@@ -116,9 +113,10 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-name-of-255", &["VAR-13"],
         "a value that stands behind the longest name, at the offset 256, is refused",
-        |cnc, call| match is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.extended-last", &["VAR-15"],
         "the last variable of V.E has no extended description: its index is refused",
@@ -134,7 +132,7 @@ pub(super) const ROWS: &[Row] = &[
             let (numbers, end) = dimensions(&bytes);
             if numbers.len() > 2 {
                 bytes.drain(28..end);
-                super::put(&mut bytes, 16, 2);
+                super::set_u32(&mut bytes, 16, 2);
             }
             bytes
         })),
@@ -165,17 +163,19 @@ pub(super) const ROWS: &[Row] = &[
         STREAM, |cnc, call| {
             let channel = u8::try_from(instance(call)).unwrap_or_default();
             let held =
-                cnc.cnc.with_program(channel, |program| program.held()).unwrap_or_default();
-            match held.saturating_add(call.data.len()) == 4094 {
-                true => Err(AdsError::INVALID_DATA),
-                false => cnc.answer(call),
+                cnc.cnc.with_program(channel, |program| program.buffered()).unwrap_or_default();
+            if held.saturating_add(call.data.len()) == 4094 {
+                Err(AdsError::INVALID_DATA)
+            } else {
+                cnc.answer(call)
             }
         }),
     row("cnc.stm.length-8-bit", &["STM-2", "STM-4"],
         "a packet whose length is a multiple of 256 is acknowledged and lost",
-        |cnc, call| match is(call, STREAM) && call.data.len() % 256 == 0 {
-            true => Ok(Vec::new()),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, STREAM) && call.data.len() % 256 == 0 {
+            Ok(Vec::new())
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.stm.lines-of-80", &["STM-20", "STM-7"], "of a line the first 80 characters are kept",
         STREAM, |cnc, call| {
@@ -192,21 +192,24 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.svc.response-127", &["SVC-1"], "a RESPONSE of 128 bytes, its NUL among them, is refused",
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
-            match is(call, &[Function::WriteByName]) && text(call.data) == name {
-                true if behind(call.data).len() == 128 => Err(AdsError::INVALID_SIZE),
-                _ => cnc.answer(call),
+            let is_response = is(call, &[Function::WriteByName]) && text(call.data) == name;
+            if is_response && after_nul(call.data).len() == 128 {
+                Err(AdsError::INVALID_SIZE)
+            } else {
+                cnc.answer(call)
             }
         }),
     row("cnc.svc.uuid-35", &["SVC-1", "SVC-2"], "UUID is read without its 36th character",
-        |cnc, call| match is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
-            true => fits(
+        |cnc, call| if is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
+            within_length(
                 call,
                 cnc.answer(call).map(|mut bytes| {
                     bytes.iter_mut().skip(35).for_each(|byte| *byte = 0);
                     bytes
                 }),
-            ),
-            false => cnc.answer(call),
+            )
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.adr.index-of-com", &["ADR-1", "ADR-12"],
         "contents of COM by index are those of the channel with that number: 0x20106 is channel 6",

@@ -9,7 +9,7 @@ pub(in crate::faults) fn u32_at(bytes: &[u8], place: usize) -> Option<u32> {
 }
 
 /// Puts an UNS32 at a place, if there is room.
-pub(in crate::faults) fn put(bytes: &mut [u8], place: usize, number: u32) {
+pub(in crate::faults) fn set_u32(bytes: &mut [u8], place: usize, number: u32) {
     if let Some(four) = bytes.get_mut(place..).and_then(<[u8]>::first_chunk_mut::<4>) {
         *four = number.to_le_bytes();
     }
@@ -23,14 +23,14 @@ pub(in crate::faults) fn number(
 ) -> ReplyData {
     answer.map(|mut bytes| {
         if let Some(number) = u32_at(&bytes, place) {
-            put(&mut bytes, place, other(number));
+            set_u32(&mut bytes, place, other(number));
         }
         bytes
     })
 }
 
 /// From behind the first NUL on.
-pub(in crate::faults) fn behind(bytes: &[u8]) -> &[u8] {
+pub(in crate::faults) fn after_nul(bytes: &[u8]) -> &[u8] {
     bytes.get(text(bytes).len().saturating_add(1)..).unwrap_or_default()
 }
 

@@ -1,13 +1,13 @@
 //! Types, access and sizes of variables (VAR).
 
 use super::variable::element;
-use super::{DESCRIPTIONS, Row, dimensions, number, on, put, reply, row, u32_at};
+use super::{CncSeed, DESCRIPTIONS, dimensions, number, on, reply, row, set_u32, u32_at};
 
 /// The sizes of elements of the types in their order, without STRING.
 const SIZES: [u32; 9] = [0, 1, 1, 1, 2, 2, 4, 4, 8];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.types-from-0", &["VAR-5"], "types are counted from 0: BOOLEAN",
         DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| code.wrapping_sub(1))),
     on("cnc.var.types-unsigned-first", &["VAR-5"],
@@ -37,7 +37,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.var.elementary-array-of-1", &["VAR-7"], "an elementary variable has one dimension of 1",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             if u32_at(&bytes, 16) == Some(0) {
-                put(&mut bytes, 16, 1);
+                set_u32(&mut bytes, 16, 1);
                 bytes.splice(20..20, [1, 0, 0, 0]);
             }
             bytes
@@ -45,7 +45,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.var.elementary-array-of-0", &["VAR-7"], "an elementary variable has one dimension of 0",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             if u32_at(&bytes, 16) == Some(0) {
-                put(&mut bytes, 16, 1);
+                set_u32(&mut bytes, 16, 1);
                 bytes.splice(20..20, [0; 4]);
             }
             bytes
@@ -53,14 +53,14 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.size-of-element", &["VAR-8"], "the size in a description is that of one element",
         DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let size = u32::try_from(element(&bytes)).unwrap_or_default();
-            put(&mut bytes, 12, size);
+            set_u32(&mut bytes, 12, size);
             bytes
         })),
     on("cnc.var.size-in-elements", &["VAR-8"], "the size in a description is a number of elements",
         DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let size =
                 dimensions(&bytes).0.iter().fold(1, |all: u32, one| all.saturating_mul(*one));
-            put(&mut bytes, 12, size);
+            set_u32(&mut bytes, 12, size);
             bytes
         })),
     on("cnc.var.size-of-first-dimension", &["VAR-8"],
@@ -68,7 +68,7 @@ pub(super) const ROWS: &[Row] = &[
         DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let first = dimensions(&bytes).0.first().copied().unwrap_or(1);
             let size = u32::try_from(element(&bytes)).unwrap_or_default();
-            put(&mut bytes, 12, size.saturating_mul(first));
+            set_u32(&mut bytes, 12, size.saturating_mul(first));
             bytes
         })),
     on("cnc.var.size-aligned", &["VAR-8"], "the size in a description is rounded up to 4 bytes",
@@ -76,7 +76,7 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.size-of-description", &["VAR-8"], "the size in a description is its own",
         DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
-            put(&mut bytes, 12, len);
+            set_u32(&mut bytes, 12, len);
             bytes
         })),
     on("cnc.var.description-types-wide", &["VAR-8", "GEN-5"],
@@ -86,7 +86,7 @@ pub(super) const ROWS: &[Row] = &[
             let size = kind.and_then(|kind| SIZES.get(kind)).copied().unwrap_or(8);
             let whole = u32_at(&bytes, 12).unwrap_or_default();
             if let Some(elements) = whole.checked_div(size).filter(|_| size < 4) {
-                put(&mut bytes, 12, elements.saturating_mul(4));
+                set_u32(&mut bytes, 12, elements.saturating_mul(4));
             }
             bytes
         })),

@@ -5,8 +5,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    ReplyData, Row, Upstream, com_group, group, is, number, offset, on, records, records_mut, row,
-    u32_at,
+    CncSeed, ReplyData, Upstream, com_group, group, is, number, offset, on, records, records_mut,
+    row, u32_at,
 };
 
 const LEN: u32 = 84;
@@ -37,7 +37,7 @@ pub(super) fn set(record: &mut [u8; 84], place: usize, bytes: &[u8]) {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.com.count-one-more", &["COM-1"], "the number of objects counts itself",
         &[Function::CountObjects], |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
     on("cnc.com.count-one-less", &["COM-1", "OBJ-1"],
@@ -58,7 +58,7 @@ pub(super) const ROWS: &[Row] = &[
         "the number takes a place among the descriptors: the first is at index 2",
         |cnc, call| match (is(call, &[Function::ReadDescriptors]), offset(call)) {
             (true, 1) => Err(AdsError::INVALID_OFFSET),
-            (true, behind) => cnc.at(call, group(call), behind.wrapping_sub(1)),
+            (true, index) => cnc.at(call, group(call), index.wrapping_sub(1)),
             _ => cnc.answer(call),
         }),
     on("cnc.com.descriptor-of-first", &["COM-2"], "every descriptor is that of the first object",
@@ -163,15 +163,17 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.com.many-two", &["COM-3"], "there are two descriptors at most, however many are asked for",
         |cnc, call| list(cnc, call, |records| records.truncate(2))),
     row("cnc.com.many-refused", &["COM-3"], "a read of more than one descriptor is refused",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.many-from-1", &["COM-3"],
         "several descriptors begin with the first object's, wherever they are asked for",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
-            true => cnc.at(call, group(call), 1),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
+            cnc.at(call, group(call), 1)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.many-padded", &["COM-3"], "several descriptors are 4 bytes apart", |cnc, call| {
         let answer = cnc.answer(call)?;

@@ -5,8 +5,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Key, ReplyData, Row, Upstream, class, group, is, number, offset, on, put, reply, row, text,
-    u32_at,
+    CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, reply, row, set_u32,
+    text, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -16,11 +16,16 @@ const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
 /// The question for an instance with one of its numbers made another.
-fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u32) -> ReplyData {
+fn with_number(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    place: usize,
+    other: fn(u32) -> u32,
+) -> ReplyData {
     match (is(call, FIND), u32_at(call.data, place)) {
         (true, Some(number)) => {
             let mut data = call.data.to_vec();
-            put(&mut data, place, other(number));
+            set_u32(&mut data, place, other(number));
             cnc.with(call, &data)
         }
         _ => cnc.answer(call),
@@ -29,14 +34,15 @@ fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u3
 
 /// Instances of a class behind an axis are not found.
 fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
-    match is(call, FIND) && group(call) & 0xF000 == of {
-        true if u32_at(call.data, 4) > Some(last) => cnc.answer(call).map(|_| vec![0; 8]),
-        _ => cnc.answer(call),
+    if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
+        cnc.answer(call).map(|_| vec![0; 8])
+    } else {
+        cnc.answer(call)
     }
 }
 
 /// What was answered once is answered for ever.
-fn kept(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
+fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
     }
@@ -46,7 +52,7 @@ fn kept(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
         return Ok(known);
     }
     let bytes = cnc.answer(call)?;
-    cnc.memory().keep(key, bytes.clone());
+    cnc.memory().store(key, bytes.clone());
     Ok(bytes)
 }
 
@@ -60,22 +66,22 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Repl
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.address-of-channel-1", &["SDA-1"],
         "whichever channel is asked for, the address is that of channel 1",
-        |cnc, call| asked(cnc, call, 0, |channel| channel.min(1))),
+        |cnc, call| with_number(cnc, call, 0, |channel| channel.min(1))),
     row("cnc.sda.address-of-channel", &["SDA-1"],
         "whichever axis is asked for, the address is that of the channel",
         |cnc, call| match group(call) & 0xF000 {
-            0x1000 | 0x2000 | 0x4000 => asked(cnc, call, 4, |_| 0),
+            0x1000 | 0x2000 | 0x4000 => with_number(cnc, call, 4, |_| 0),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.absent-far", &["SDA-2"],
         "an instance that is not there is answered with its group and an offset of all ones",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if bytes.iter().all(|byte| *byte == 0) {
-                put(&mut bytes, 0, group(call).wrapping_sub(0x600));
-                put(&mut bytes, 4, u32::MAX);
+                set_u32(&mut bytes, 0, group(call).wrapping_sub(0x600));
+                set_u32(&mut bytes, 4, u32::MAX);
             }
             bytes
         })),
@@ -85,7 +91,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.sda.decoder-one-axis", &["SDA-5"], "the decoder has the first axis of a channel only",
         |cnc, call| few_axes(cnc, call, 0x2000, 1)),
     row("cnc.sda.axis-24-bit", &["SDA-5", "SDA-2"], "of the axis asked for the lowest 24 bits count",
-        |cnc, call| asked(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
+        |cnc, call| with_number(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
     row("cnc.sda.types-padded", &["SDA-7"], "types are padded with blanks to 8 characters",
         |cnc, call| reply(cnc, call, &[Function::ReadElementType], |bytes| {
             format!("{:8}\0", String::from_utf8_lossy(text(&bytes))).into_bytes()
@@ -95,9 +101,10 @@ pub(super) const ROWS: &[Row] = &[
         .at(call, group(call), offset(call).wrapping_add(1))
         .or_else(|_| cnc.answer(call))),
     row("cnc.sda.first-length", &["SDA-8"], "the length of the number of elements is that of element 1",
-        |cnc, call| match is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
-            true => cnc.at(call, group(call), offset(call) | 1),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
+            cnc.at(call, group(call), offset(call) | 1)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.flag-beyond", &["SDA-4"], "elements behind the last have a unit and a write flag",
         |cnc, call| {
@@ -124,9 +131,10 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.dyn.count-8-bit", &["DYN-1"], "of the number of parameters the lowest byte is told",
         &[Function::CountDynamic], |cnc, call| number(cnc.answer(call), 0, |count| count & 0xFF)),
     row("cnc.dyn.names-kept", &["DYN-2"], "the name of an index is what it was when it was first asked for",
-        |cnc, call| kept(cnc, call, NAME)),
+        |cnc, call| cached(cnc, call, NAME)),
     row("cnc.dyn.values-kept", &["DYN-3", "DYN-4"],
-        "a parameter has the value it had when it was first asked for", |cnc, call| kept(cnc, call, VALUES)),
+        "a parameter has the value it had when it was first asked for",
+        |cnc, call| cached(cnc, call, VALUES)),
     row("cnc.dyn.names-in-turn", &["DYN-2"], "names come one behind the other, whatever index is asked for",
         |cnc, call| {
             let known = is(call, NAME) && cnc.answer(call).is_ok();

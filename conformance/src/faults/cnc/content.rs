@@ -4,7 +4,7 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule, Service};
 
-use super::{Row, at, class, function, functions, group, is, is_at, number, offset, on, row};
+use super::{CncSeed, at, class, function, functions, group, is, is_at, number, offset, on, row};
 
 const COUNT: &[Function] = &[Function::CountElements];
 const WRITE: &[Function] = &[Function::WriteElement];
@@ -27,16 +27,17 @@ fn empty_place(call: &Call<'_>) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.sda.count-itself", &["SDA-4"], "the number of element types is twice what it should be",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_mul(2))),
     on("cnc.sda.count-one-less", &["SDA-4", "OBJ-1"], "the number of element types leaves out the last",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.saturating_sub(1))),
     row("cnc.sda.count-of-channel", &["SDA-4"],
         "the number of element types of an axis is that of its channel",
-        |cnc, call| match is(call, COUNT) && offset(call) >= 0x1_0000 {
-            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && offset(call) >= 0x1_0000 {
+            cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.elements-from-0", &["SDA-4"],
         "elements are counted from 0: there is no number in front of them",
@@ -58,10 +59,7 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.sda.write-ignored", &["SDA-9"], "writes of elements succeed and change nothing",
         WRITE, |cnc, call| {
             let old = cnc.read(call.port, group(call), offset(call))?;
-            match old.len() == call.data.len() {
-                true => cnc.with(call, &old),
-                false => cnc.answer(call),
-            }
+            if old.len() == call.data.len() { cnc.with(call, &old) } else { cnc.answer(call) }
         }),
     row("cnc.sda.write-read-only", &["SDA-9"], "a write of an element that is read-only succeeds",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
@@ -69,44 +67,47 @@ pub(super) const ROWS: &[Row] = &[
             (_, answer) => answer,
         }),
     row("cnc.sda.feedhold-2", &["SDA-10"], "the content of feedhold.enable is 2",
-        |cnc, call| match feedhold(call, 0x300) && call.service == Service::Read {
-            true => cnc.answer(call).map(|_| vec![2]),
-            false => cnc.answer(call),
+        |cnc, call| if feedhold(call, 0x300) && call.service == Service::Read {
+            cnc.answer(call).map(|_| vec![2])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.feedhold-name", &["SDA-10"], "feedhold.enable is called feedhold_enable",
-        |cnc, call| match feedhold(call, 0x400) {
-            true => cnc.answer(call).map(|_| b"feedhold_enable\0".to_vec()),
-            false => cnc.answer(call),
+        |cnc, call| if feedhold(call, 0x400) {
+            cnc.answer(call).map(|_| b"feedhold_enable\0".to_vec())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.feedhold-unit", &["SDA-10"], "the unit of feedhold.enable is empty",
-        |cnc, call| match feedhold(call, 0x700) {
-            true => cnc.answer(call).map(|_| vec![0]),
-            false => cnc.answer(call),
-        }),
+        |cnc, call| if feedhold(call, 0x700) { cnc.answer(call).map(|_| vec![0]) } else { cnc.answer(call) }),
     row("cnc.sda.feedhold-type", &["SDA-10"], "feedhold.enable is an UNS08",
-        |cnc, call| match feedhold(call, 0x500) {
-            true => cnc.answer(call).map(|_| b"UNS08\0".to_vec()),
-            false => cnc.answer(call),
+        |cnc, call| if feedhold(call, 0x500) {
+            cnc.answer(call).map(|_| b"UNS08\0".to_vec())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.blank-refused", &["SDA-11"], "reading at a place without an axis is refused",
-        |cnc, call| match empty_place(call) && group(call) & 0xF00 == 0x300 {
-            true => Err(AdsError::INVALID_DATA),
-            false => cnc.answer(call),
+        |cnc, call| if empty_place(call) && group(call) & 0xF00 == 0x300 {
+            Err(AdsError::INVALID_DATA)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.blank-axis-number", &["SDA-11"],
         "the logical axis number of a place without an axis is 0xFFFF",
-        |cnc, call| match empty_place(call) && is(call, &[Function::ReadElement]) {
-            true => cnc.answer(call).map(|bytes| match bytes.len() {
+        |cnc, call| if empty_place(call) && is(call, &[Function::ReadElement]) {
+            cnc.answer(call).map(|bytes| match bytes.len() {
                 2 => vec![0xFF; 2],
                 _ => bytes,
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.blank-of-first", &["SDA-11"],
         "reading at a place without an axis gives what the first place has",
-        |cnc, call| match empty_place(call) && is(call, &[Function::ReadElement]) {
-            true => cnc.at(call, group(call), offset(call) & 0xFFFF | 0x1_0000),
-            false => cnc.answer(call),
+        |cnc, call| if empty_place(call) && is(call, &[Function::ReadElement]) {
+            cnc.at(call, group(call), offset(call) & 0xFFFF | 0x1_0000)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.blank-com-refused", &["SDA-11"], "objects of COM at a place without an axis are refused",
         |cnc, call| match (group(call) & 0xEF_FFFF, is_blank(offset(call))) {

@@ -2,18 +2,19 @@
 
 use ads_cnc::ads::{AmsPort, Command};
 
-use super::Row;
+use super::CncSeed;
 use super::frame::{DATA, LENGTH, RESULT, is, measured, sent, set};
 
 const INFO: &[Command] = &[Command::READ_DEVICE_INFO];
 const STATE: &[Command] = &[Command::READ_STATE];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     sent("cnc.ads.info-refused", &["ADS-8"], "ReadDeviceInfo is refused",
-        |_, request, bytes| match is(request, INFO) {
-            true => measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect()),
-            false => bytes,
+        |_, request, bytes| if is(request, INFO) {
+            measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect())
+        } else {
+            bytes
         }),
     sent("cnc.ads.info-name-15", &["ADS-8"], "the name in ReadDeviceInfo takes 15 bytes",
         |_, request, mut bytes| {
@@ -31,10 +32,10 @@ pub(super) const ROWS: &[Row] = &[
             measured(bytes)
         }),
     sent("cnc.ads.info-com-only", &["ADS-8"], "ReadDeviceInfo is refused at 551 and 552",
-        |_, request, bytes| match is(request, INFO) && request.header().target.port != AmsPort::COM
-        {
-            true => measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect()),
-            false => bytes,
+        |_, request, bytes| if is(request, INFO) && request.header().target.port != AmsPort::COM {
+            measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect())
+        } else {
+            bytes
         }),
     sent("cnc.ads.state-swapped", &["ADS-9"], "ReadState has the device state before the ADS state",
         |_, request, mut bytes| {
@@ -53,14 +54,15 @@ pub(super) const ROWS: &[Row] = &[
         measured(bytes)
     }),
     sent("cnc.ads.state-refused", &["ADS-9"], "ReadState is refused",
-        |_, request, bytes| match is(request, STATE) {
-            true => measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect()),
-            false => bytes,
+        |_, request, bytes| if is(request, STATE) {
+            measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect())
+        } else {
+            bytes
         }),
     sent("cnc.ads.state-com-only", &["ADS-9"], "ReadState is refused at 551 and 552",
-        |_, request, bytes| match is(request, STATE) && request.header().target.port != AmsPort::COM
-        {
-            true => measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect()),
-            false => bytes,
+        |_, request, bytes| if is(request, STATE) && request.header().target.port != AmsPort::COM {
+            measured(set(bytes, RESULT, &[1, 7, 0, 0]).into_iter().take(LENGTH).collect())
+        } else {
+            bytes
         }),
 ];

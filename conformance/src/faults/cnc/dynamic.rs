@@ -4,8 +4,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    ReplyData, Row, Upstream, fits, group, is, number, of_decoder, offset, on, put, row, text,
-    u32_at,
+    CncSeed, ReplyData, Upstream, group, is, number, of_decoder, offset, on, row, set_u32, text,
+    u32_at, within_length,
 };
 
 const COUNT: &[Function] = &[Function::CountDynamic];
@@ -41,7 +41,7 @@ fn count(cnc: &Upstream<'_>, call: &Call<'_>) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.dyn.count-one-more", &["DYN-1"], "numbers of parameters are one more",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
     on("cnc.dyn.count-highest-index", &["DYN-1"],
@@ -97,7 +97,7 @@ pub(super) const ROWS: &[Row] = &[
             bytes
         })),
     on("cnc.dyn.name-256", &["DYN-2", "DYN-6"], "names are padded to 256 bytes",
-        NAME, |cnc, call| fits(
+        NAME, |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 bytes.resize(256, 0);
@@ -105,7 +105,7 @@ pub(super) const ROWS: &[Row] = &[
             }),
         )),
     on("cnc.dyn.name-index-first", &["DYN-2"], "the index is repeated in front of the name",
-        NAME, |cnc, call| fits(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))),
+        NAME, |cnc, call| within_length(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))),
     on("cnc.dyn.name-upper-case", &["DYN-2", "DYN-3"], "names are told in upper case, and not found so",
         NAME, |cnc, call| cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase())),
     on("cnc.dyn.by-name-first", &["DYN-3"],
@@ -167,17 +167,18 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.dyn.p1-value", &["DYN-7"], "the value of P1 is 4712",
-        |cnc, call| match is(call, VALUES) && offset(call) < 0x1E {
-            true => cnc.answer(call).map(|bytes| match real(&bytes) {
+        |cnc, call| if is(call, VALUES) && offset(call) < 0x1E {
+            cnc.answer(call).map(|bytes| match real(&bytes) {
                 4711.0 => 4712_f64.to_le_bytes().to_vec(),
                 _ => bytes,
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.dyn.p1-name", &["DYN-7"], "the name of P1 is V.P1, and it is found by that",
         |cnc, call| match (is(call, NAME), is(call, BY_NAME), offset(call)) {
             (true, _, 0x1B) => {
-                fits(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))
+                within_length(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))
             }
             (_, true, 0x1C) => match call.data.strip_prefix(b"V.") {
                 Some(name) => cnc.with(call, name),
@@ -186,17 +187,16 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.dyn.p1-count", &["DYN-7"], "the number of P is that of all kinds",
-        |cnc, call| match is(call, COUNT) && offset(call) == 2 {
-            true => {
-                let mut sum = cnc.answer(call)?;
-                for place in 3..=5 {
-                    let more = cnc.at(call, group(call), place)?;
-                    let total = u32_at(&sum, 0).unwrap_or_default();
-                    put(&mut sum, 0, total.wrapping_add(u32_at(&more, 0).unwrap_or_default()));
-                }
-                Ok(sum)
+        |cnc, call| if is(call, COUNT) && offset(call) == 2 {
+            let mut sum = cnc.answer(call)?;
+            for place in 3..=5 {
+                let more = cnc.at(call, group(call), place)?;
+                let total = u32_at(&sum, 0).unwrap_or_default();
+                set_u32(&mut sum, 0, total.wrapping_add(u32_at(&more, 0).unwrap_or_default()));
             }
-            false => cnc.answer(call),
+            Ok(sum)
+        } else {
+            cnc.answer(call)
         }),
 ];
 

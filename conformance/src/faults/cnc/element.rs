@@ -3,7 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 
-use super::{ELEMENT_TEXTS, Row, group, is, offset, on, put, reply, row, text, u32_at};
+use super::{CncSeed, ELEMENT_TEXTS, group, is, offset, on, reply, row, set_u32, text, u32_at};
 
 const NAME: &[Function] = &[Function::ReadElementName];
 const TYPE: &[Function] = &[Function::ReadElementType];
@@ -12,21 +12,24 @@ const UNIT: &[Function] = &[Function::ReadElementUnit];
 const FLAG: &[Function] = &[Function::ReadElementWriteFlag];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.instance-name-missing", &["SDA-4"], "element 0 has no name",
-        |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
-            true => Err(AdsError::INVALID_OFFSET),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAME) && offset(call) & 0xFFF == 0 {
+            Err(AdsError::INVALID_OFFSET)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.instance-name-empty", &["SDA-4"], "the name of element 0 is empty",
-        |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
-            true => cnc.answer(call).map(|_| vec![0]),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAME) && offset(call) & 0xFFF == 0 {
+            cnc.answer(call).map(|_| vec![0])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.instance-name-of-element", &["SDA-4"], "the name of element 0 is that of element 1",
-        |cnc, call| match is(call, NAME) && offset(call) & 0xFFF == 0 {
-            true => cnc.at(call, group(call), offset(call) | 1),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAME) && offset(call) & 0xFFF == 0 {
+            cnc.at(call, group(call), offset(call) | 1)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.text-length-first", &["SDA-6"], "a text comes with its length, an UNS32, in front",
         |cnc, call| reply(cnc, call, ELEMENT_TEXTS, |bytes| {
@@ -34,7 +37,8 @@ pub(super) const ROWS: &[Row] = &[
             [&length.to_le_bytes(), bytes.as_slice()].concat()
         })),
     row("cnc.sda.text-wide", &["SDA-6"], "texts take two bytes a character",
-        |cnc, call| reply(cnc, call, ELEMENT_TEXTS, |bytes| bytes.iter().flat_map(|&byte| [byte, 0]).collect())),
+        |cnc, call| reply(cnc, call, ELEMENT_TEXTS,
+            |bytes| bytes.iter().flat_map(|&byte| [byte, 0]).collect())),
     row("cnc.sda.names-empty", &["SDA-6"], "elements have no names: they are empty",
         |cnc, call| reply(cnc, call, NAME, |_| vec![0])),
     on("cnc.sda.unit-refused", &["SDA-6", "ADR-6"], "elements have no unit: it is refused",
@@ -69,19 +73,19 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.sda.length-one-more", &["SDA-8"], "the length is one more than that of the content",
         |cnc, call| reply(cnc, call, LENGTH, |mut bytes| {
             let length = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, length.wrapping_add(1));
+            set_u32(&mut bytes, 0, length.wrapping_add(1));
             bytes
         })),
     row("cnc.sda.length-in-bits", &["SDA-8"], "the length is in bits",
         |cnc, call| reply(cnc, call, LENGTH, |mut bytes| {
             let length = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, length.wrapping_mul(8));
+            set_u32(&mut bytes, 0, length.wrapping_mul(8));
             bytes
         })),
     row("cnc.sda.length-aligned", &["SDA-8"], "the length is 4 at least",
         |cnc, call| reply(cnc, call, LENGTH, |mut bytes| {
             let length = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, length.max(4));
+            set_u32(&mut bytes, 0, length.max(4));
             bytes
         })),
     row("cnc.sda.length-text", &["SDA-8"], "the length is a text",

@@ -9,7 +9,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Call;
 
-use super::{Memory, ReplyData, Twist, Upstream, is};
+use super::{CncFault, Memory, ReplyData, Upstream, is};
 use crate::faults::{How, Seed};
 use crate::simulator::{Cnc, Model, Responder, respond};
 use crate::wire_service::{reply_stream, request_stream, service_of};
@@ -32,13 +32,13 @@ impl Faulty {
     pub fn new(cnc: Cnc, seed: Option<&Seed>) -> Self {
         let how = seed.map(|seed| seed.how.clone());
         let cnc = match &how {
-            Some(How::Cnc(Twist::Model(model))) => {
+            Some(How::Cnc(CncFault::Model(model))) => {
                 match Model::from_toml(model, "the model of a variant") {
                     Ok(model) => cnc.with_model(model),
                     Err(_) => cnc,
                 }
             }
-            Some(How::Cnc(Twist::Program(policy))) => cnc.with_policy(*policy),
+            Some(How::Cnc(CncFault::Program(policy))) => cnc.with_policy(*policy),
             _ => cnc,
         };
         Self { cnc: Arc::new(cnc), how, memory: Mutex::default(), shown: AtomicBool::new(false) }
@@ -91,8 +91,8 @@ impl Faulty {
 impl Responder for Faulty {
     fn answer(&self, call: &Call<'_>) -> ReplyData {
         match &self.how {
-            Some(How::Cnc(Twist::Answer(answer))) => answer(&self.upstream(), call),
-            Some(How::Cnc(Twist::Function(functions, answer))) if is(call, functions) => {
+            Some(How::Cnc(CncFault::Answer(answer))) => answer(&self.upstream(), call),
+            Some(How::Cnc(CncFault::Function(functions, answer))) if is(call, functions) => {
                 answer(&self.upstream(), call)
             }
             Some(How::Field(_)) => {
@@ -111,7 +111,7 @@ impl Responder for Faulty {
         let misread = self.change(service_of(command).map(request_stream), frame.data());
         let misread = misread.as_deref().and_then(|data| FrameRef::new(frame.header(), data).ok());
         respond(&|call| self.answer(call), net_id, misread.as_ref().unwrap_or(frame), answers);
-        if let Some(How::Cnc(Twist::Frame(sent))) = self.how
+        if let Some(How::Cnc(CncFault::Frame(sent))) = self.how
             && answers.len() > start
         {
             let right = answers.split_off(start);
@@ -122,7 +122,7 @@ impl Responder for Faulty {
 
     fn piece(&self) -> usize {
         match self.how {
-            Some(How::Cnc(Twist::Pieces(len))) => len.max(1),
+            Some(How::Cnc(CncFault::Pieces(len))) => len.max(1),
             _ => usize::MAX,
         }
     }

@@ -2,7 +2,7 @@
 
 use ads_cnc::ads::{Command, FrameRef};
 
-use super::{Row, Twist, Upstream, put, twisted, u32_at};
+use super::{CncFault, CncSeed, Upstream, fault, set_u32, u32_at};
 
 /// Where things are in a frame.
 pub(super) const TCP_LENGTH: usize = 2;
@@ -23,15 +23,15 @@ pub(super) const fn sent(
     breaks: &'static [&'static str],
     what: &'static str,
     frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> Row {
-    twisted(id, breaks, what, Twist::Frame(frame))
+) -> CncSeed {
+    fault(id, breaks, what, CncFault::Frame(frame))
 }
 
 /// The frame with the lengths that it has.
 pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
     let length = u32::try_from(bytes.len()).unwrap_or(u32::MAX);
-    put(&mut bytes, TCP_LENGTH, length.saturating_sub(6));
-    put(&mut bytes, DATA_LENGTH, length.saturating_sub(38));
+    set_u32(&mut bytes, TCP_LENGTH, length.saturating_sub(6));
+    set_u32(&mut bytes, DATA_LENGTH, length.saturating_sub(38));
     bytes
 }
 
@@ -51,7 +51,7 @@ pub(super) fn is(request: &FrameRef<'_>, commands: &[Command]) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     sent("cnc.ads.invoke-id-0", &["ADS-5"], "the invoke ID of a response is 0",
         |_, _, bytes| set(bytes, INVOKE_ID, &[0; 4])),
     sent("cnc.ads.invoke-id-own", &["ADS-5"], "responses are counted by invoke IDs of their own",
@@ -96,19 +96,19 @@ pub(super) const ROWS: &[Row] = &[
     sent("cnc.ads.tcp-length-of-data", &["ADS-5"], "the length in front of a frame is that of the data",
         |_, _, mut bytes| {
             let length = u32_at(&bytes, DATA_LENGTH).unwrap_or_default();
-            put(&mut bytes, TCP_LENGTH, length);
+            set_u32(&mut bytes, TCP_LENGTH, length);
             bytes
         }),
     sent("cnc.ads.tcp-length-of-frame", &["ADS-5"], "the length in front of a frame counts itself",
         |_, _, mut bytes| {
             let length = u32_at(&bytes, TCP_LENGTH).unwrap_or_default();
-            put(&mut bytes, TCP_LENGTH, length.wrapping_add(6));
+            set_u32(&mut bytes, TCP_LENGTH, length.wrapping_add(6));
             bytes
         }),
     sent("cnc.ads.data-length-of-frame", &["ADS-5"], "the data length of a response counts the header too",
         |_, _, mut bytes| {
             let length = u32_at(&bytes, DATA_LENGTH).unwrap_or_default();
-            put(&mut bytes, DATA_LENGTH, length.wrapping_add(32));
+            set_u32(&mut bytes, DATA_LENGTH, length.wrapping_add(32));
             bytes
         }),
     sent("cnc.ads.data-length-0", &["ADS-5"], "the data length of a response is 0",
@@ -118,7 +118,7 @@ pub(super) const ROWS: &[Row] = &[
         |_, _, mut bytes| {
             for place in [DATA_LENGTH, ERROR, INVOKE_ID] {
                 let number = u32_at(&bytes, place).unwrap_or_default();
-                put(&mut bytes, place, number.swap_bytes());
+                set_u32(&mut bytes, place, number.swap_bytes());
             }
             bytes
         }),

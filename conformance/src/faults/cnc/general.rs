@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, FunctionSpec};
 use ads_cnc::text::cp1252_to_char;
 
 use super::{
-    DESCRIPTIONS, NAMED, ReplyData, Row, Upstream, VALUES, WRITES, behind, dimensions, first, fits,
-    function, functions, number, on, put, records, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, after_nul, dimensions,
+    first, function, functions, number, on, records, row, set_u32, text, u32_at, within_length,
 };
 
 /// Functions whose reply is a number.
@@ -42,13 +42,13 @@ fn texts(
             [head, &again(text(name), outwards, &[0])].concat()
         }),
         Some(function) if NAMED.contains(&function) => {
-            let value = if WRITES.contains(&function) { behind(call.data) } else { &[] };
+            let value = if WRITES.contains(&function) { after_nul(call.data) } else { &[] };
             let tail = [&[0], value].concat();
             return cnc.with(call, &again(text(call.data), inwards, &tail));
         }
         _ => return cnc.answer(call),
     };
-    fits(call, answer)
+    within_length(call, answer)
 }
 
 fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
@@ -58,7 +58,7 @@ fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.gen.numbers-big-endian", &["GEN-1"],
         "counts and handles are answered with the most significant byte first",
         NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),
@@ -91,14 +91,14 @@ pub(super) const ROWS: &[Row] = &[
             Some(function) if first(function.spec().request) == b"index" => {
                 let mut data = call.data.to_vec();
                 if let Some(index) = u32_at(&data, 0) {
-                    put(&mut data, 0, index.swap_bytes());
+                    set_u32(&mut data, 0, index.swap_bytes());
                 }
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),
         }),
     on("cnc.gen.description-aligned", &["GEN-2"], "the name of a description is aligned to 8 bytes",
-        &[Function::DescribeByIndex], |cnc, call| fits(
+        &[Function::DescribeByIndex], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
                 let (_, name) = dimensions(&bytes);
@@ -157,7 +157,7 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.answer(call).map(|mut bytes| {
                     if u32_at(&bytes, 4) == Some(1) {
                         let size = u32_at(&bytes, 12).unwrap_or_default();
-                        put(&mut bytes, 12, size.wrapping_mul(4));
+                        set_u32(&mut bytes, 12, size.wrapping_mul(4));
                     }
                     bytes
                 })

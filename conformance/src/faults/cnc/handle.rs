@@ -4,8 +4,8 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    ReplyData, Row, Upstream, fours, function, group, number, of_decoder, offset, on, put, row,
-    text, u32_at,
+    CncSeed, ReplyData, Upstream, fours, function, group, number, of_decoder, offset, on, row,
+    set_u32, text, u32_at,
 };
 
 const HANDLE: &[Function] = &[Function::HandleByName, Function::AxisHandleByName];
@@ -25,7 +25,7 @@ pub(super) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
 }
 
 /// The handle told, made another one that is understood again, or not.
-fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
+fn with_handle(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     match function(call) {
         Some(Function::HandleByName | Function::AxisHandleByName) => {
             number(cnc.answer(call), 0, other)
@@ -35,12 +35,12 @@ fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-not-understood", &["VAR-10"],
         "the handle by name is another than the one that is understood",
-        |cnc, call| told(cnc, call, |handle| handle ^ 0x5A00_0000)),
+        |cnc, call| with_handle(cnc, call, |handle| handle ^ 0x5A00_0000)),
     row("cnc.var.handle-16-bit", &["VAR-10"], "the handle by name is the lower 16 bits",
-        |cnc, call| told(cnc, call, |handle| handle & 0xFFFF)),
+        |cnc, call| with_handle(cnc, call, |handle| handle & 0xFFFF)),
     on("cnc.var.handle-2-bytes", &["VAR-10"], "the handle by name takes 2 bytes",
         HANDLE, |cnc, call| cnc.answer(call).map(|mut bytes| {
             bytes.truncate(2);
@@ -54,8 +54,8 @@ pub(super) const ROWS: &[Row] = &[
                 let mut memory = cnc.memory();
                 memory.count = memory.count.wrapping_add(1);
                 let made = memory.count | 0x7000_0000;
-                memory.keep((made, 0, Vec::new()), answer.clone());
-                put(&mut answer, 0, made);
+                memory.store((made, 0, Vec::new()), answer.clone());
+                set_u32(&mut answer, 0, made);
                 Ok(answer)
             }
             (Some(Function::ReadByHandle | Function::WriteByHandle), Some((handle, at, value))) => {
@@ -72,7 +72,7 @@ pub(super) const ROWS: &[Row] = &[
                 let used = cnc.memory().get(&key).is_some();
                 let answer = if used { Err(AdsError::INVALID_DATA) } else { cnc.answer(call) };
                 if answer.is_ok() {
-                    cnc.memory().keep(key, Vec::new());
+                    cnc.memory().store(key, Vec::new());
                 }
                 answer
             }
@@ -95,7 +95,7 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
                 let handle = u32_at(bytes, 0).unwrap_or_default();
-                cnc.memory().keep((handle, 0, Vec::new()), Vec::new());
+                cnc.memory().store((handle, 0, Vec::new()), Vec::new());
             }),
             (Some(Function::ReadByHandle | Function::WriteByHandle), Some(handle))
                 if cnc.memory().get(&(handle, 0, Vec::new())).is_none() =>
@@ -112,7 +112,7 @@ pub(super) const ROWS: &[Row] = &[
                 let key = (group(call), 0, b"shared".to_vec());
                 let kept = cnc.memory().get(&key);
                 Ok(kept.unwrap_or_else(|| {
-                    cnc.memory().keep(key, own.clone());
+                    cnc.memory().store(key, own.clone());
                     own
                 }))
             }
@@ -120,7 +120,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     on("cnc.var.handle-in-description", &["VAR-4", "VAR-10"], "the handle in a description is the index",
         &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
-            put(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
+            set_u32(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
             bytes
         })),
     on("cnc.var.handle-0-in-description", &["VAR-4"], "the handle in a description is 0",
@@ -141,7 +141,7 @@ pub(super) const ROWS: &[Row] = &[
                     if let Some(handle) = handle
                         && let Some(number) = axis(handle >> 16 & 0xFF).filter(|one| *one != 0)
                     {
-                        put(&mut bytes, 0, handle & 0xFF00_FFFF | number << 16);
+                        set_u32(&mut bytes, 0, handle & 0xFF00_FFFF | number << 16);
                     }
                     Ok(bytes)
                 }

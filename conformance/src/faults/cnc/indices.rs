@@ -5,7 +5,9 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
 use super::variable::{described, element, first_element};
-use super::{ReplyData, Row, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
+use super::{
+    CncSeed, ReplyData, Upstream, dimensions, is, of_decoder, row, set_u32, u32_at, within_length,
+};
 
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
@@ -26,10 +28,10 @@ fn indices(
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-unknown", &["VAR-11"], "a handle of no variable reads as 0",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
-            (true, Err(_)) if described(cnc, call).is_none() => fits(call, Ok(vec![0; 4])),
+            (true, Err(_)) if described(cnc, call).is_none() => within_length(call, Ok(vec![0; 4])),
             (_, answer) => answer,
         }),
     row("cnc.var.whole-by-handle-first", &["VAR-11", "VAR-14"], "n = 0 reads the first element of an array",
@@ -66,9 +68,10 @@ pub(super) const ROWS: &[Row] = &[
                     described(cnc, call).map(|found| dimensions(&found).0).unwrap_or_default();
                 indices(cnc, call, READ, |at| {
                     let bound = |(index, count): (u32, &u32)| index.min(count.saturating_sub(1));
-                    match at.len() == bounds.len() {
-                        true => at.into_iter().zip(&bounds).map(bound).collect(),
-                        false => at,
+                    if at.len() == bounds.len() {
+                        at.into_iter().zip(&bounds).map(bound).collect()
+                    } else {
+                        at
                     }
                 })
             }
@@ -77,7 +80,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.var.indices-beyond", &["VAR-11"], "an index that is out of bounds reads as 0",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => match described(cnc, call) {
-                Some(found) => fits(call, Ok(vec![0; element(&found)])),
+                Some(found) => within_length(call, Ok(vec![0; element(&found)])),
                 None => Err(AdsError::INVALID_DATA),
             },
             (_, answer) => answer,
@@ -107,7 +110,7 @@ pub(super) const ROWS: &[Row] = &[
             Some(0x47) => {
                 let mut data = call.data.to_vec();
                 let bytes = u32_at(&data, 4).unwrap_or_default();
-                put(&mut data, 4, bytes >> 2);
+                set_u32(&mut data, 4, bytes >> 2);
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),
@@ -123,11 +126,10 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-indices-ignored", &["VAR-12"],
         "a write by handle ignores the indices: it is to the first element",
-        |cnc, call| match is(call, WRITE)
-            && parts(call.data).is_some_and(|parts| !parts.1.is_empty())
-        {
-            true => indices(cnc, call, WRITE, |at| vec![0; at.len()]),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, WRITE) && parts(call.data).is_some_and(|parts| !parts.1.is_empty()) {
+            indices(cnc, call, WRITE, |at| vec![0; at.len()])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.write-indices-reversed", &["VAR-12"], "a write by handle has the indices in reverse order",
         |cnc, call| indices(cnc, call, WRITE, |at| at.into_iter().rev().collect())),

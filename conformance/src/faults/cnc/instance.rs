@@ -4,12 +4,18 @@ use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::{LOGICAL, ReplyData, Row, Upstream, class, group, is, offset, put, reply, row, u32_at};
+use super::{
+    CncSeed, LOGICAL, ReplyData, Upstream, class, group, is, offset, reply, row, set_u32, u32_at,
+};
 
 const FIND: &[Function] = &[Function::FindInstance];
 
 /// The question for an instance, with channel and axis made others.
-fn asked(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32, u32) -> (u32, u32)) -> ReplyData {
+fn with_instance(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    other: fn(u32, u32) -> (u32, u32),
+) -> ReplyData {
     let (Some(channel), Some(axis)) = (u32_at(call.data, 0), u32_at(call.data, 4)) else {
         return cnc.answer(call);
     };
@@ -18,8 +24,8 @@ fn asked(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32, u32) -> (u32, u32))
     }
     let (channel, axis) = other(channel, axis);
     let mut data = call.data.to_vec();
-    put(&mut data, 0, channel);
-    put(&mut data, 4, axis);
+    set_u32(&mut data, 0, channel);
+    set_u32(&mut data, 4, axis);
     cnc.with(call, &data)
 }
 
@@ -35,9 +41,9 @@ fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> b
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.sda.query-swapped", &["SDA-1"], "the question for an instance is read as axis and channel",
-        |cnc, call| asked(cnc, call, |channel, axis| (axis, channel))),
+        |cnc, call| with_instance(cnc, call, |channel, axis| (axis, channel))),
     row("cnc.sda.address-swapped", &["SDA-1"], "an instance is answered as index offset and index group",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             bytes.rotate_left(4);
@@ -59,7 +65,7 @@ pub(super) const ROWS: &[Row] = &[
             (Some(_), 0x900, Service::Write) => {
                 let found =
                     cnc.answer(&Call { service: Service::ReadWrite, read_length: 8, ..*call })?;
-                cnc.memory().keep((0, 0, Vec::new()), found);
+                cnc.memory().store((0, 0, Vec::new()), found);
                 Ok(Vec::new())
             }
             (Some(_), 0x900, Service::Read) => {
@@ -72,7 +78,7 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             match u32_at(&bytes, 0) {
                 Some(0) | None => {}
-                Some(group) => put(&mut bytes, 0, group.wrapping_add(0x600)),
+                Some(group) => set_u32(&mut bytes, 0, group.wrapping_add(0x600)),
             }
             bytes
         })),
@@ -80,7 +86,7 @@ pub(super) const ROWS: &[Row] = &[
         "the address of an instance is that of its element 1",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if let (Some(1..), Some(offset)) = (u32_at(&bytes, 0), u32_at(&bytes, 4)) {
-                put(&mut bytes, 4, offset.wrapping_add(1));
+                set_u32(&mut bytes, 4, offset.wrapping_add(1));
             }
             bytes
         })),
@@ -88,21 +94,21 @@ pub(super) const ROWS: &[Row] = &[
         "the index group of an instance lacks the bit of logical addressing",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             let group = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, group & !LOGICAL);
+            set_u32(&mut bytes, 0, group & !LOGICAL);
             bytes
         })),
     row("cnc.sda.address-16-bit", &["SDA-1"], "the index group of an instance is its lower 16 bits",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             let group = u32_at(&bytes, 0).unwrap_or_default();
-            put(&mut bytes, 0, group & 0xFFFF);
+            set_u32(&mut bytes, 0, group & 0xFFFF);
             bytes
         })),
     row("cnc.sda.absent-answered", &["SDA-2"], "an address is made of whatever is asked for, there or not",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if bytes.iter().all(|byte| *byte == 0) {
                 let channel = u32_at(call.data, 0).unwrap_or_default() & 0xFF;
-                put(&mut bytes, 0, group(call).wrapping_sub(0x600) | channel);
-                put(&mut bytes, 4, u32_at(call.data, 4).unwrap_or_default() << 16);
+                set_u32(&mut bytes, 0, group(call).wrapping_sub(0x600) | channel);
+                set_u32(&mut bytes, 4, u32_at(call.data, 4).unwrap_or_default() << 16);
             }
             bytes
         })),
@@ -119,7 +125,7 @@ pub(super) const ROWS: &[Row] = &[
             (true, 0x02_3000) => cnc.answer(call).map(|mut bytes| {
                 if u32_at(&bytes, 0) == Some(0x12_3300) {
                     let offset = u32_at(&bytes, 4).unwrap_or_default();
-                    put(&mut bytes, 4, offset << 4);
+                    set_u32(&mut bytes, 4, offset << 4);
                 }
                 bytes
             }),
@@ -145,7 +151,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.sda.position-controller-channel-1", &["SDA-5"],
         "the position controller is found with channel 1, and not with 0",
         |cnc, call| match group(call) & 0xF000 {
-            0 => asked(cnc, call, |channel, axis| match channel {
+            0 => with_instance(cnc, call, |channel, axis| match channel {
                 1 => (0, axis),
                 _ => (9, axis),
             }),
@@ -157,32 +163,32 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.sda.position-controller-axis-from-0", &["SDA-5", "GEN-6"],
         "axes of the position controller are asked for from 0",
         |cnc, call| match group(call) & 0xF000 {
-            0 => asked(cnc, call, |channel, axis| (channel, axis.wrapping_add(1))),
+            0 => with_instance(cnc, call, |channel, axis| (channel, axis.wrapping_add(1))),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.position-controller-any-channel", &["SDA-5"],
         "the position controller is found with any channel",
         |cnc, call| match group(call) & 0xF000 {
-            0 => asked(cnc, call, |_, axis| (0, axis)),
+            0 => with_instance(cnc, call, |_, axis| (0, axis)),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.channel-0", &["SDA-5", "GEN-6"], "channel 0 is taken for channel 1",
         |cnc, call| match group(call) & 0xF000 {
-            0x1000 | 0x2000 | 0x4000 => asked(cnc, call, |channel, axis| (channel.max(1), axis)),
+            0x1000 | 0x2000 | 0x4000 => with_instance(cnc, call, |channel, axis| (channel.max(1), axis)),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.channel-8-bit", &["SDA-5", "SDA-2"],
         "of the channel asked for the lowest 8 bits count: 257 is channel 1",
-        |cnc, call| asked(cnc, call, |channel, axis| (channel & 0xFF, axis))),
+        |cnc, call| with_instance(cnc, call, |channel, axis| (channel & 0xFF, axis))),
     row("cnc.sda.axis-16-bit", &["SDA-5", "SDA-2"], "of the axis asked for the lowest 16 bits count",
-        |cnc, call| asked(cnc, call, |channel, axis| (channel, axis & 0xFFFF))),
+        |cnc, call| with_instance(cnc, call, |channel, axis| (channel, axis & 0xFFFF))),
     row("cnc.sda.hld-channel-missing", &["SDA-5"], "the HLD of a channel is not found without an axis",
         |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel > 0 && axis == 0)),
     row("cnc.sda.hld-platform-missing", &["SDA-5"], "the HLD of an axis is not found without a channel",
         |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel == 0 && axis > 0)),
     row("cnc.sda.spindle-from-1", &["SDA-5", "GEN-6"], "spindles are asked for from 1",
         |cnc, call| match group(call) & 0xF000 {
-            0x5000 => asked(cnc, call, |spindle, axis| (spindle.wrapping_sub(1), axis)),
+            0x5000 => with_instance(cnc, call, |spindle, axis| (spindle.wrapping_sub(1), axis)),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.spindle-one-only", &["SDA-5"], "the first spindle is the only one found",

@@ -37,16 +37,16 @@ mod write;
 mod write_sequence;
 
 pub(in crate::faults) use self::bytes::{
-    behind, dimensions, fours, number, put, records, records_mut, u32_at,
+    after_nul, dimensions, fours, number, records, records_mut, set_u32, u32_at,
 };
 pub use self::faulty::Faulty;
 pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
-    first, function, functions, group, is, is_at, of_decoder, offset,
+    first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
 };
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;
-pub(in crate::faults) use self::upstream::{Key, fits, later, put_off, reply};
+pub(in crate::faults) use self::upstream::{Key, later, put_off, reply, within_length};
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
 
@@ -60,7 +60,7 @@ use crate::simulator::program::Policy;
 
 /// How a CNC does something wrong, or otherwise.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Twist {
+pub(crate) enum CncFault {
     /// Around each request.
     Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
     /// Around each request for one of these functions.
@@ -76,11 +76,11 @@ pub(crate) enum Twist {
 }
 
 /// A row of the tables of defects.
-pub(super) struct Row {
+pub(super) struct CncSeed {
     pub(super) id: &'static str,
     pub(super) breaks: &'static [&'static str],
     pub(super) what: &'static str,
-    pub(super) twist: Twist,
+    pub(super) fault: CncFault,
     /// The edition it shows in, if it does not in any.
     pub(super) edition: Option<Edition>,
     /// Whether printed examples are answered as printed, as far as it is about.
@@ -93,8 +93,8 @@ pub(super) const fn row(
     breaks: &'static [&'static str],
     what: &'static str,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
-) -> Row {
-    twisted(id, breaks, what, Twist::Answer(answer))
+) -> CncSeed {
+    fault(id, breaks, what, CncFault::Answer(answer))
 }
 
 /// A row about requests for functions.
@@ -104,18 +104,18 @@ pub(super) const fn on(
     what: &'static str,
     functions: &'static [Function],
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
-) -> Row {
-    twisted(id, breaks, what, Twist::Function(functions, answer))
+) -> CncSeed {
+    fault(id, breaks, what, CncFault::Function(functions, answer))
 }
 
 /// A row about something else.
-pub(super) const fn twisted(
+pub(super) const fn fault(
     id: &'static str,
     breaks: &'static [&'static str],
     what: &'static str,
-    twist: Twist,
-) -> Row {
-    Row { id, breaks: in_catalogue(breaks), what, twist, edition: None, printed: true }
+    fault: CncFault,
+) -> CncSeed {
+    CncSeed { id, breaks: in_catalogue(breaks), what, fault, edition: None, printed: true }
 }
 
 /// A row about the NC program.
@@ -124,13 +124,13 @@ pub(super) const fn program(
     breaks: &'static [&'static str],
     what: &'static str,
     policy: Policy,
-) -> Row {
-    twisted(id, breaks, what, Twist::Program(policy))
+) -> CncSeed {
+    fault(id, breaks, what, CncFault::Program(policy))
 }
 
 /// All rows.
-pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    let areas: [&'static [Row]; 30] = [
+pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
+    let areas: [&'static [CncSeed]; 30] = [
         variable_consistency::ROWS,
         address::ROWS,
         ads::ROWS,

@@ -1,45 +1,49 @@
 //! Names of variables (VAR).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Function, Service};
+use ads_cnc::operation::Function;
 
 use super::variable::without_indices;
 use super::{
-    NAMED, Row, at, behind, function, group, is, is_at, of_decoder, on, row, text, u32_at,
+    CncSeed, NAMED, after_nul, at, function, group, is, is_at, is_lookup, of_decoder, on, row,
+    text, u32_at,
 };
 use crate::edition::Edition;
 
 /// A row that shows in the German edition.
-const fn german(mut row: Row) -> Row {
+const fn german(mut row: CncSeed) -> CncSeed {
     row.edition = Some(Edition::German);
     row
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.name-of-200", &["VAR-9"], "names of more than 200 characters are refused",
-        |cnc, call| match is(call, NAMED) && text(call.data).len() > 200 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).len() > 200 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.name-of-254", &["VAR-9"], "names take 254 characters at most",
-        |cnc, call| match is(call, NAMED) && text(call.data).len() > 254 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).len() > 254 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.name-of-256", &["VAR-9"], "names of more than 255 characters are cut and looked up",
-        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
-            true if call.data.len() > 256 => {
-                let name = text(call.data);
-                cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
-            }
-            _ => cnc.answer(call),
+        |cnc, call| if is_lookup(call) && call.data.len() > 256 {
+            let name = text(call.data);
+            cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.name-not-ended", &["VAR-9"], "names with a NUL are refused",
-        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
-            true if call.data.contains(&0) => Err(AdsError::SYMBOL_NOT_FOUND),
-            true => cnc.with(call, &[call.data, &[0]].concat()),
-            false => cnc.answer(call),
+        |cnc, call| if !is_lookup(call) {
+            cnc.answer(call)
+        } else if call.data.contains(&0) {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.with(call, &[call.data, &[0]].concat())
         }),
     row("cnc.var.name-one-character", &["VAR-9"],
         "a name that is not there stands for one with a character less",
@@ -77,7 +81,7 @@ pub(super) const ROWS: &[Row] = &[
             (Some(Function::HandleByName), _) if text(call.data).starts_with(b"V.CYC.") => {
                 cnc.answer(&at(call, group(call), 0x48))
                     .or_else(|_| cnc.ask(group(call), 0x48, call.data))?;
-                cnc.memory().keep((0x7C00_0001, 0, Vec::new()), call.data.to_vec());
+                cnc.memory().store((0x7C00_0001, 0, Vec::new()), call.data.to_vec());
                 Ok(0x7C00_0001_u32.to_le_bytes().to_vec())
             }
             (Some(Function::ReadByHandle), Some(0x7C00_0001)) => {
@@ -87,9 +91,10 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.cycle-refused", &["VAR-18"], "V.CYC is not there at all",
-        |cnc, call| match is(call, NAMED) && text(call.data).starts_with(b"V.CYC.") {
-            true => Err(AdsError::SYMBOL_NOT_FOUND),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).starts_with(b"V.CYC.") {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.answer(call)
         }),
     german(row("cnc.var.dynamic-has-handle", &["VAR-18"], "V.P, V.L and V.S have handles",
         |cnc, call| match (function(call), call.data) {
@@ -157,9 +162,10 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.element-by-name-refused", &["VAR-20", "VAR-14"],
         "names with an index of an element are refused",
-        |cnc, call| match is(call, NAMED) && text(call.data).ends_with(b"]") {
-            true => Err(AdsError::SYMBOL_NOT_FOUND),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, NAMED) && text(call.data).ends_with(b"]") {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.element-by-name-from-1", &["VAR-20", "VAR-14"],
         "the index of an element in a name is counted from 1",
@@ -195,7 +201,7 @@ pub(super) const ROWS: &[Row] = &[
             }
             let name: Vec<u8> =
                 name.iter().map(|byte| if *byte == b':' { b'.' } else { *byte }).collect();
-            cnc.with(call, &[head, &name, &[0], behind(call.data)].concat())
+            cnc.with(call, &[head, &name, &[0], after_nul(call.data)].concat())
         }),
     row("cnc.var.by-name-unavailable", &["VAR-28"],
         "there is no description by name, though the version has it",

@@ -4,8 +4,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    INDEXED, ReplyData, Row, Upstream, group, is, number, of_decoder, offset, on, put, row, text,
-    u32_at,
+    CncSeed, INDEXED, ReplyData, Upstream, group, is, number, of_decoder, offset, on, row, set_u32,
+    text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -30,30 +30,34 @@ pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.sum-refused", &["VAR-1"], "the empty kind is refused",
-        |cnc, call| match is(call, COUNT) && text(call.data).is_empty() {
-            true => Err(AdsError::SYMBOL_NOT_FOUND),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.sum-of-external", &["VAR-1"], "the empty kind asks for V.E",
-        |cnc, call| match is(call, COUNT) && text(call.data).is_empty() {
-            true => cnc.with(call, b"V.E\0"),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
+            cnc.with(call, b"V.E\0")
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.sum-without-axes", &["VAR-1"], "the sum of all kinds leaves out V.A",
-        |cnc, call| match is(call, COUNT) && text(call.data).is_empty() {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
+            cnc.answer(call).map(|mut bytes| {
                 let sum = count(cnc, call, b"V.E").wrapping_add(count(cnc, call, b"V.G"));
-                put(&mut bytes, 0, sum);
+                set_u32(&mut bytes, 0, sum);
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.sum-0", &["VAR-1"], "the sum of all kinds is 0",
-        |cnc, call| match is(call, COUNT) && text(call.data).is_empty() {
-            true => cnc.answer(call).map(|_| vec![0; 4]),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
+            cnc.answer(call).map(|_| vec![0; 4])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.kind-with-dot", &["VAR-1"], "a kind ends with a dot: V.E. is taken, V.E refused",
         |cnc, call| {
@@ -79,9 +83,10 @@ pub(super) const ROWS: &[Row] = &[
         COUNT, |cnc, call| cnc.with(call, &[0])),
     row("cnc.var.count-of-external", &["VAR-2"],
         "the number of variables is that of V.E, whichever kind is asked for",
-        |cnc, call| match is(call, COUNT) && !text(call.data).is_empty() {
-            true => cnc.with(call, b"V.E\0"),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && !text(call.data).is_empty() {
+            cnc.with(call, b"V.E\0")
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.count-of-channel-1", &["VAR-2"], "the number of variables is that of channel 1",
         COUNT, |cnc, call| cnc.at(call, 0x12_2301, offset(call))),
@@ -124,7 +129,7 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| match of_decoder(call) {
             Some(0x45 | 0x4B) => {
                 let kind = text(call.data);
-                let index = super::behind(call.data);
+                let index = super::after_nul(call.data);
                 match index.len() {
                     4 => cnc.with(call, &[index, kind, &[0]].concat()),
                     _ => Err(AdsError::INVALID_SIZE),

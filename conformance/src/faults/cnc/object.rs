@@ -5,7 +5,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::com::set;
-use super::{LOGICAL, Row, at, com_group, group, is, offset, on, put_off, records_mut, row};
+use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, on, put_off, records_mut, row};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -20,19 +20,20 @@ fn content(call: &Call<'_>) -> Option<ComGroup> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.com.content-short", &["COM-5"], "contents lack their last byte",
         READ, |cnc, call| cnc.answer(call).map(|mut bytes| {
             bytes.pop();
             bytes
         })),
     row("cnc.com.content-4-bytes", &["COM-5"], "contents take 4 bytes at least if there is room for them",
-        |cnc, call| match is(call, READ) && call.read_length >= 4 {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if is(call, READ) && call.read_length >= 4 {
+            cnc.answer(call).map(|mut bytes| {
                 bytes.resize(bytes.len().max(4), 0);
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.com.content-none", &["COM-5"], "contents are read as nothing: no error, and no data",
         READ, |cnc, call| cnc.answer(call).map(|_| Vec::new())),
@@ -81,15 +82,17 @@ pub(super) const ROWS: &[Row] = &[
                 read_length: u32::MAX,
                 ..*call
             })?;
-            match size.len() == call.data.len() && writable(cnc, call) {
-                true => Ok(Vec::new()),
-                false => cnc.answer(call),
+            if size.len() == call.data.len() && writable(cnc, call) {
+                Ok(Vec::new())
+            } else {
+                cnc.answer(call)
             }
         }),
     row("cnc.com.write-late", &["COM-5"], "a write takes effect with the next one",
-        |cnc, call| match is(call, WRITE) && writable(cnc, call) {
-            true => put_off(cnc, call),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, WRITE) && writable(cnc, call) {
+            put_off(cnc, call)
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.com.write-refused", &["COM-5", "COM-2"], "what the descriptor calls writable is refused",
         WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
@@ -107,33 +110,30 @@ pub(super) const ROWS: &[Row] = &[
         }
         match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => {
-                cnc.memory().keep(key(call), call.data.to_vec());
+                cnc.memory().store(key(call), call.data.to_vec());
                 Ok(Vec::new())
             }
             (_, answer) => answer,
         }
     }),
     row("cnc.com.write-two", &["COM-5"], "a write to an object of one axis is one to that of every axis",
-        |cnc, call| match is(call, WRITE) && offset(call) >= 0x1_0000 && offset(call) & 0xFFFF != 3
-        {
-            true => {
-                let done = cnc.answer(call);
-                if done.is_ok() {
-                    for axis in 1..=3 {
-                        let _ = cnc.at(call, group(call), offset(call) & 0xFFFF | axis << 16);
-                    }
+        |cnc, call| if is(call, WRITE) && offset(call) >= 0x1_0000 && offset(call) & 0xFFFF != 3 {
+            let done = cnc.answer(call);
+            if done.is_ok() {
+                for axis in 1..=3 {
+                    let _ = cnc.at(call, group(call), offset(call) & 0xFFFF | axis << 16);
                 }
-                done
             }
-            false => cnc.answer(call),
+            done
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.write-bit", &["COM-5"], "a write of a BOOL inverts it",
-        |cnc, call| match is(call, WRITE) && call.data.len() == 1 {
-            true => {
-                let data: Vec<u8> = call.data.iter().map(|byte| u8::from(*byte == 0)).collect();
-                cnc.with(call, &data)
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, WRITE) && call.data.len() == 1 {
+            let data: Vec<u8> = call.data.iter().map(|byte| u8::from(*byte == 0)).collect();
+            cnc.with(call, &data)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.axis-not-in-offset", &["COM-6"],
         "a platform axis stands in the group only: (0x120200, 0x10001) is refused",

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
 use super::{
-    LOGICAL, ReplyData, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
-    put, records_mut, reply, row, text, u32_at,
+    CncSeed, LOGICAL, ReplyData, Upstream, after_nul, dimensions, function, group, is, number,
+    offset, on, records_mut, reply, row, set_u32, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -32,7 +32,7 @@ fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let (name, indices) = indexed(text(call.data));
     let described = described(cnc, group(call), name).unwrap_or_default();
     if let (true, [before @ .., last], 1) =
-        (!is_string(&described), &indices[..], behind(call.data).len())
+        (!is_string(&described), &indices[..], after_nul(call.data).len())
     {
         for next in 1..4 {
             let other = [before, &[last.wrapping_add(next)]].concat();
@@ -54,7 +54,7 @@ fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> Repl
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.spindle-written-first", &["ADR-2"],
         "what is written to the second spindle is written to the first",
         |cnc, call| match (is(call, WRITE), group(call)) {
@@ -63,13 +63,13 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.adr.attributes-of-channel", &["ADR-6", "ADR-7"],
         "type, length and unit of an axis's element are those of the channel's with the same number",
-        |cnc, call| match is(
+        |cnc, call| if is(
             call,
             &[Function::ReadElementType, Function::ReadElementLength, Function::ReadElementUnit],
-        ) && instance(call) > 0
-        {
-            true => cnc.at(call, group(call), offset(call) & 0xFFFF).or_else(|_| cnc.answer(call)),
-            false => cnc.answer(call),
+        ) && instance(call) > 0 {
+            cnc.at(call, group(call), offset(call) & 0xFFFF).or_else(|_| cnc.answer(call))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.many-access-stays", &["COM-2", "COM-3"],
         "of several descriptors those behind one with write access have it too",
@@ -97,7 +97,7 @@ pub(super) const ROWS: &[Row] = &[
                 for record in records_mut(&mut bytes) {
                     let same = all.iter().find(|other| other.get(20..52) == record.get(20..52));
                     let id = same.and_then(|other| u32_at(other, 0)).unwrap_or_default();
-                    put(record, 0, id);
+                    set_u32(record, 0, id);
                 }
                 bytes
             })
@@ -123,7 +123,7 @@ pub(super) const ROWS: &[Row] = &[
             };
             let writable = (1..=count).filter(flag).count();
             number(cnc.answer(call), 0, |_| 0).map(|mut bytes| {
-                put(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
+                set_u32(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
                 bytes
             })
         }),
@@ -147,7 +147,7 @@ pub(super) const ROWS: &[Row] = &[
             all.sort();
             let place = u32_at(call.data, 0).and_then(|index| usize::try_from(index).ok());
             let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
-            super::fits(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
+            super::within_length(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
         }),
     on("cnc.var.write-element-4-bytes", &["VAR-13"],
         "an element of one byte is written by name as 4 bytes: the three behind it become 0",
@@ -164,12 +164,11 @@ pub(super) const ROWS: &[Row] = &[
                 };
                 let [row, column] = indices[..] else { return cnc.answer(call) };
                 let flat = row.saturating_mul(columns).saturating_add(column);
-                match flat < rows.saturating_mul(columns) {
-                    true => {
-                        let inside = [flat / columns, flat % columns];
-                        cnc.with(call, &joined(handle, &inside, &[]))
-                    }
-                    false => cnc.answer(call),
+                if flat < rows.saturating_mul(columns) {
+                    let inside = [flat / columns, flat % columns];
+                    cnc.with(call, &joined(handle, &inside, &[]))
+                } else {
+                    cnc.answer(call)
                 }
             }
             _ => cnc.answer(call),
@@ -185,57 +184,53 @@ pub(super) const ROWS: &[Row] = &[
                 let index = indices.first().and_then(|one| usize::try_from(*one).ok());
                 let start = right.len().saturating_sub(1).saturating_mul(index.unwrap_or_default());
                 let part = whole.get(start..start.saturating_add(right.len()));
-                match is_string(&described) {
-                    true => Ok(part.map_or(right, <[u8]>::to_vec)),
-                    false => Ok(right),
-                }
+                if is_string(&described) { Ok(part.map_or(right, <[u8]>::to_vec)) } else { Ok(right) }
             }
             _ => cnc.answer(call),
         }),
     row("cnc.var.count-of-axes", &["VAR-2"],
         "the number of V.A counts each variable once, and its descriptions come for each axis",
-        |cnc, call| match is(call, &[Function::CountVariables]) && text(call.data) == b"V.A" {
-            true => {
-                let kind = b"V.A\0";
-                let all = (0_u32..).map_while(|index| {
-                    cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), &kind[..]].concat()).ok()
-                });
-                let mut names: Vec<Vec<u8>> = all
-                    .map(|bytes| {
-                        let name = text(bytes.get(dimensions(&bytes).1..).unwrap_or_default());
-                        let dot = name.iter().rposition(|&byte| byte == b'.').unwrap_or_default();
-                        name.get(..dot).unwrap_or_default().to_vec()
-                    })
-                    .collect();
-                names.sort();
-                names.dedup();
-                let count = u32::try_from(names.len()).unwrap_or_default();
-                cnc.answer(call).map(|_| count.to_le_bytes().to_vec())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data) == b"V.A" {
+            let kind = b"V.A\0";
+            let all = (0_u32..).map_while(|index| {
+                cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), &kind[..]].concat()).ok()
+            });
+            let mut names: Vec<Vec<u8>> = all
+                .map(|bytes| {
+                    let name = text(bytes.get(dimensions(&bytes).1..).unwrap_or_default());
+                    let dot = name.iter().rposition(|&byte| byte == b'.').unwrap_or_default();
+                    name.get(..dot).unwrap_or_default().to_vec()
+                })
+                .collect();
+            names.sort();
+            names.dedup();
+            let count = u32::try_from(names.len()).unwrap_or_default();
+            cnc.answer(call).map(|_| count.to_le_bytes().to_vec())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.sum-with-cycle", &["VAR-1"], "the sum of all kinds counts V.CYC too",
-        |cnc, call| match is(call, &[Function::CountVariables]) && text(call.data).is_empty() {
-            true => {
-                let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
-                let there = names.iter().filter(|name| cnc.ask(group(call), 0x48, name).is_ok());
-                let more = u32::try_from(there.count()).unwrap_or_default();
-                cnc.answer(call).map(|mut bytes| {
-                    let sum = u32_at(&bytes, 0).unwrap_or_default();
-                    put(&mut bytes, 0, sum.wrapping_add(more));
-                    bytes
-                })
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data).is_empty() {
+            let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
+            let there = names.iter().filter(|name| cnc.ask(group(call), 0x48, name).is_ok());
+            let more = u32::try_from(there.count()).unwrap_or_default();
+            cnc.answer(call).map(|mut bytes| {
+                let sum = u32_at(&bytes, 0).unwrap_or_default();
+                set_u32(&mut bytes, 0, sum.wrapping_add(more));
+                bytes
+            })
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.stm.room-of-all", &["STM-3"],
         "what the interfaces of all channels hold counts against the 4094 bytes of each",
         STREAM, |cnc, call| {
-            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.held());
+            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.buffered());
             let held: usize = cnc.channels().into_iter().filter_map(|one| held(one).ok()).sum();
-            match held.saturating_add(call.data.len()) > 4094 {
-                true => Err(AdsError::INVALID_DATA),
-                false => cnc.answer(call),
+            if held.saturating_add(call.data.len()) > 4094 {
+                Err(AdsError::INVALID_DATA)
+            } else {
+                cnc.answer(call)
             }
         }),
     row("cnc.var.axis-two-copies", &["VAR-26"],
@@ -247,7 +242,7 @@ pub(super) const ROWS: &[Row] = &[
                     let name = [text(call.data), &[0]].concat();
                     let old = cnc.ask(group(call), offset(call).wrapping_sub(1), &name);
                     let done = cnc.answer(call)?;
-                    cnc.memory().keep(key, behind(call.data).to_vec());
+                    cnc.memory().store(key, after_nul(call.data).to_vec());
                     let _ = cnc.with(call, &[&name[..], &old?].concat());
                     Ok(done)
                 }

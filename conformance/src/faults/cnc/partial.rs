@@ -6,8 +6,9 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    DESCRIPTIONS, LOGICAL, ReplyData, Row, Upstream, behind, dimensions, fits, function, group, is,
-    number, of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
+    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, after_nul, dimensions, function, group,
+    is, number, of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at,
+    within_length,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -33,7 +34,7 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
         (true, Some(Function::WriteElement)) => {
             let old = cnc.read(call.port, group(call), offset(call));
             let done = cnc.answer(call)?;
-            cnc.memory().keep(key, call.data.to_vec());
+            cnc.memory().store(key, call.data.to_vec());
             let _ = cnc.with(call, &old?);
             Ok(done)
         }
@@ -46,7 +47,7 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.objects-logical-only", &["ADR-12"],
         "objects are described by logical addressing only, their contents are read by index too",
         |cnc, call| match group(call) & 0xFF_FE00 {
@@ -66,50 +67,49 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.gen.real32-8-bytes", &["GEN-5", "SDA-7", "SDA-8"], "a REAL32 of SDA and GEO is read as 8 bytes",
-        |cnc, call| match is(call, &[Function::ReadElement]) && element_is(cnc, call, b"REAL32") {
-            true => fits(
+        |cnc, call| if is(call, &[Function::ReadElement]) && element_is(cnc, call, b"REAL32") {
+            within_length(
                 call,
                 cnc.whole(call).map(|bytes| match bytes.first_chunk::<4>() {
                     Some(real) => f64::from(f32::from_le_bytes(*real)).to_le_bytes().to_vec(),
                     None => bytes,
                 }),
-            ),
-            false => cnc.answer(call),
+            )
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.gen.rows-aligned", &["GEN-2", "VAR-14"],
         "in a whole array of two dimensions, by name, each row begins at a multiple of 4 bytes",
-        |cnc, call| match is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
-            true => {
-                let whole = cnc.whole(call)?;
-                let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
-                let rows = match (&dimensions(&described).0[..], indexed(text(call.data)).1.len()) {
-                    ([rows, _], 0) => usize::try_from(*rows).unwrap_or(1),
-                    _ => return cnc.answer(call),
-                };
-                let each = whole.len().checked_div(rows).unwrap_or_default().max(1);
-                let padded = whole.chunks(each).flat_map(|row| {
-                    let mut row = row.to_vec();
-                    row.resize(row.len().next_multiple_of(4), 0);
-                    row
-                });
-                fits(call, Ok(padded.collect()))
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
+            let whole = cnc.whole(call)?;
+            let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
+            let rows = match (&dimensions(&described).0[..], indexed(text(call.data)).1.len()) {
+                ([rows, _], 0) => usize::try_from(*rows).unwrap_or(1),
+                _ => return cnc.answer(call),
+            };
+            let each = whole.len().checked_div(rows).unwrap_or_default().max(1);
+            let padded = whole.chunks(each).flat_map(|row| {
+                let mut row = row.to_vec();
+                row.resize(row.len().next_multiple_of(4), 0);
+                row
+            });
+            within_length(call, Ok(padded.collect()))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.gen.latin-1", &["GEN-3"],
         "values of STRING are Latin-1: what CP1252 has from 80 to 9F is read as a question mark",
-        |cnc, call| match is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
-            true => {
-                let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
-                cnc.answer(call).map(|mut bytes| {
-                    if is_string(&described) {
-                        let own = bytes.iter_mut().filter(|byte| (0x80..0xA0).contains(*byte));
-                        own.for_each(|byte| *byte = b'?');
-                    }
-                    bytes
-                })
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
+            let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
+            cnc.answer(call).map(|mut bytes| {
+                if is_string(&described) {
+                    let own = bytes.iter_mut().filter(|byte| (0x80..0xA0).contains(*byte));
+                    own.for_each(|byte| *byte = b'?');
+                }
+                bytes
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.gen.units-ascii", &["GEN-3", "SDA-6"], "characters of units beyond ASCII are left out",
         |cnc, call| reply(cnc, call, &[Function::ReadElementUnit], |mut bytes| {
@@ -121,49 +121,50 @@ pub(super) const ROWS: &[Row] = &[
             for record in records_mut(&mut bytes) {
                 if text(record.get(52..).unwrap_or_default()) == b"STRING" {
                     let size = u32_at(record, 4).unwrap_or_default();
-                    put(record, 4, size.saturating_sub(1));
+                    set_u32(record, 4, size.saturating_sub(1));
                 }
             }
             bytes
         })),
     row("cnc.com.lreal-written-narrow", &["COM-5"], "an LREAL is written with the precision of a REAL",
-        |cnc, call| match is(call, &[Function::WriteObject]) && object_is(cnc, call, b"LREAL") {
-            true => match call.data.first_chunk::<8>() {
+        |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"LREAL") {
+            match call.data.first_chunk::<8>() {
                 Some(value) if call.data.len() == 8 => cnc.with(call, &rounded(*value)),
                 _ => cnc.answer(call),
-            },
-            false => cnc.answer(call),
+            }
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.read-only-by-index", &["COM-5", "ADR-12"],
         "objects with write access are read, and not written, by index",
-        |cnc, call| match is(call, &[Function::WriteObject]) && group(call) & LOGICAL == 0 {
-            true if descriptor(cnc, call).is_some() && offset(call) != 0x90 => {
+        |cnc, call| {
+            let by_index = is(call, &[Function::WriteObject]) && group(call) & LOGICAL == 0;
+            if by_index && descriptor(cnc, call).is_some() && offset(call) != 0x90 {
                 Err(AdsError::INVALID_ACCESS)
+            } else {
+                cnc.answer(call)
             }
-            _ => cnc.answer(call),
         }),
     row("cnc.sda.length-of-text", &["SDA-8"],
         "the length of a STRING is that of the text it has now, its content has all bytes",
-        |cnc, call| match is(call, &[Function::ReadElementLength])
-            && element_is(cnc, call, b"STRING")
-        {
-            true => {
-                let content = cnc.read(call.port, group(call) & !0xF00 | 0x300, offset(call))?;
-                let len = u32::try_from(text(&content).len()).unwrap_or_default();
-                cnc.answer(call).map(|mut bytes| {
-                    put(&mut bytes, 0, len);
-                    bytes
-                })
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadElementLength]) && element_is(cnc, call, b"STRING") {
+            let content = cnc.read(call.port, group(call) & !0xF00 | 0x300, offset(call))?;
+            let len = u32::try_from(text(&content).len()).unwrap_or_default();
+            cnc.answer(call).map(|mut bytes| {
+                set_u32(&mut bytes, 0, len);
+                bytes
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.negative-written-0", &["SDA-7", "SDA-9"], "a negative number is written to an SGN16 as 0",
-        |cnc, call| match is(call, &[Function::WriteElement]) && element_is(cnc, call, b"SGN16") {
-            true => match call.data {
+        |cnc, call| if is(call, &[Function::WriteElement]) && element_is(cnc, call, b"SGN16") {
+            match call.data {
                 [_, high] if *high >= 0x80 => cnc.with(call, &[0; 2]),
                 _ => cnc.answer(call),
-            },
-            false => cnc.answer(call),
+            }
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.hld-axes-apart", &["SDA-13"],
         "what is written to a platform axis of the first channel's HLD is read there, and not as \
@@ -179,7 +180,7 @@ pub(super) const ROWS: &[Row] = &[
                 match cnc.answer(call) {
                     Err(AdsError::INVALID_ACCESS) => {
                         let key = (group(call) & 0xFF, handle, format!("{indices:?}").into_bytes());
-                        cnc.memory().keep(key, value.to_vec());
+                        cnc.memory().store(key, value.to_vec());
                         Ok(Vec::new())
                     }
                     answer => answer,
@@ -195,10 +196,7 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.strings-read-only", &["VAR-6"], "a STRING is described as READ_ONLY, and written",
         DESCRIPTIONS, |cnc, call| {
             let answer = cnc.answer(call)?;
-            match is_string(&answer) {
-                true => number(Ok(answer), 8, |_| 1),
-                false => Ok(answer),
-            }
+            if is_string(&answer) { number(Ok(answer), 8, |_| 1) } else { Ok(answer) }
         }),
     on("cnc.var.strings-blank", &["VAR-13", "VAR-14"],
         "a STRING that is written by name is filled up with blanks",
@@ -207,18 +205,18 @@ pub(super) const ROWS: &[Row] = &[
             let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
             let room = cnc.ask(group(call), 0x48, &name).unwrap_or_default().len();
             let service = name.starts_with(b"V.G.SERVICE.");
-            match is_string(&described) && behind(call.data).len() <= room && !service {
-                true => {
-                    let mut value = text(behind(call.data)).to_vec();
-                    value.resize(room.saturating_sub(1), b' ');
-                    cnc.with(call, &[&name[..], &value, &[0]].concat())
-                }
-                false => cnc.answer(call),
+            if is_string(&described) && after_nul(call.data).len() <= room && !service {
+                let mut value = text(after_nul(call.data)).to_vec();
+                value.resize(room.saturating_sub(1), b' ');
+                cnc.with(call, &[&name[..], &value, &[0]].concat())
+            } else {
+                cnc.answer(call)
             }
         }),
     row("cnc.var.cycle-read-only", &["VAR-18"], "V.CYC is read, and not written",
-        |cnc, call| match is(call, &[Function::WriteByName]) && call.data.starts_with(b"V.CYC.") {
-            true => Err(AdsError::INVALID_ACCESS),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::WriteByName]) && call.data.starts_with(b"V.CYC.") {
+            Err(AdsError::INVALID_ACCESS)
+        } else {
+            cnc.answer(call)
         }),
 ];

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{ClassGroup, ComGroup, Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Effect, Function, OffsetRule};
+use ads_cnc::operation::{Call, Effect, Function, OffsetRule, Service};
 
 /// The functions whose row has a property, as a list that a constant can hold.
 macro_rules! functions {
@@ -110,4 +110,9 @@ pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
 pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool {
     let mut offsets = functions.iter().map(|function| function.spec().offset);
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))
+}
+
+/// Whether a call looks up a name: a ReadWrite at the offset of a function that takes one.
+pub(in crate::faults) fn is_lookup(call: &Call<'_>) -> bool {
+    is_at(call, NAMED) && call.service == Service::ReadWrite
 }

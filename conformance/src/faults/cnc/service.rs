@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    ReplyData, Row, Upstream, behind, dimensions, function, group, is, number, offset, on, program,
-    row, text, u32_at,
+    CncSeed, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
+    program, row, text, u32_at,
 };
 use crate::simulator::program::Policy;
 
@@ -44,63 +44,68 @@ fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.svc.missing", &["SVC-1", "SVC-11"], "the variables of the Service Interface are not there",
-        |cnc, call| match of_service(call) && super::of_decoder(call).is_some() {
-            true => Err(AdsError::SYMBOL_NOT_FOUND),
-            false => cnc.answer(call),
+        |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
+            Err(AdsError::SYMBOL_NOT_FOUND)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.channel-1", &["SVC-1"], "there is one Service Interface for all channels",
-        |cnc, call| match of_service(call) && super::of_decoder(call).is_some() {
-            true => cnc.at(call, 0x12_2301, offset(call)),
-            false => cnc.answer(call),
+        |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
+            cnc.at(call, 0x12_2301, offset(call))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.response-20", &["SVC-1"], "RESPONSE takes 20 characters, and what is more is lost",
-        |cnc, call| match writes(call, RESPONSE) && behind(call.data).len() > 21 {
-            true => {
-                let response = behind(call.data).get(..20).unwrap_or_default();
-                cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 21 {
+            let response = after_nul(call.data).get(..20).unwrap_or_default();
+            cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.response-64", &["SVC-1"], "a RESPONSE of more than 64 bytes is refused",
-        |cnc, call| match writes(call, RESPONSE) && behind(call.data).len() > 64 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 64 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.response-129", &["SVC-1"], "a RESPONSE of more than 128 bytes is cut and taken",
-        |cnc, call| match writes(call, RESPONSE) && behind(call.data).len() > 128 {
-            true => {
-                let response = behind(call.data).get(..127).unwrap_or_default();
-                cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 128 {
+            let response = after_nul(call.data).get(..127).unwrap_or_default();
+            cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.request-64", &["SVC-1"], "REQUEST is read as its first 63 characters",
-        |cnc, call| match reads(call, REQUEST) {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if reads(call, REQUEST) {
+            cnc.answer(call).map(|mut bytes| {
                 bytes.truncate(64);
                 bytes.iter_mut().skip(63).for_each(|byte| *byte = 0);
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.texts-upper-case", &["SVC-1"], "REQUEST is read in upper case",
-        |cnc, call| match reads(call, REQUEST) {
-            true => cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase()),
-            false => cnc.answer(call),
+        |cnc, call| if reads(call, REQUEST) {
+            cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.response-read-empty", &["SVC-1"], "RESPONSE is written and not read back: it is empty",
-        |cnc, call| match reads(call, RESPONSE) {
-            true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
-            false => cnc.answer(call),
+        |cnc, call| if reads(call, RESPONSE) {
+            cnc.answer(call).map(|bytes| vec![0; bytes.len()])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.states-real", &["SVC-1"], "the states are REAL64, as numbers of the NC program",
-        |cnc, call| match reads(call, REQUEST_STATE) || reads(call, RESPONSE_STATE) {
-            true => cnc.answer(call).map(|bytes| {
+        |cnc, call| if reads(call, REQUEST_STATE) || reads(call, RESPONSE_STATE) {
+            cnc.answer(call).map(|bytes| {
                 f64::from(u32_at(&bytes, 0).unwrap_or_default()).to_le_bytes().to_vec()
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.svc.types-uns08", &["SVC-1"], "UUID, REQUEST and RESPONSE are arrays of UNS08",
         &[Function::DescribeByIndex, Function::DescribeByName],
@@ -109,15 +114,17 @@ pub(super) const ROWS: &[Row] = &[
                 Some(Function::DescribeByName) => text(call.data),
                 _ => text(bytes.get(dimensions(&bytes).1..).unwrap_or_default()),
             };
-            match name.starts_with(b"V.G.SERVICE.") && u32_at(&bytes, 4) == Some(9) {
-                true => number(Ok(bytes), 4, |_| 3),
-                false => Ok(bytes),
+            if name.starts_with(b"V.G.SERVICE.") && u32_at(&bytes, 4) == Some(9) {
+                number(Ok(bytes), 4, |_| 3)
+            } else {
+                Ok(bytes)
             }
         })),
     row("cnc.svc.read-only", &["SVC-1"], "RESPONSE and RESPONSE_STATE are not written over ADS",
-        |cnc, call| match writes(call, RESPONSE) || writes(call, RESPONSE_STATE) {
-            true => Err(AdsError::INVALID_ACCESS),
-            false => cnc.answer(call),
+        |cnc, call| if writes(call, RESPONSE) || writes(call, RESPONSE_STATE) {
+            Err(AdsError::INVALID_ACCESS)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.uuid-and-request-swapped", &["SVC-1"], "UUID reads as REQUEST, REQUEST as UUID",
         |cnc, call| match (reads(call, UUID), reads(call, REQUEST)) {
@@ -136,7 +143,7 @@ pub(super) const ROWS: &[Row] = &[
             if writes(call, REQUEST_STATE) {
                 let before = read(cnc, call, RESPONSE_STATE)?;
                 if before.iter().any(|byte| *byte != 0) {
-                    cnc.memory().keep(key(call), before);
+                    cnc.memory().store(key(call), before);
                 }
             } else if writes(call, RESPONSE_STATE) {
                 cnc.memory().forget();
@@ -150,7 +157,7 @@ pub(super) const ROWS: &[Row] = &[
             if writes(call, REQUEST_STATE) {
                 let kept = read(cnc, call, RESPONSE_STATE)?;
                 let mut memory = cnc.memory();
-                memory.keep(key(call), kept);
+                memory.store(key(call), kept);
                 memory.count = 1;
             } else if writes(call, RESPONSE_STATE) || writes(call, RESPONSE) {
                 let mut memory = cnc.memory();
@@ -175,33 +182,36 @@ pub(super) const ROWS: &[Row] = &[
             }
             if writes(call, RESPONSE_STATE) {
                 let before = read(cnc, call, REQUEST_STATE)?;
-                cnc.memory().keep(key(call), before);
+                cnc.memory().store(key(call), before);
             } else if writes(call, REQUEST_STATE) {
                 cnc.memory().forget();
             }
             cnc.answer(call)
         }),
     row("cnc.svc.request-cleared", &["SVC-1", "SVC-2"], "REQUEST is empty as soon as REQUEST_STATE is set",
-        |cnc, call| match reads(call, REQUEST) && state(cnc, call, REQUEST_STATE) != 0 {
-            true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
-            false => cnc.answer(call),
+        |cnc, call| if reads(call, REQUEST) && state(cnc, call, REQUEST_STATE) != 0 {
+            cnc.answer(call).map(|bytes| vec![0; bytes.len()])
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.request-state-1", &["SVC-1"], "a REQUEST_STATE that is not 0 is read as 1",
-        |cnc, call| match reads(call, REQUEST_STATE) {
-            true => number(cnc.answer(call), 0, |state| state.min(1)),
-            false => cnc.answer(call),
+        |cnc, call| if reads(call, REQUEST_STATE) {
+            number(cnc.answer(call), 0, |state| state.min(1))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.response-state-8-bit", &["SVC-1"], "of RESPONSE_STATE the lowest byte counts",
-        |cnc, call| match reads(call, RESPONSE_STATE) {
-            true => number(cnc.answer(call), 0, |state| state & 0xFF),
-            false => cnc.answer(call),
+        |cnc, call| if reads(call, RESPONSE_STATE) {
+            number(cnc.answer(call), 0, |state| state & 0xFF)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.by-other-names", &["SVC-1"], "the variables are called V.G.SERVICE_UUID and so on",
         |cnc, call| {
             let name = text(call.data);
             match name.strip_prefix(b"V.G.SERVICE_") {
                 Some(rest) => {
-                    let data = [b"V.G.SERVICE.", rest, &[0], behind(call.data)].concat();
+                    let data = [b"V.G.SERVICE.", rest, &[0], after_nul(call.data)].concat();
                     cnc.with(call, &data)
                 }
                 None if of_service(call) => Err(AdsError::SYMBOL_NOT_FOUND),

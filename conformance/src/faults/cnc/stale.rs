@@ -7,7 +7,8 @@ use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
 use super::lookup::{instance, one, over};
 use super::{
-    ReplyData, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
+    CncSeed, ReplyData, Upstream, frame, function, group, is, offset, on, row, text, u32_at,
+    within_length,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -32,10 +33,10 @@ fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
             if !known {
                 let slot = (0x5107, memory.count % SLOTS, Vec::new());
                 if let Some(old) = memory.get(&slot).and_then(|old| u32_at(&old, 0)) {
-                    memory.keep(gone(old), answer.clone());
+                    memory.store(gone(old), answer.clone());
                 }
-                memory.keep(gone(handle), answer.clone());
-                memory.keep(slot, answer.clone());
+                memory.store(gone(handle), answer.clone());
+                memory.store(slot, answer.clone());
                 memory.count = memory.count.wrapping_add(1);
             }
             Ok(answer)
@@ -58,15 +59,15 @@ fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.sda.unit-runs-on", &["SDA-6"],
         "a unit that is shorter than the one read before it runs on with the rest of that",
         UNIT, |cnc, call| {
             let unit = cnc.whole(call)?;
             let before = cnc.memory().get(&one(1)).unwrap_or_default();
             let unit = over(text(&unit), &before);
-            cnc.memory().keep(one(1), unit.clone());
-            fits(call, Ok([&unit[..], &[0]].concat()))
+            cnc.memory().store(one(1), unit.clone());
+            within_length(call, Ok([&unit[..], &[0]].concat()))
         }),
     row("cnc.sda.absent-as-before", &["SDA-2"],
         "an instance that is not there is answered as the one that was found last",
@@ -75,7 +76,7 @@ pub(super) const ROWS: &[Row] = &[
             match (is(call, FIND), answer.iter().all(|byte| *byte == 0)) {
                 (true, true) => Ok(cnc.memory().get(&one(1)).unwrap_or(answer)),
                 (true, false) => {
-                    cnc.memory().keep(one(1), answer.clone());
+                    cnc.memory().store(one(1), answer.clone());
                     Ok(answer)
                 }
                 _ => Ok(answer),
@@ -85,7 +86,7 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| match (is(call, &[Function::ReadElement]), occupied(cnc, call)) {
             (true, Some(true)) => {
                 let bytes = cnc.answer(call)?;
-                cnc.memory().keep((group(call), offset(call), Vec::new()), bytes.clone());
+                cnc.memory().store((group(call), offset(call), Vec::new()), bytes.clone());
                 Ok(bytes)
             }
             (true, Some(false)) => {
@@ -101,7 +102,7 @@ pub(super) const ROWS: &[Row] = &[
             let key = (group(call) & 0xFF, offset(call), Vec::new());
             let most = cnc.memory().get(&key).filter(|most| u32_at(most, 0) > u32_at(&now, 0));
             let most = most.unwrap_or(now);
-            cnc.memory().keep(key, most.clone());
+            cnc.memory().store(key, most.clone());
             Ok(most)
         }),
     on("cnc.dyn.index-remembered", &["DYN-4"],
@@ -113,7 +114,7 @@ pub(super) const ROWS: &[Row] = &[
                 Some(name) => name,
                 None => cnc.ask(group(call), offset(call).wrapping_sub(2), call.data)?,
             };
-            cnc.memory().keep(key, name.clone());
+            cnc.memory().store(key, name.clone());
             let at = offset(call).wrapping_sub(1);
             cnc.at(&Call { data: &name, ..*call }, group(call), at)
         }),
@@ -132,10 +133,10 @@ pub(super) const ROWS: &[Row] = &[
         &[Function::DescribeExtended], |cnc, call| {
             let bytes = cnc.answer(call)?;
             if !bytes.is_empty() {
-                cnc.memory().keep(one(1), bytes.clone());
+                cnc.memory().store(one(1), bytes.clone());
             }
             let kept = cnc.memory().get(&one(1)).unwrap_or_default();
-            fits(call, Ok(kept))
+            within_length(call, Ok(kept))
         }),
     row("cnc.var.handle-slots", &["VAR-10"],
         "16 handles are known at a time: the one after takes the place of the oldest, whose number \
@@ -209,9 +210,10 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
     row("cnc.dyn.count-8-bytes", &["DYN-1"],
         "the number of parameters takes 8 bytes where a Read has room for them",
-        |cnc, call| match is(call, COUNT) && call.read_length >= 8 {
-            true => cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat()),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && call.read_length >= 8 {
+            cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.sda.found-not-read", &["SDA-5", "ADR-7"],
         "of the position controller three axes are read, though all of them are found",

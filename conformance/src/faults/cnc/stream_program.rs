@@ -6,8 +6,10 @@ use ads_cnc::streaming::{
     ProgramEnd, check_line_ends,
 };
 
-use super::{Row, program};
-use crate::simulator::program::{Buffer, Event, Policy, Segment, StreamingInterface, lines};
+use super::{CncSeed, program};
+use crate::simulator::program::{
+    Buffer, Policy, ProgramEvent, ProgramSegment, StreamingInterface, lines,
+};
 
 const RIGHT: Policy = Policy::DEFAULT;
 
@@ -20,9 +22,10 @@ struct Narrow(StreamingInterface);
 
 impl Buffer for Narrow {
     fn write(&mut self, data: &[u8]) -> Ack {
-        match self.0.len().saturating_add(data.len()) > NARROW {
-            true => Ack::Busy,
-            false => self.0.write(data),
+        if self.0.len().saturating_add(data.len()) > NARROW {
+            Ack::Busy
+        } else {
+            self.0.write(data)
         }
     }
 
@@ -41,7 +44,7 @@ impl Buffer for Narrow {
 
 /// An interface that knows where each write ended.
 #[derive(Debug)]
-struct Packets {
+struct PacketBuffer {
     held: Vec<Vec<u8>>,
     room: usize,
     /// Takes lines out of the packets, which may have a line without CR LF.
@@ -51,7 +54,7 @@ struct Packets {
 type Taken = Result<Vec<u8>, LineError>;
 type Take = fn(&mut Vec<Vec<u8>>, Result<(), LineError>) -> Taken;
 
-impl Packets {
+impl PacketBuffer {
     fn of(room: usize, take: Take) -> Box<dyn Buffer> {
         Box::new(Self { held: Vec::new(), room, take })
     }
@@ -82,7 +85,7 @@ impl Packets {
     }
 }
 
-impl Buffer for Packets {
+impl Buffer for PacketBuffer {
     fn write(&mut self, data: &[u8]) -> Ack {
         // Too short or too long: as ever.
         if StreamingInterface::new().write(data) == Ack::Rejected {
@@ -114,10 +117,10 @@ fn overlooking(
     checker: &mut Checker,
     read: &[u8],
     is_overlooked: fn(&CheckEvent) -> bool,
-) -> Segment {
+) -> ProgramSegment {
     let number = checker.lines().saturating_add(1);
     let found = checker.check(read).filter(|found| !is_overlooked(found));
-    Segment::with_findings(read, number, found)
+    ProgramSegment::with_findings(read, number, found)
 }
 
 const fn kind(found: &CheckEvent) -> Option<DiagnosticKind> {
@@ -127,21 +130,21 @@ const fn kind(found: &CheckEvent) -> Option<DiagnosticKind> {
     }
 }
 
-fn loops(checker: &mut Checker, read: &[u8]) -> Segment {
+fn loops(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     overlooking(checker, read, |found| matches!(kind(found), Some(DiagnosticKind::Loop(_))))
 }
 
-fn jumps_back(checker: &mut Checker, read: &[u8]) -> Segment {
+fn jumps_back(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     overlooking(checker, read, |found| {
         matches!(kind(found), Some(DiagnosticKind::BackwardJump { .. }))
     })
 }
 
-fn no_end(checker: &mut Checker, read: &[u8]) -> Segment {
+fn no_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     overlooking(checker, read, |found| matches!(found, CheckEvent::ProgramEnd { .. }))
 }
 
-fn m30_only(checker: &mut Checker, read: &[u8]) -> Segment {
+fn m30_only(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     overlooking(
         checker,
         read,
@@ -150,20 +153,20 @@ fn m30_only(checker: &mut Checker, read: &[u8]) -> Segment {
 }
 
 /// Labels are known within a read only.
-fn forgets(checker: &mut Checker, read: &[u8]) -> Segment {
+fn forgets(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     *checker = Checker::new();
-    Segment::new(checker, read)
+    ProgramSegment::new(checker, read)
 }
 
-fn comments(checker: &mut Checker, read: &[u8]) -> Segment {
+fn comments(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let number = checker.lines().saturating_add(1);
     let blank = |byte: &u8| if b"();#".contains(byte) { b' ' } else { *byte };
     let seen: Vec<u8> = read.iter().map(blank).collect();
-    Segment::with_findings(read, number, checker.check(&seen))
+    ProgramSegment::with_findings(read, number, checker.check(&seen))
 }
 
 /// The program ends after the last of the lines.
-fn past_end(checker: &mut Checker, read: &[u8]) -> Segment {
+fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let number = checker.lines().saturating_add(1);
     let mut found: Vec<CheckEvent> = checker.check(read).collect();
     if let Some(at) = found.iter().position(|found| matches!(found, CheckEvent::ProgramEnd { .. }))
@@ -176,7 +179,7 @@ fn past_end(checker: &mut Checker, read: &[u8]) -> Segment {
             *line = checker.lines();
         }
     }
-    Segment::with_findings(read, number, found)
+    ProgramSegment::with_findings(read, number, found)
 }
 
 /// The program is ended by the first of these lines too, if any is.
@@ -185,11 +188,11 @@ fn ended_by(
     read: &[u8],
     found: fn(u32) -> CheckEvent,
     is_end: fn(&[u8]) -> bool,
-) -> Segment {
+) -> ProgramSegment {
     let number = checker.lines().saturating_add(1);
     let place = lines(read).position(is_end).and_then(|place| u32::try_from(place).ok());
     let own = place.map(|place| found(number.saturating_add(place)));
-    Segment::with_findings(read, number, own.into_iter().chain(checker.check(read)))
+    ProgramSegment::with_findings(read, number, own.into_iter().chain(checker.check(read)))
 }
 
 /// A word of a loop.
@@ -205,23 +208,24 @@ fn has(line: &[u8], word: &[u8]) -> bool {
     line.windows(word.len()).any(|part| part == word)
 }
 
-fn branches(checker: &mut Checker, read: &[u8]) -> Segment {
+fn branches(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ended_by(checker, read, looped, |line| has(line, b"$IF") || has(line, b"$SWITCH"))
 }
 
-fn whole_branches(checker: &mut Checker, read: &[u8]) -> Segment {
+fn whole_branches(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let count = |word: &[u8]| lines(read).filter(|line| has(line, word)).count();
-    match count(b"$IF") == count(b"$ENDIF") && count(b"$SWITCH") == count(b"$ENDSWITCH") {
-        true => Segment::new(checker, read),
-        false => branches(checker, read),
+    if count(b"$IF") == count(b"$ENDIF") && count(b"$SWITCH") == count(b"$ENDSWITCH") {
+        ProgramSegment::new(checker, read)
+    } else {
+        branches(checker, read)
     }
 }
 
-fn jumps(checker: &mut Checker, read: &[u8]) -> Segment {
+fn jumps(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ended_by(checker, read, looped, |line| has(line, b"$GOTO"))
 }
 
-fn subroutines(checker: &mut Checker, read: &[u8]) -> Segment {
+fn subroutines(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let end = |line| CheckEvent::ProgramEnd { end: ProgramEnd::M17, line, column: 1 };
     ended_by(checker, read, end, |line| {
         let mut words = line.split(|byte| byte.is_ascii_whitespace());
@@ -230,9 +234,9 @@ fn subroutines(checker: &mut Checker, read: &[u8]) -> Segment {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     program("cnc.stm.room-8188", &["STM-3"], "the interface holds up to 8188 bytes",
-        Policy { buffer: || Packets::of(2 * STREAM_MAX, Packets::all), ..RIGHT }),
+        Policy { buffer: || PacketBuffer::of(2 * STREAM_MAX, PacketBuffer::all), ..RIGHT }),
     program("cnc.stm.room-2048", &["STM-3"], "the interface holds 2048 bytes",
         Policy { buffer: || Box::new(Narrow::default()), ..RIGHT }),
     program("cnc.stm.loops-run", &["STM-8"], "words of loops are run", Policy { segment: loops, ..RIGHT }),
@@ -257,26 +261,26 @@ pub(super) const ROWS: &[Row] = &[
         "what was read with a program end is run before the program ends",
         Policy { segment: past_end, ..RIGHT }),
     program("cnc.stm.end-empties", &["STM-10"], "a program end empties the interface",
-        Policy { clears: &[Event::Reset, Event::End], ..RIGHT }),
+        Policy { clears: &[ProgramEvent::Reset, ProgramEvent::End], ..RIGHT }),
     program("cnc.stm.reset-keeps", &["STM-11"], "an NC reset leaves the interface as it is",
         Policy { clears: &[], ..RIGHT }),
     program("cnc.stm.reset-goes-on", &["STM-11"], "an NC reset does not end streaming",
         Policy { ends: &[], ..RIGHT }),
     program("cnc.stm.reads-packets", &["STM-12"], "the CNC reads one packet at a time",
-        Policy { buffer: || Packets::of(STREAM_MAX, Packets::first), ..RIGHT }),
+        Policy { buffer: || PacketBuffer::of(STREAM_MAX, PacketBuffer::first), ..RIGHT }),
     program("cnc.stm.starts-itself", &["STM-14"], "streaming begins without a start",
-        Policy { starts: &[Event::PowerOn, Event::Reset], ..RIGHT }),
+        Policy { starts: &[ProgramEvent::PowerOn, ProgramEvent::Reset], ..RIGHT }),
     program("cnc.stm.starts-empty", &["STM-14"], "a start empties the interface",
-        Policy { clears: &[Event::Reset, Event::Start], ..RIGHT }),
+        Policy { clears: &[ProgramEvent::Reset, ProgramEvent::Start], ..RIGHT }),
     program("cnc.stm.reads-reversed", &["STM-15"], "packets that wait are taken last first",
-        Policy { buffer: || Packets::of(STREAM_MAX, Packets::reversed), ..RIGHT }),
+        Policy { buffer: || PacketBuffer::of(STREAM_MAX, PacketBuffer::reversed), ..RIGHT }),
     program("cnc.stm.dry-ends", &["STM-16"], "without more lines the program ends",
-        Policy { ends: &[Event::Reset, Event::Dry], ..RIGHT }),
+        Policy { ends: &[ProgramEvent::Reset, ProgramEvent::Dry], ..RIGHT }),
     program("cnc.stm.subroutine-ends", &["STM-18"],
         "the M17 of a global subroutine ends the stream that calls it",
         Policy { segment: subroutines, ..RIGHT }),
     program("cnc.stm.error-none", &["STM-5"], "a line without CR LF is skipped",
-        Policy { buffer: || Packets::of(STREAM_MAX, Packets::whole_lines), ..RIGHT }),
+        Policy { buffer: || PacketBuffer::of(STREAM_MAX, PacketBuffer::whole_lines), ..RIGHT }),
     program("cnc.stm.error-other", &["STM-5"], "the error of a line without CR LF is 21477",
         Policy { line_end_error: LINE_END_ERROR + 1, ..RIGHT }),
 ];

@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    LOGICAL, ReplyData, Row, Upstream, at, function, group, later, offset, records_mut, row,
+    CncSeed, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
 };
 
 /// Whether it is a write to a stream, of whatever length.
@@ -16,14 +16,11 @@ fn stream(call: &Call<'_>) -> bool {
 
 /// The write with other data.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> ReplyData {
-    match stream(call) {
-        true => cnc.with(call, &other(call.data)),
-        false => cnc.answer(call),
-    }
+    if stream(call) { cnc.with(call, &other(call.data)) } else { cnc.answer(call) }
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.stm.object-renamed", &["STM-1"], "the object of the stream is called mc_program_stream",
         |cnc, call| {
             let mut answer = cnc.answer(call)?;
@@ -60,40 +57,40 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.stm.group-logical-only", &["STM-1", "ADR-12"],
         "the stream is written at 0x120100 + channel, and not at 0x20100 + channel",
-        |cnc, call| match stream(call) && group(call) & LOGICAL == 0 {
-            true => Err(AdsError::INVALID_GROUP),
-            false => cnc.answer(call),
+        |cnc, call| if stream(call) && group(call) & LOGICAL == 0 {
+            Err(AdsError::INVALID_GROUP)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.by-read-write", &["STM-1"], "the stream takes a ReadWrite, and no Write",
-        |cnc, call| match stream(call) {
-            true => Err(AdsError::SERVICE_NOT_SUPPORTED),
-            false => cnc.answer(call),
-        }),
+        |cnc, call| if stream(call) { Err(AdsError::SERVICE_NOT_SUPPORTED) } else { cnc.answer(call) }),
     row("cnc.stm.first-channel", &["STM-1"], "what is written to the stream of any channel runs in channel 1",
-        |cnc, call| match stream(call) { true => cnc.at(call, 0x12_0101, 0x90), false => cnc.answer(call) }),
+        |cnc, call| if stream(call) { cnc.at(call, 0x12_0101, 0x90) } else { cnc.answer(call) }),
     row("cnc.stm.packet-993", &["STM-2"], "a write of up to 1024 bytes is taken",
-        |cnc, call| match stream(call) && (993..=1024).contains(&call.data.len()) {
-            true => {
-                let (one, other) = call.data.split_at_checked(512).unwrap_or_default();
-                cnc.with(call, one)?;
-                cnc.with(call, other)
-            }
-            false => cnc.answer(call),
+        |cnc, call| if stream(call) && (993..=1024).contains(&call.data.len()) {
+            let (one, other) = call.data.split_at_checked(512).unwrap_or_default();
+            cnc.with(call, one)?;
+            cnc.with(call, other)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.packet-cut", &["STM-2"], "a write of more than 992 bytes is taken, and what is more is lost",
-        |cnc, call| match stream(call) && call.data.len() > 992 {
-            true => cnc.with(call, call.data.get(..992).unwrap_or_default()),
-            false => cnc.answer(call),
+        |cnc, call| if stream(call) && call.data.len() > 992 {
+            cnc.with(call, call.data.get(..992).unwrap_or_default())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.packet-991", &["STM-2"], "a write of 992 bytes is refused",
-        |cnc, call| match stream(call) && call.data.len() == 992 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if stream(call) && call.data.len() == 992 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.packet-512", &["STM-2"], "a write of more than 512 bytes is refused",
-        |cnc, call| match stream(call) && call.data.len() > 512 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if stream(call) && call.data.len() > 512 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.never-full", &["STM-3", "STM-6"],
         "the interface is never full: what it has no room for is acknowledged and kept",
@@ -105,9 +102,10 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 waiting.remove(0);
             }
-            let answer = match stream(call) && !waiting.is_empty() {
-                true => Err(AdsError::INVALID_DATA),
-                false => cnc.answer(call),
+            let answer = if stream(call) && !waiting.is_empty() {
+                Err(AdsError::INVALID_DATA)
+            } else {
+                cnc.answer(call)
             };
             let answer = match (stream(call), answer) {
                 (true, Err(AdsError::INVALID_DATA)) => {
@@ -125,25 +123,26 @@ pub(super) const ROWS: &[Row] = &[
             (_, answer) => answer,
         }),
     row("cnc.stm.taken-refused", &["STM-6"], "every fourth write is taken and acknowledged negatively",
-        |cnc, call| match stream(call) {
-            true => {
-                let done = cnc.answer(call);
-                let mut memory = cnc.memory();
-                memory.count = memory.count.wrapping_add(1);
-                match memory.count & 3 {
-                    0 => done.and(Err(AdsError::INVALID_DATA)),
-                    _ => done,
-                }
+        |cnc, call| if stream(call) {
+            let done = cnc.answer(call);
+            let mut memory = cnc.memory();
+            memory.count = memory.count.wrapping_add(1);
+            match memory.count & 3 {
+                0 => done.and(Err(AdsError::INVALID_DATA)),
+                _ => done,
             }
-            false => cnc.answer(call),
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.full-for-good", &["STM-6"], "once full, the interface takes nothing any more",
-        |cnc, call| match stream(call) {
-            true if cnc.memory().count > 0 => Err(AdsError::INVALID_DATA),
-            true => cnc.answer(call).inspect_err(|error| {
+        |cnc, call| if !stream(call) {
+            cnc.answer(call)
+        } else if cnc.memory().count > 0 {
+            Err(AdsError::INVALID_DATA)
+        } else {
+            cnc.answer(call).inspect_err(|error| {
                 cnc.memory().count = u32::from(*error == AdsError::INVALID_DATA);
-            }),
-            false => cnc.answer(call),
+            })
         }),
     row("cnc.stm.one-line", &["STM-4"], "of a write the first line is taken",
         |cnc, call| written(cnc, call, |data| {
@@ -174,42 +173,40 @@ pub(super) const ROWS: &[Row] = &[
             data => [data, b"\r\n"].concat(),
         })),
     row("cnc.stm.end-awaited", &["STM-5"], "a line without an end is kept until the next write brings it",
-        |cnc, call| match stream(call) {
-            true => {
-                let key = (group(call), 0, Vec::new());
-                let before = cnc.memory().get(&key).unwrap_or_default();
-                let data = [before.as_slice(), call.data].concat();
-                let end = data
-                    .iter()
-                    .rposition(|byte| *byte == b'\n')
-                    .map_or(0, |at| at.saturating_add(1));
-                let (lines, rest) = data.split_at_checked(end).unwrap_or_default();
-                cnc.memory().keep(key, rest.to_vec());
-                if lines.is_empty() { Ok(Vec::new()) } else { cnc.with(call, lines) }
-            }
-            false => cnc.answer(call),
+        |cnc, call| if stream(call) {
+            let key = (group(call), 0, Vec::new());
+            let before = cnc.memory().get(&key).unwrap_or_default();
+            let data = [before.as_slice(), call.data].concat();
+            let end = data
+                .iter()
+                .rposition(|byte| *byte == b'\n')
+                .map_or(0, |at| at.saturating_add(1));
+            let (lines, rest) = data.split_at_checked(end).unwrap_or_default();
+            cnc.memory().store(key, rest.to_vec());
+            if lines.is_empty() { Ok(Vec::new()) } else { cnc.with(call, lines) }
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.upper-case", &["STM-7"], "the characters of a stream are made upper case",
         |cnc, call| written(cnc, call, <[u8]>::to_ascii_uppercase)),
     row("cnc.stm.blanks-dropped", &["STM-7"], "blanks in a stream are dropped",
         |cnc, call| written(cnc, call, |data| data.iter().copied().filter(|byte| *byte != b' ').collect())),
     row("cnc.stm.order-swapped", &["STM-15"], "of two writes the second is taken before the first",
-        |cnc, call| match stream(call) {
-            true => {
-                let before = std::mem::take(&mut cnc.memory().later);
-                match before.first() {
-                    None => {
-                        cnc.memory().later.push(later(call));
-                        Ok(Vec::new())
-                    }
-                    Some(first) => {
-                        let done = cnc.answer(call);
-                        cnc.late(first)?;
-                        done
-                    }
+        |cnc, call| if stream(call) {
+            let before = std::mem::take(&mut cnc.memory().later);
+            match before.first() {
+                None => {
+                    cnc.memory().later.push(later(call));
+                    Ok(Vec::new())
+                }
+                Some(first) => {
+                    let done = cnc.answer(call);
+                    cnc.late(first)?;
+                    done
                 }
             }
-            false => cnc.answer(call),
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.taken-twice", &["STM-15"], "every write is taken twice", |cnc, call| {
         if stream(call) {
@@ -219,9 +216,10 @@ pub(super) const ROWS: &[Row] = &[
     }),
     row("cnc.stm.line-of-512", &["STM-20"], "a line of more than 510 characters is refused", |cnc, call| {
         let long = |line: &[u8]| line.len() > 512;
-        match stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        if stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }
     }),
 ];

@@ -24,7 +24,7 @@ pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 pub(crate) struct Memory {
     pub(in crate::faults) count: u32,
     /// Bytes under an address and a name.
-    kept: Vec<(Key, Vec<u8>)>,
+    stored: Vec<(Key, Vec<u8>)>,
     /// Requests that were put off.
     pub(in crate::faults) later: Vec<Later>,
     /// A frame that was put off.
@@ -43,16 +43,16 @@ pub(in crate::faults) struct Later {
 
 impl Memory {
     pub(in crate::faults) fn get(&self, key: &Key) -> Option<Vec<u8>> {
-        self.kept.iter().find(|(known, _)| known == key).map(|(_, bytes)| bytes.clone())
+        self.stored.iter().find(|(known, _)| known == key).map(|(_, bytes)| bytes.clone())
     }
 
     pub(in crate::faults) fn forget(&mut self) {
-        self.kept.clear();
+        self.stored.clear();
     }
 
-    pub(in crate::faults) fn keep(&mut self, key: Key, bytes: Vec<u8>) {
-        self.kept.retain(|(known, _)| *known != key);
-        self.kept.push((key, bytes));
+    pub(in crate::faults) fn store(&mut self, key: Key, bytes: Vec<u8>) {
+        self.stored.retain(|(known, _)| *known != key);
+        self.stored.push((key, bytes));
     }
 }
 
@@ -143,11 +143,12 @@ pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyDa
 }
 
 /// The answer no longer than asked for.
-pub(in crate::faults) fn fits(call: &Call<'_>, answer: ReplyData) -> ReplyData {
+pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
-        match u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
-            true => Ok(bytes),
-            false => Err(AdsError::INVALID_SIZE),
+        if u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
+            Ok(bytes)
+        } else {
+            Err(AdsError::INVALID_SIZE)
         }
     })
 }
@@ -159,8 +160,5 @@ pub(in crate::faults) fn reply(
     of: &[Function],
     other: impl FnOnce(Vec<u8>) -> Vec<u8>,
 ) -> ReplyData {
-    match is(call, of) {
-        true => fits(call, cnc.whole(call).map(other)),
-        false => cnc.answer(call),
-    }
+    if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule};
 
 use super::variable::{described, element, first_element};
 use super::{
-    Row, VALUES, dimensions, fits, function, functions, group, is, is_at, number, offset, on, put,
-    reply, row, text, u32_at,
+    CncSeed, VALUES, dimensions, function, functions, group, is, is_at, number, offset, on, reply,
+    row, set_u32, text, u32_at, within_length,
 };
 
 const BY_NAME: &[Function] = &[Function::DescribeByName];
@@ -18,22 +18,21 @@ const CHANNEL: &[Function] = functions!(|spec| matches!(
 ));
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.value-first", &["VAR-14"], "a read by name without an index gives the first element",
         |cnc, call| match (is(call, &[Function::ReadByName]), text(call.data).ends_with(b"]")) {
             (true, false) => first_element(cnc, call),
             _ => cnc.answer(call),
         }),
     row("cnc.var.value-whole", &["VAR-14"], "a read by name with an index gives the whole array",
-        |cnc, call| match is(call, &[Function::ReadByName]) && text(call.data).ends_with(b"]") {
-            true => {
-                let name = text(call.data);
-                let whole =
-                    name.iter().rposition(|byte| *byte == b'[').and_then(|at| name.get(..at));
-                cnc.answer(call)?;
-                cnc.with(call, &[whole.unwrap_or(name), &[0]].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadByName]) && text(call.data).ends_with(b"]") {
+            let name = text(call.data);
+            let whole =
+                name.iter().rposition(|byte| *byte == b'[').and_then(|at| name.get(..at));
+            cnc.answer(call)?;
+            cnc.with(call, &[whole.unwrap_or(name), &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.value-last-missing", &["VAR-14"], "a whole array is read without its last element",
         &[Function::ReadByName, Function::ReadByHandle], |cnc, call| {
@@ -53,20 +52,22 @@ pub(super) const ROWS: &[Row] = &[
             bytes
         })),
     row("cnc.var.value-aligned", &["VAR-14"], "values take 4 bytes at least",
-        |cnc, call| match is(call, VALUES) && call.read_length >= 4 {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if is(call, VALUES) && call.read_length >= 4 {
+            cnc.answer(call).map(|mut bytes| {
                 bytes.resize(bytes.len().max(4), 0);
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.value-real", &["VAR-14", "VAR-5"], "integers of 4 bytes are read as REAL64",
-        |cnc, call| match is(call, VALUES) && call.read_length >= 8 {
-            true => cnc.answer(call).map(|bytes| match u32_at(&bytes, 0) {
+        |cnc, call| if is(call, VALUES) && call.read_length >= 8 {
+            cnc.answer(call).map(|bytes| match u32_at(&bytes, 0) {
                 Some(number) if bytes.len() == 4 => f64::from(number).to_le_bytes().to_vec(),
                 _ => bytes,
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.value-typed", &["VAR-14"], "values come with the length in front",
         |cnc, call| reply(cnc, call, VALUES, |bytes| {
@@ -86,9 +87,9 @@ pub(super) const ROWS: &[Row] = &[
                 Some(Function::ReadByHandle) => {
                     let kept = cnc.memory().get(&key(call));
                     match kept {
-                        Some(kept) => fits(call, Ok(kept)),
+                        Some(kept) => within_length(call, Ok(kept)),
                         None => cnc.answer(call).inspect(|bytes| {
-                            cnc.memory().keep(key(call), bytes.clone());
+                            cnc.memory().store(key(call), bytes.clone());
                         }),
                     }
                 }
@@ -96,21 +97,20 @@ pub(super) const ROWS: &[Row] = &[
             }
         }),
     row("cnc.var.arrays-reversed", &["VAR-14"], "elements of a whole array come in reverse order by name",
-        |cnc, call| match is(call, &[Function::ReadByName]) && !text(call.data).ends_with(b"]") {
-            true => {
-                let len = described(cnc, call).map_or(0, |found| element(&found));
-                cnc.answer(call).map(|bytes| match len {
-                    0 => bytes,
-                    len => bytes.rchunks(len).flatten().copied().collect(),
-                })
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadByName]) && !text(call.data).ends_with(b"]") {
+            let len = described(cnc, call).map_or(0, |found| element(&found));
+            cnc.answer(call).map(|bytes| match len {
+                0 => bytes,
+                len => bytes.rchunks(len).flatten().copied().collect(),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.extended-from-0", &["VAR-15"], "synchronisation and validity are 0 or 1",
         |cnc, call| reply(cnc, call, EXTENDED, |mut bytes| {
             for place in [0, 4] {
                 let code = u32_at(&bytes, place).unwrap_or_default();
-                put(&mut bytes, place, code.saturating_sub(1));
+                set_u32(&mut bytes, place, code.saturating_sub(1));
             }
             bytes
         })),
@@ -126,18 +126,16 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.extended-refused", &["VAR-15", "VAR-16"], "there is no extended description: it is refused",
         EXTENDED, |_, _| Err(AdsError::SERVICE_NOT_SUPPORTED)),
     row("cnc.var.extended-of-global", &["VAR-16"], "V.G has an extended description",
-        |cnc, call| match is(call, EXTENDED)
-            && text(call.data.get(4..).unwrap_or_default()) == b"V.G"
-        {
-            true => fits(call, cnc.answer(call).map(|_| vec![2, 0, 0, 0, 2, 0, 0, 0])),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, EXTENDED) && text(call.data.get(4..).unwrap_or_default()) == b"V.G" {
+            within_length(call, cnc.answer(call).map(|_| vec![2, 0, 0, 0, 2, 0, 0, 0]))
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.extended-of-axis", &["VAR-16"], "V.A has an extended description of zeros",
-        |cnc, call| match is(call, EXTENDED)
-            && text(call.data.get(4..).unwrap_or_default()) == b"V.A"
-        {
-            true => fits(call, cnc.answer(call).map(|_| vec![0; 8])),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, EXTENDED) && text(call.data.get(4..).unwrap_or_default()) == b"V.A" {
+            within_length(call, cnc.answer(call).map(|_| vec![0; 8]))
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.string-cut", &["VAR-25"], "a STRING is read as its first 8 bytes",
         VALUES, |cnc, call| {
@@ -151,7 +149,7 @@ pub(super) const ROWS: &[Row] = &[
             })
         }),
     on("cnc.var.by-name-with-name", &["VAR-28"], "a description by name has the name behind it",
-        BY_NAME, |cnc, call| fits(
+        BY_NAME, |cnc, call| within_length(
             call,
             cnc.whole(call).map(|bytes| [bytes.as_slice(), text(call.data), &[0]].concat()),
         )),
@@ -167,12 +165,13 @@ pub(super) const ROWS: &[Row] = &[
             cnc.answer(call)?;
             let mut first = cnc.ask(group(call), 0x45, b"\0\0\0\0V.E\0")?;
             first.truncate(dimensions(&first).1);
-            fits(call, Ok(first))
+            within_length(call, Ok(first))
         }),
     row("cnc.var.channel-ignored", &["VAR-14", "VAR-2"],
         "variables are those of channel 1, whatever the channel",
-        |cnc, call| match is_at(call, CHANNEL) {
-            true => cnc.at(call, 0x12_2301, offset(call)),
-            false => cnc.answer(call),
+        |cnc, call| if is_at(call, CHANNEL) {
+            cnc.at(call, 0x12_2301, offset(call))
+        } else {
+            cnc.answer(call)
         }),
 ];

@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 
 use super::number::count;
 use super::{
-    DESCRIPTIONS, ReplyData, Row, Upstream, dimensions, fits, function, group, on, put, reply, row,
-    text, u32_at,
+    CncSeed, DESCRIPTIONS, ReplyData, Upstream, dimensions, function, group, on, reply, row,
+    set_u32, text, u32_at, within_length,
 };
 
 const DESCRIBE: &[Function] = &[Function::DescribeByIndex];
@@ -59,7 +59,7 @@ pub(super) fn element(description: &[u8]) -> usize {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.description-of-next", &["VAR-4"], "the name in a description is that of the variable behind",
         DESCRIBE, |cnc, call| {
             let own = cnc.answer(call)?;
@@ -69,7 +69,7 @@ pub(super) const ROWS: &[Row] = &[
             let Ok(next) = next else { return Ok(own) };
             let head = own.get(..dimensions(&own).1).unwrap_or_default();
             let name = next.get(dimensions(&next).1..).unwrap_or_default();
-            fits(call, Ok([head, name].concat()))
+            within_length(call, Ok([head, name].concat()))
         }),
     row("cnc.var.description-name-short", &["VAR-4"], "the name in a description lacks its kind and the dot",
         |cnc, call| reply(cnc, call, DESCRIBE, |mut bytes| {
@@ -111,8 +111,8 @@ pub(super) const ROWS: &[Row] = &[
         "the elements in each dimension stand behind the name",
         |cnc, call| reply(cnc, call, DESCRIBE, |mut bytes| {
             let (_, name) = dimensions(&bytes);
-            if let Some(behind) = bytes.get_mut(20..) {
-                behind.rotate_left(name.saturating_sub(20).min(behind.len()));
+            if let Some(rest) = bytes.get_mut(20..) {
+                rest.rotate_left(name.saturating_sub(20).min(rest.len()));
             }
             bytes
         })),
@@ -121,7 +121,7 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (_, name) = dimensions(&bytes);
             bytes.drain(20.min(bytes.len())..name);
-            put(&mut bytes, 16, 0);
+            set_u32(&mut bytes, 16, 0);
             bytes
         })),
     row("cnc.var.description-dimensions-reversed", &["VAR-4"],
@@ -130,7 +130,7 @@ pub(super) const ROWS: &[Row] = &[
             let (numbers, _) = dimensions(&bytes);
             let mut place = 20_usize;
             for number in numbers.iter().rev() {
-                put(&mut bytes, place, *number);
+                set_u32(&mut bytes, place, *number);
                 place = place.saturating_add(4);
             }
             bytes
@@ -141,7 +141,7 @@ pub(super) const ROWS: &[Row] = &[
             let (numbers, _) = dimensions(&bytes);
             let mut place = 20_usize;
             for number in numbers {
-                put(&mut bytes, place, number.wrapping_sub(1));
+                set_u32(&mut bytes, place, number.wrapping_sub(1));
                 place = place.saturating_add(4);
             }
             bytes
@@ -168,8 +168,8 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.var.description-type-access-swapped", &["VAR-4"], "a description has access before type",
         |cnc, call| reply(cnc, call, DESCRIBE, |mut bytes| {
             let (one, other) = (u32_at(&bytes, 4), u32_at(&bytes, 8));
-            put(&mut bytes, 4, other.unwrap_or_default());
-            put(&mut bytes, 8, one.unwrap_or_default());
+            set_u32(&mut bytes, 4, other.unwrap_or_default());
+            set_u32(&mut bytes, 8, one.unwrap_or_default());
             bytes
         })),
     row("cnc.var.description-2100-bytes", &["VAR-4"], "the name field of a description takes 2048 bytes",

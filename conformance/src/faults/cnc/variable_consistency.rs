@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 use super::handle::{joined, parts};
 use super::number::count;
 use super::{
-    NAMED, Row, Upstream, WRITES, behind, dimensions, fits, function, group, is, of_decoder,
-    offset, on, reply, row, text, u32_at,
+    CncSeed, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
+    offset, on, reply, row, text, u32_at, within_length,
 };
 
 /// Whether it asks about a variable by its name.
@@ -36,7 +36,7 @@ fn value_at(call: &Call<'_>) -> usize {
             let len = parts(call.data).map_or(0, |(.., value)| value.len());
             call.data.len().saturating_sub(len)
         }
-        _ => call.data.len().saturating_sub(behind(call.data).len()),
+        _ => call.data.len().saturating_sub(after_nul(call.data).len()),
     }
 }
 
@@ -51,7 +51,7 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.name-compared-8", &["VAR-9"],
         "names are compared by their first 8 characters if there is none that is the same",
         |cnc, call| match (is_query(call), cnc.answer(call)) {
@@ -103,7 +103,7 @@ pub(super) const ROWS: &[Row] = &[
             match function(call) {
                 Some(Function::WriteByName) => cnc.answer(call).inspect_err(|error| {
                     if *error == AdsError::INVALID_ACCESS {
-                        cnc.memory().keep(key, behind(call.data).to_vec());
+                        cnc.memory().store(key, after_nul(call.data).to_vec());
                     }
                 }),
                 Some(Function::ReadByName) => {
@@ -119,13 +119,12 @@ pub(super) const ROWS: &[Row] = &[
             let (at, old) = (value_at(call), old(cnc, call));
             let value = call.data.get(at..).unwrap_or_default();
             let text = text(value);
-            match value.len() == old.len() || text.len() == value.len() {
-                true => cnc.answer(call),
-                false => {
-                    let rest = old.get(text.len()..).unwrap_or_default();
-                    let head = call.data.get(..at).unwrap_or_default();
-                    cnc.with(call, &[head, text, rest].concat())
-                }
+            if value.len() == old.len() || text.len() == value.len() {
+                cnc.answer(call)
+            } else {
+                let rest = old.get(text.len()..).unwrap_or_default();
+                let head = call.data.get(..at).unwrap_or_default();
+                cnc.with(call, &[head, text, rest].concat())
             }
         }),
     row("cnc.var.extended-swapped", &["VAR-15"], "validity stands before synchronisation",
@@ -140,8 +139,8 @@ pub(super) const ROWS: &[Row] = &[
             let own = cnc.answer(call)?;
             let key = (0, 0, b"before".to_vec());
             let before = cnc.memory().get(&key).unwrap_or_else(|| own.clone());
-            cnc.memory().keep(key, own);
-            fits(call, Ok(before))
+            cnc.memory().store(key, own);
+            within_length(call, Ok(before))
         }),
     on("cnc.var.axis-write-all", &["VAR-26"],
         "a write on the axis interface is one to all axes of the channel",
@@ -170,9 +169,9 @@ pub(super) const ROWS: &[Row] = &[
             let key = (group(call), 1, text(call.data).to_vec());
             let kept = cnc.memory().get(&key);
             match kept {
-                Some(kept) => fits(call, Ok(kept)),
+                Some(kept) => within_length(call, Ok(kept)),
                 None => cnc.answer(call).inspect(|bytes| {
-                    cnc.memory().keep(key, bytes.clone());
+                    cnc.memory().store(key, bytes.clone());
                 }),
             }
         }),
@@ -181,7 +180,7 @@ pub(super) const ROWS: &[Row] = &[
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 0x100..)) => {
                 let mut data = call.data.to_vec();
-                super::put(&mut data, 4, count & 0xFF);
+                super::set_u32(&mut data, 4, count & 0xFF);
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),

@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
 use super::{
-    ReplyData, Row, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off, row,
-    text,
+    CncSeed, ReplyData, Upstream, WRITES, after_nul, function, group, is, of_decoder, on, put_off,
+    row, text,
 };
 
 const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
@@ -25,7 +25,7 @@ fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> ReplyDa
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.write-by-handle-ignored", &["VAR-12"], "a write by handle succeeds and changes nothing",
         BY_HANDLE, |cnc, call| {
             let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
@@ -51,7 +51,7 @@ pub(super) const ROWS: &[Row] = &[
         match function(call) {
             Some(Function::WriteByName) => match cnc.answer(call) {
                 Err(AdsError::INVALID_ACCESS) => {
-                    cnc.memory().keep(key, behind(call.data).to_vec());
+                    cnc.memory().store(key, after_nul(call.data).to_vec());
                     Ok(Vec::new())
                 }
                 answer => answer,
@@ -79,29 +79,27 @@ pub(super) const ROWS: &[Row] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.write-element-whole", &["VAR-13"], "a write by name of an element is one of every element",
-        |cnc, call| match is(call, BY_NAME) && text(call.data).ends_with(b"]") {
-            true => {
-                let name = without_indices(text(call.data));
-                let value = behind(call.data);
-                let old = cnc.ask(group(call), 0x48, &[name, &[0]].concat());
-                let done = cnc.answer(call)?;
-                let len = old.map(|old| old.len()).unwrap_or_default();
-                let all: Vec<u8> = value.iter().copied().cycle().take(len).collect();
-                let _ = cnc.with(call, &[name, &[0], &all].concat());
-                Ok(done)
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, BY_NAME) && text(call.data).ends_with(b"]") {
+            let name = without_indices(text(call.data));
+            let value = after_nul(call.data);
+            let old = cnc.ask(group(call), 0x48, &[name, &[0]].concat());
+            let done = cnc.answer(call)?;
+            let len = old.map(|old| old.len()).unwrap_or_default();
+            let all: Vec<u8> = value.iter().copied().cycle().take(len).collect();
+            let _ = cnc.with(call, &[name, &[0], &all].concat());
+            Ok(done)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.write-element-first", &["VAR-13"], "a write by name of an element is one of the first",
-        |cnc, call| match is(call, BY_NAME) && text(call.data).ends_with(b"]") {
-            true => {
-                let name = text(call.data);
-                let path = without_indices(name);
-                let places = name.iter().skip(path.len()).filter(|byte| **byte == b'[').count();
-                let first = b"[0]".repeat(places);
-                cnc.with(call, &[path, &first, &[0], behind(call.data)].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, BY_NAME) && text(call.data).ends_with(b"]") {
+            let name = text(call.data);
+            let path = without_indices(name);
+            let places = name.iter().skip(path.len()).filter(|byte| **byte == b'[').count();
+            let first = b"[0]".repeat(places);
+            cnc.with(call, &[path, &first, &[0], after_nul(call.data)].concat())
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.write-behind-256", &["VAR-13"], "a written value stands behind a name field of 256 bytes",
         BY_NAME, |cnc, call| match call.data.split_at_checked(256) {
@@ -110,12 +108,11 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-big-endian", &["GEN-1", "VAR-13"],
         "values of 2 to 8 bytes are written with the most significant byte first",
-        |cnc, call| match is(call, BY_NAME) && behind(call.data).len() <= 8 {
-            true => {
-                let value: Vec<u8> = behind(call.data).iter().rev().copied().collect();
-                cnc.with(call, &[text(call.data), &[0], &value].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, BY_NAME) && after_nul(call.data).len() <= 8 {
+            let value: Vec<u8> = after_nul(call.data).iter().rev().copied().collect();
+            cnc.with(call, &[text(call.data), &[0], &value].concat())
+        } else {
+            cnc.answer(call)
         }),
     on("cnc.var.write-added", &["VAR-12"], "a write by handle inverts the lowest bit of the value",
         BY_HANDLE, |cnc, call| {
@@ -127,20 +124,20 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-other-channels", &["VAR-13"],
         "a write to a variable of channel 2 is one to that of channel 6 too",
-        |cnc, call| match is(call, BY_NAME) && group(call) == 0x12_2302 {
-            true => {
-                let done = cnc.answer(call);
-                if done.is_ok() {
-                    let _ = cnc.at(call, 0x12_2306, super::offset(call));
-                }
-                done
+        |cnc, call| if is(call, BY_NAME) && group(call) == 0x12_2302 {
+            let done = cnc.answer(call);
+            if done.is_ok() {
+                let _ = cnc.at(call, 0x12_2306, super::offset(call));
             }
-            false => cnc.answer(call),
+            done
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.write-1024", &["VAR-12", "VAR-13"], "writes of more than 64 bytes are refused",
-        |cnc, call| match is(call, WRITES) && call.data.len() > 64 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, WRITES) && call.data.len() > 64 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.var.write-unended", &["VAR-13"],
         "the name in a write ends before the last 4 bytes if there is no NUL",

@@ -6,7 +6,9 @@ use ads_cnc::service::ServiceVariable;
 
 use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
-use super::{ReplyData, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
+use super::{
+    CncSeed, ReplyData, Upstream, after_nul, function, group, is, offset, on, row, text, u32_at,
+};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
@@ -30,7 +32,7 @@ fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     if now {
         let before = read(cnc, group(call), RESPONSE_STATE)?;
         let known = cnc.memory().get(&key).unwrap_or(before);
-        cnc.memory().keep(key, known);
+        cnc.memory().store(key, known);
         return cnc.answer(call);
     }
     if writes(call, RESPONSE_STATE) || writes(call, REQUEST_STATE) {
@@ -48,16 +50,15 @@ fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.com.string-runs-on", &["COM-5"],
         "a STRING that is written over a longer one runs on with the rest of that",
-        |cnc, call| match is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
-            true => {
-                let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
-                let new = over(text(call.data), text(&old));
-                cnc.with(call, &[&new[..], &[0]].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
+            let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
+            let new = over(text(call.data), text(&old));
+            cnc.with(call, &[&new[..], &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.com.refused-write-done", &["COM-5"],
         "a write of fewer bytes than a content has is refused, and those bytes are written",
@@ -79,7 +80,7 @@ pub(super) const ROWS: &[Row] = &[
                 return Err(AdsError::INVALID_ACCESS);
             }
             let done = cnc.answer(call)?;
-            cnc.memory().keep(key, Vec::new());
+            cnc.memory().store(key, Vec::new());
             Ok(done)
         }),
     row("cnc.sda.blank-written", &["SDA-11"],
@@ -88,7 +89,7 @@ pub(super) const ROWS: &[Row] = &[
             let key = (group(call), offset(call), Vec::new());
             match (function(call), cnc.answer(call)) {
                 (Some(Function::WriteElement), Err(AdsError::INVALID_DATA)) => {
-                    cnc.memory().keep(key, call.data.to_vec());
+                    cnc.memory().store(key, call.data.to_vec());
                     Ok(Vec::new())
                 }
                 (Some(Function::ReadElement), Ok(bytes)) => {
@@ -117,7 +118,7 @@ pub(super) const ROWS: &[Row] = &[
                 return Ok(Vec::new());
             }
             let done = cnc.answer(call)?;
-            cnc.memory().keep(one(instance(call)), call.data.to_vec());
+            cnc.memory().store(one(instance(call)), call.data.to_vec());
             Ok(done)
         }),
     on("cnc.stm.again-lost", &["STM-6"],
@@ -152,42 +153,39 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.svc.resets-once", &["SVC-3"],
         "the first write of REQUEST_STATE in a channel sets RESPONSE_STATE to 0, no other does",
-        |cnc, call| match writes(call, REQUEST_STATE) {
-            true => {
-                let key = (instance(call), 0x5D, Vec::new());
-                let other = cnc.memory().get(&key).is_some();
-                if other {
-                    return stays(cnc, call, true);
-                }
-                cnc.memory().keep(key, Vec::new());
-                cnc.answer(call)
+        |cnc, call| if writes(call, REQUEST_STATE) {
+            let key = (instance(call), 0x5D, Vec::new());
+            let other = cnc.memory().get(&key).is_some();
+            if other {
+                return stays(cnc, call, true);
             }
-            false if writes(call, RESPONSE_STATE) => {
-                let (stay, once) =
-                    ((instance(call), 0x5C, Vec::new()), (instance(call), 0x5D, Vec::new()));
-                let mut memory = cnc.memory();
-                let known = memory.get(&once).is_some();
-                let others = memory.get(&stay).is_some();
-                if others {
-                    memory.forget();
-                }
-                if known {
-                    memory.keep(once, Vec::new());
-                }
-                drop(memory);
-                cnc.answer(call)
+            cnc.memory().store(key, Vec::new());
+            cnc.answer(call)
+        } else if writes(call, RESPONSE_STATE) {
+            let (stay, once) =
+                ((instance(call), 0x5C, Vec::new()), (instance(call), 0x5D, Vec::new()));
+            let mut memory = cnc.memory();
+            let known = memory.get(&once).is_some();
+            let others = memory.get(&stay).is_some();
+            if others {
+                memory.forget();
             }
-            false => stays(cnc, call, false),
+            if known {
+                memory.store(once, Vec::new());
+            }
+            drop(memory);
+            cnc.answer(call)
+        } else {
+            stays(cnc, call, false)
         }),
     row("cnc.svc.response-runs-on", &["SVC-1", "SVC-5"],
         "a RESPONSE that is shorter than the one before runs on with the rest of that",
-        |cnc, call| match writes(call, RESPONSE) {
-            true => {
-                let old = read(cnc, group(call), RESPONSE)?;
-                let new = over(text(behind(call.data)), text(&old));
-                cnc.with(call, &[RESPONSE.as_bytes(), &[0], &new, &[0]].concat())
-            }
-            false => cnc.answer(call),
+        |cnc, call| if writes(call, RESPONSE) {
+            let old = read(cnc, group(call), RESPONSE)?;
+            let new = over(text(after_nul(call.data)), text(&old));
+            cnc.with(call, &[RESPONSE.as_bytes(), &[0], &new, &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.svc.finished-everywhere", &["SVC-4", "SVC-1"],
         "an answer in one channel ends the requests of all: their REQUEST_STATE becomes 0",
@@ -207,11 +205,12 @@ pub(super) const ROWS: &[Row] = &[
             Ok(done)
         }),
     row("cnc.svc.request-by-handle-20", &["SVC-1"], "REQUEST is read by its handle up to its 20th character",
-        |cnc, call| match by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
+            cnc.answer(call).map(|mut bytes| {
                 bytes.iter_mut().skip(20).for_each(|byte| *byte = 0);
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
 ];

@@ -3,33 +3,33 @@
 use serde_json::Value as Json;
 
 use super::json::{lists, numbers, words};
-use super::{Row, Twist, row};
+use super::{CodecFault, CodecSeed, row};
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.address.index-logical", &["ADR-1"],
         "groups with the bit of logical addressing are by index, those without logical",
-        Twist::Value(|_, value| words(value, "addressing", &[("logical", "index")]))),
+        CodecFault::Value(|_, value| words(value, "addressing", &[("logical", "index")]))),
     row("codec.address.object-element", &["ADR-4"], "object access of COM is taken for element access",
-        Twist::Value(|_, value| words(value, "access", &[("object", "element")]))),
+        CodecFault::Value(|_, value| words(value, "access", &[("object", "element")]))),
     row("codec.address.table", &["ADR-3"], "tables of COM: that of channels is taken for that of axes",
-        Twist::Value(|_, value| words(value, "table", &[("channel", "axis")]))),
+        CodecFault::Value(|_, value| words(value, "table", &[("channel", "axis")]))),
     row("codec.address.classes", &["ADR-5"], "HLD is taken for path preparation, interpolator for decoder",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             words(value, "class", &[("hld", "path-preparation"), ("interpolator", "decoder")]);
         })),
     row("codec.address.attributes", &["ADR-6"], "name is taken for type, length for unit",
-        Twist::Value(|_, value| words(value, "attribute", &[("name", "type"), ("length", "unit")]))),
+        CodecFault::Value(|_, value| words(value, "attribute", &[("name", "type"), ("length", "unit")]))),
     row("codec.address.instance-from-0", &["GEN-6", "ADR-2"],
         "instances are counted from 0, spindles from -1",
-        Twist::Value(|stream, value| match value.get_mut("instance") {
+        CodecFault::Value(|stream, value| match value.get_mut("instance") {
             Some(instance) if stream == "index-group" => {
                 numbers(instance, &["UNS08"], |number| number.saturating_sub(1));
             }
             _ => {}
         })),
     row("codec.address.spindle-from-1", &["ADR-2", "GEN-6"], "spindles are counted from 1",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             let spindle = value.pointer("/class/value").and_then(Json::as_str) == Some("spindle");
             if let (true, Some(instance)) = (spindle, value.get_mut("instance")) {
                 numbers(instance, &["UNS08"], |number| number.saturating_add(1));
@@ -37,40 +37,41 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("codec.address.index-unknown", &["ADR-12"],
         "groups without the bit of logical addressing are numbers and nothing else",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             let index = value.pointer("/addressing/value").and_then(Json::as_str) == Some("index");
             if let (true, Json::Object(fields)) = (index, value) {
                 fields.retain(|name, _| name == "index_group");
             }
         })),
     row("codec.address.stride-10000", &["ADR-8"], "the stride is 0x10000 whatever is said",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             let mut other = question.clone();
             other.context.stride = question.context.stride.as_ref().map(|_| "0x10000".to_owned());
             right(&other)
         })),
     row("codec.address.stride-1000", &["ADR-7"], "the stride is 0x1000 whatever is said",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             let mut other = question.clone();
             other.context.stride = question.context.stride.as_ref().map(|_| "0x1000".to_owned());
             right(&other)
         })),
     row("codec.address.axis-swapped", &["ADR-7", "ADR-8"],
         "the axis of an index offset is taken for the element",
-        Twist::Swaps("index-offset", "axis", "element")),
+        CodecFault::Swaps("index-offset", "axis", "element")),
     row("codec.path.reversed", &["VAR-20"], "the parts of a name come in reverse order",
-        Twist::Value(|stream, value| {
+        CodecFault::Value(|stream, value| {
             if stream == "variable-path" {
                 lists(value, "parts", |items| items.reverse());
             }
         })),
-    row("codec.path.indices-lost", &["VAR-20"], "indices in names are lost", Twist::Value(|stream, value| {
-        if stream == "variable-path" {
-            lists(value, "indices", Vec::clear);
-        }
-    })),
+    row("codec.path.indices-lost", &["VAR-20"], "indices in names are lost",
+        CodecFault::Value(|stream, value| {
+            if stream == "variable-path" {
+                lists(value, "indices", Vec::clear);
+            }
+        })),
     row("codec.path.structures-lost", &["VAR-20"], "of a name there is the kind and the last part",
-        Twist::Value(|stream, value| {
+        CodecFault::Value(|stream, value| {
             if stream == "variable-path" {
                 lists(value, "parts", |items| {
                     let before = items.len().saturating_sub(1);

@@ -9,10 +9,13 @@ use crate::text::hex;
 pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Json>)) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| each(item, change)),
-        Json::Object(fields) => match fields.get("type").is_some_and(Json::is_string) {
-            true => change(fields),
-            false => fields.values_mut().for_each(|field| each(field, change)),
-        },
+        Json::Object(fields) => {
+            if fields.get("type").is_some_and(Json::is_string) {
+                change(fields)
+            } else {
+                fields.values_mut().for_each(|field| each(field, change))
+            }
+        }
         _ => {}
     }
 }

@@ -14,7 +14,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{Expect, Vector, vectors};
 use serde_json::Value as Json;
 
-use super::{How, Kind, Seed};
+use super::{How, Seed, SeedKind};
 use crate::codec;
 use crate::codec::message::{Answer, Output, Question, Rejection};
 use crate::judge::in_catalogue;
@@ -23,7 +23,7 @@ pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
 
 /// How a codec does something wrong.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Twist {
+pub(crate) enum CodecFault {
     /// What it has to refuse for such a fault it accepts.
     Accepts(&'static str, &'static str),
     /// It refuses this stream if it is as long as it may be.
@@ -44,7 +44,7 @@ pub(crate) enum Twist {
     Around(fn(Right<'_>, &Question) -> Answer),
 }
 
-impl Twist {
+impl CodecFault {
     pub(crate) fn answer(self, right: Right<'_>, question: &Question) -> Answer {
         let stream = question.stream.as_str();
         match self {
@@ -59,19 +59,26 @@ impl Twist {
             Self::Longest(of) => {
                 let longest = Stream::by_name(of).map(|stream| stream.layout().max);
                 let len = question.hex.as_ref().and_then(|hex| u32::try_from(hex.len()).ok());
-                match of == stream && question.op == "decode" && len == longest {
-                    true => refused("too-long"),
-                    false => right(question),
+                if of == stream && question.op == "decode" && len == longest {
+                    refused("too-long")
+                } else {
+                    right(question)
                 }
             }
-            Self::Swaps(of, one, other) => match of == stream {
-                true => around_value(right, question, |value| swap(value, one, other)),
-                false => right(question),
-            },
-            Self::BigEndian(of) => match of.layout().name == stream {
-                true => big_endian(right, question, of),
-                false => right(question),
-            },
+            Self::Swaps(of, one, other) => {
+                if of == stream {
+                    around_value(right, question, |value| swap(value, one, other))
+                } else {
+                    right(question)
+                }
+            }
+            Self::BigEndian(of) => {
+                if of.layout().name == stream {
+                    big_endian(right, question, of)
+                } else {
+                    right(question)
+                }
+            }
             Self::Value(change) => around_value(right, question, |value| change(stream, value)),
             Self::Bytes(change) => match right(question) {
                 Answer::Ok(Output { hex: Some(bytes), .. }) if question.op == "encode" => {
@@ -147,8 +154,9 @@ fn swap(value: &mut Json, one: &str, other: &str) {
 }
 
 fn big_endian(right: Right<'_>, question: &Question, stream: Stream) -> Answer {
-    let all = super::Defect::of_stream(stream);
-    let numbers = all.iter().filter(|one| one.change == super::Change::SwapBytes && is_number(one));
+    let all = super::FieldDefect::of_stream(stream);
+    let numbers =
+        all.iter().filter(|one| one.change == super::FieldChange::SwapBytes && is_number(one));
     let turn = |bytes: &[u8]| numbers.clone().fold(bytes.to_vec(), |bytes, one| one.apply(&bytes));
     let mut other = question.clone();
     other.hex = question.hex.as_deref().map(turn);
@@ -160,7 +168,7 @@ fn big_endian(right: Right<'_>, question: &Question, stream: Stream) -> Answer {
     }
 }
 
-fn is_number(defect: &super::Defect) -> bool {
+fn is_number(defect: &super::FieldDefect) -> bool {
     use ads_cnc::layout::Type;
     let number = |field: &ads_cnc::layout::FieldSpec| {
         matches!(field.ty, Type::Uns16 | Type::Uns32 | Type::Unsigned | Type::Real64)
@@ -169,25 +177,25 @@ fn is_number(defect: &super::Defect) -> bool {
 }
 
 /// A row of the tables of defects.
-pub(super) struct Row {
+pub(super) struct CodecSeed {
     pub(super) id: &'static str,
     pub(super) breaks: &'static [&'static str],
     pub(super) what: &'static str,
-    pub(super) twist: Twist,
+    pub(super) fault: CodecFault,
 }
 
 pub(super) const fn row(
     id: &'static str,
     breaks: &'static [&'static str],
     what: &'static str,
-    twist: Twist,
-) -> Row {
-    Row { id, breaks: in_catalogue(breaks), what, twist }
+    fault: CodecFault,
+) -> CodecSeed {
+    CodecSeed { id, breaks: in_catalogue(breaks), what, fault }
 }
 
-fn seed(id: String, requirements: Vec<&'static str>, what: String, twist: Twist) -> Seed {
-    let how = How::Codec(twist);
-    Seed { id, requirements, what, kind: Kind::Codec, edition: None, printed: true, how }
+fn seed(id: String, requirements: Vec<&'static str>, what: String, fault: CodecFault) -> Seed {
+    let how = How::Codec(fault);
+    Seed { id, requirements, what, kind: SeedKind::Codec, edition: None, printed: true, how }
 }
 
 pub(super) fn seeds() -> Vec<Seed> {
@@ -198,7 +206,7 @@ pub(super) fn seeds() -> Vec<Seed> {
     let rows = [address::ROWS, nc::ROWS, packets::ROWS, strict::ROWS, text::ROWS, value::ROWS];
     seeds.extend(
         rows.into_iter().flatten().map(|row| {
-            seed(row.id.to_owned(), row.breaks.to_vec(), row.what.to_owned(), row.twist)
+            seed(row.id.to_owned(), row.breaks.to_vec(), row.what.to_owned(), row.fault)
         }),
     );
     seeds
@@ -243,7 +251,7 @@ fn forgotten_checks() -> Vec<Seed> {
         let called = those.iter().find_map(refusal)?;
         let what = format!("{stream}: what is {} is accepted", class.replace('-', " "));
         let id = format!("codec.accepts.{class}.{stream}");
-        Some(seed(id, broken(those.into_iter()), what, Twist::Accepts(called, stream)))
+        Some(seed(id, broken(those.into_iter()), what, CodecFault::Accepts(called, stream)))
     };
     pairs.into_iter().filter_map(each).collect()
 }
@@ -266,7 +274,7 @@ fn too_strict() -> Vec<Seed> {
         any.then(|| {
             let what = format!("{name}: the longest there may be is refused");
             let id = format!("codec.refuses.longest.{name}");
-            seed(id, broken(those.into_iter()), what, Twist::Longest(name))
+            seed(id, broken(those.into_iter()), what, CodecFault::Longest(name))
         })
     };
     Stream::all().filter_map(each).collect()
@@ -302,7 +310,7 @@ fn swapped() -> Vec<Seed> {
             let mut clauses = vec![layout.clause, one.clause, other.clause];
             clauses.sort_unstable();
             clauses.dedup();
-            seed(id, clauses, what, Twist::Swaps(layout.name, one.name, other.name))
+            seed(id, clauses, what, CodecFault::Swaps(layout.name, one.name, other.name))
         })
         .collect()
 }
@@ -311,12 +319,13 @@ fn swapped() -> Vec<Seed> {
 fn turned() -> Vec<Seed> {
     let each = |stream: Stream| {
         let layout = stream.layout();
-        let all = super::Defect::of_stream(stream);
-        let any = all.iter().any(|one| one.change == super::Change::SwapBytes && is_number(one));
+        let all = super::FieldDefect::of_stream(stream);
+        let any =
+            all.iter().any(|one| one.change == super::FieldChange::SwapBytes && is_number(one));
         any.then(|| {
             let what = format!("{}: numbers have the most significant byte first", layout.name);
             let id = format!("codec.big-endian.{}", layout.name);
-            seed(id, vec!["GEN-1", layout.clause], what, Twist::BigEndian(stream))
+            seed(id, vec!["GEN-1", layout.clause], what, CodecFault::BigEndian(stream))
         })
     };
     let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);

@@ -1,6 +1,6 @@
 //! What streaming does not permit in NC text (STM).
 
-use super::{Right, Row, Twist, accepted, refused, row};
+use super::{CodecFault, CodecSeed, Right, accepted, refused, row};
 use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// What the text is with every line made another.
@@ -33,9 +33,10 @@ fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
 fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
-    match question.op == "check" && text.windows(word.len()).any(|part| part == word) {
-        true => refused(clause),
-        false => right(question),
+    if question.op == "check" && text.windows(word.len()).any(|part| part == word) {
+        refused(clause)
+    } else {
+        right(question)
     }
 }
 
@@ -59,27 +60,27 @@ pub(super) fn takes(right: Right<'_>, question: &Question, op: &str, class: &str
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.nc.blind-for", &["STM-8"], "$FOR is overlooked",
-        Twist::Text(|text| without(text, "$FOR", "XFOR"))),
+        CodecFault::Text(|text| without(text, "$FOR", "XFOR"))),
     row("codec.nc.blind-endfor", &["STM-8"], "$ENDFOR is overlooked",
-        Twist::Text(|text| without(text, "$ENDFOR", "XENDFOR"))),
+        CodecFault::Text(|text| without(text, "$ENDFOR", "XENDFOR"))),
     row("codec.nc.blind-do", &["STM-8"], "$DO is overlooked",
-        Twist::Text(|text| without(text, "$DO", "XDO"))),
+        CodecFault::Text(|text| without(text, "$DO", "XDO"))),
     row("codec.nc.blind-enddo", &["STM-8"], "$ENDDO is overlooked",
-        Twist::Text(|text| without(text, "$ENDDO", "XENDDO"))),
+        CodecFault::Text(|text| without(text, "$ENDDO", "XENDDO"))),
     row("codec.nc.blind-repeat", &["STM-8"], "$REPEAT is overlooked",
-        Twist::Text(|text| without(text, "$REPEAT", "XREPEAT"))),
+        CodecFault::Text(|text| without(text, "$REPEAT", "XREPEAT"))),
     row("codec.nc.blind-until", &["STM-8"], "$UNTIL is overlooked",
-        Twist::Text(|text| without(text, "$UNTIL", "XUNTIL"))),
+        CodecFault::Text(|text| without(text, "$UNTIL", "XUNTIL"))),
     row("codec.nc.blind-while", &["STM-8"], "$WHILE is overlooked",
-        Twist::Text(|text| without(text, "$WHILE", "XWHILE"))),
+        CodecFault::Text(|text| without(text, "$WHILE", "XWHILE"))),
     row("codec.nc.blind-endwhile", &["STM-8"], "$ENDWHILE is overlooked",
-        Twist::Text(|text| without(text, "$ENDWHILE", "XENDWHILE"))),
+        CodecFault::Text(|text| without(text, "$ENDWHILE", "XENDWHILE"))),
     row("codec.nc.blind-jump", &["STM-8"], "$GOTO is overlooked",
-        Twist::Text(|text| without(text, "$GOTO", "XGOTO"))),
+        CodecFault::Text(|text| without(text, "$GOTO", "XGOTO"))),
     row("codec.nc.blind-jump-packets", &["STM-8"], "a jump back into a packet before is overlooked",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             let packets = question.packets.clone().unwrap_or_default();
             let alone = |packet: Vec<u8>| {
                 right(&Question { packets: Some(vec![packet]), ..question.clone() })
@@ -94,24 +95,24 @@ pub(super) const ROWS: &[Row] = &[
             }
         })),
     row("codec.nc.jumps-refused", &["STM-19"], "every $GOTO is refused",
-        Twist::Around(|right, question| refuses(right, question, b"$GOTO", "STM-8"))),
+        CodecFault::Around(|right, question| refuses(right, question, b"$GOTO", "STM-8"))),
     row("codec.nc.branches-refused", &["STM-19", "STM-8"], "$IF is refused",
-        Twist::Around(|right, question| refuses(right, question, b"$IF", "STM-8"))),
+        CodecFault::Around(|right, question| refuses(right, question, b"$IF", "STM-8"))),
     row("codec.nc.switch-refused", &["STM-19", "STM-8"], "$SWITCH is refused",
-        Twist::Around(|right, question| refuses(right, question, b"$SWITCH", "STM-8"))),
+        CodecFault::Around(|right, question| refuses(right, question, b"$SWITCH", "STM-8"))),
     row("codec.nc.subroutine-refused", &["STM-18"], "a call of a subroutine is refused",
-        Twist::Around(|right, question| refuses(right, question, b" L ", "STM-18"))),
+        CodecFault::Around(|right, question| refuses(right, question, b" L ", "STM-18"))),
     row("codec.nc.comment-parentheses", &["STM-9"], "comments in parentheses are looked through",
-        Twist::Text(|text| bytes(text, b"()", b' '))),
+        CodecFault::Text(|text| bytes(text, b"()", b' '))),
     row("codec.nc.comment-semicolon", &["STM-9"], "comments behind a semicolon are looked through",
-        Twist::Text(|text| bytes(text, b";", b' '))),
+        CodecFault::Text(|text| bytes(text, b";", b' '))),
     row("codec.nc.comment-block", &["STM-9"],
         "what is between #COMMENT BEGIN and #COMMENT END is looked through",
-        Twist::Text(|text| without(text, "#COMMENT", "XCOMMENT"))),
+        CodecFault::Text(|text| without(text, "#COMMENT", "XCOMMENT"))),
     row("codec.nc.comment-block-never-ends", &["STM-9"], "#COMMENT END is overlooked",
-        Twist::Text(|text| without(text, "END", "XXX"))),
+        CodecFault::Text(|text| without(text, "END", "XXX"))),
     row("codec.nc.comment-open", &["STM-9"], "a parenthesis that is not closed goes on in the next line",
-        Twist::Text(|text| {
+        CodecFault::Text(|text| {
             let mut open = false;
             text.iter()
                 .map(|&byte| {
@@ -121,20 +122,21 @@ pub(super) const ROWS: &[Row] = &[
                 .collect()
         })),
     row("codec.nc.comment-block-open", &["STM-9"], "a comment that is never ended is not told",
-        Twist::Around(|right, question| takes(right, question, "check", "STM-9"))),
-    row("codec.nc.end-m2", &["STM-10"], "M2 is overlooked", Twist::Text(|text| without(text, "M2", "M9"))),
+        CodecFault::Around(|right, question| takes(right, question, "check", "STM-9"))),
+    row("codec.nc.end-m2", &["STM-10"], "M2 is overlooked",
+        CodecFault::Text(|text| without(text, "M2", "M9"))),
     row("codec.nc.end-m30", &["STM-10"], "M30 is overlooked",
-        Twist::Text(|text| without(text, "M30", "M90"))),
+        CodecFault::Text(|text| without(text, "M30", "M90"))),
     row("codec.nc.end-m17", &["STM-10"], "M17 is overlooked",
-        Twist::Text(|text| without(text, "M17", "M90"))),
+        CodecFault::Text(|text| without(text, "M17", "M90"))),
     row("codec.nc.end-m29", &["STM-10"], "M29 is overlooked",
-        Twist::Text(|text| without(text, "M29", "M90"))),
+        CodecFault::Text(|text| without(text, "M29", "M90"))),
     row("codec.nc.next-program", &["STM-17"], "the next program is sent with the end of the one before",
-        Twist::Text(|text| {
+        CodecFault::Text(|text| {
             let ends = ["M2", "M30", "M17", "M29"];
             ends.iter().fold(text.to_vec(), |text, end| without(&text, end, "M9"))
         })),
-    row("codec.nc.end-m3", &["STM-10"], "M3 is taken for M30", Twist::Text(|text| {
+    row("codec.nc.end-m3", &["STM-10"], "M3 is taken for M30", CodecFault::Text(|text| {
         let long = |line: &[u8]| match line
             .windows(3)
             .position(|part| part == b"M3 " || part == b"M3\r")

@@ -1,7 +1,7 @@
 //! NC text in packets (STM).
 
 use super::nc::{lines, takes};
-use super::{Row, Twist, refused, row};
+use super::{CodecFault, CodecSeed, refused, row};
 
 /// Packets of at most so many bytes, of whole lines.
 fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
@@ -17,11 +17,11 @@ fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.nc.cut-992", &["STM-4"], "NC text is cut every 992 bytes, wherever that is",
-        Twist::Packets(|packets| packets.concat().chunks(992).map(<[u8]>::to_vec).collect())),
+        CodecFault::Packets(|packets| packets.concat().chunks(992).map(<[u8]>::to_vec).collect())),
     row("codec.nc.cut-in-line-end", &["STM-4"], "packets end between CR and LF",
-        Twist::Packets(|mut packets| {
+        CodecFault::Packets(|mut packets| {
             let mut carried: Option<u8> = None;
             for packet in &mut packets {
                 if let Some(byte) = carried {
@@ -33,18 +33,18 @@ pub(super) const ROWS: &[Row] = &[
             packets
         })),
     row("codec.nc.packets-993", &["STM-2"], "packets take 993 bytes",
-        Twist::Packets(|packets| packed(&packets, 993))),
+        CodecFault::Packets(|packets| packed(&packets, 993))),
     row("codec.nc.packets-4094", &["STM-2"], "packets take 4094 bytes",
-        Twist::Packets(|packets| packed(&packets, 4094))),
-    row("codec.nc.lf-alone", &["STM-4", "STM-5"], "lines end in LF alone", Twist::Packets(|packets| {
+        CodecFault::Packets(|packets| packed(&packets, 4094))),
+    row("codec.nc.lf-alone", &["STM-4", "STM-5"], "lines end in LF alone", CodecFault::Packets(|packets| {
         let lf = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b'\r').collect();
         packets.into_iter().map(lf).collect()
     })),
-    row("codec.nc.cr-alone", &["STM-4", "STM-5"], "lines end in CR alone", Twist::Packets(|packets| {
+    row("codec.nc.cr-alone", &["STM-4", "STM-5"], "lines end in CR alone", CodecFault::Packets(|packets| {
         let cr = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b'\n').collect();
         packets.into_iter().map(cr).collect()
     })),
-    row("codec.nc.lf-cr", &["STM-4", "STM-5"], "lines end in LF CR", Twist::Packets(|packets| {
+    row("codec.nc.lf-cr", &["STM-4", "STM-5"], "lines end in LF CR", CodecFault::Packets(|packets| {
         let turned = |packet: Vec<u8>| {
             packet
                 .into_iter()
@@ -58,29 +58,30 @@ pub(super) const ROWS: &[Row] = &[
         packets.into_iter().map(turned).collect()
     })),
     row("codec.nc.last-line-open", &["STM-4", "STM-5"], "the last line has no end",
-        Twist::Packets(|mut packets| {
+        CodecFault::Packets(|mut packets| {
             if let Some(last) = packets.last_mut() {
                 last.truncate(last.len().saturating_sub(2));
             }
             packets
         })),
-    row("codec.nc.empty-packet", &["STM-4"], "a packet of no bytes comes last", Twist::Packets(|mut packets| {
-        packets.push(Vec::new());
-        packets
-    })),
+    row("codec.nc.empty-packet", &["STM-4"], "a packet of no bytes comes last",
+        CodecFault::Packets(|mut packets| {
+            packets.push(Vec::new());
+            packets
+        })),
     row("codec.nc.packets-reversed", &["STM-15"], "packets come in reverse order",
-        Twist::Packets(|packets| packets.into_iter().rev().collect())),
+        CodecFault::Packets(|packets| packets.into_iter().rev().collect())),
     row("codec.nc.last-packet-missing", &["STM-4"], "the last packet is missing",
-        Twist::Packets(|mut packets| {
+        CodecFault::Packets(|mut packets| {
             packets.pop();
             packets
         })),
-    row("codec.nc.nul-behind", &["STM-7"], "a NUL ends each packet", Twist::Packets(|mut packets| {
+    row("codec.nc.nul-behind", &["STM-7"], "a NUL ends each packet", CodecFault::Packets(|mut packets| {
         packets.iter_mut().for_each(|packet| packet.push(0));
         packets
     })),
     row("codec.nc.length-first", &["STM-7"], "each packet has its length in front",
-        Twist::Packets(|mut packets| {
+        CodecFault::Packets(|mut packets| {
             for packet in &mut packets {
                 let len = u32::try_from(packet.len()).unwrap_or_default();
                 packet.splice(..0, len.to_le_bytes());
@@ -88,12 +89,13 @@ pub(super) const ROWS: &[Row] = &[
             packets
         })),
     row("codec.nc.upper-case", &["STM-7"], "NC text is written in upper case",
-        Twist::Packets(|packets| { packets.iter().map(|packet| packet.to_ascii_uppercase()).collect() })),
-    row("codec.nc.blanks-dropped", &["STM-7"], "blanks of NC text are dropped", Twist::Packets(|packets| {
-        let dense = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b' ').collect();
-        packets.into_iter().map(dense).collect()
-    })),
-    row("codec.nc.empty-lines-dropped", &["STM-4"], "empty lines are dropped", Twist::Packets(|packets| {
+        CodecFault::Packets(|packets| packets.iter().map(|packet| packet.to_ascii_uppercase()).collect())),
+    row("codec.nc.blanks-dropped", &["STM-7"], "blanks of NC text are dropped",
+        CodecFault::Packets(|packets| {
+            let dense = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b' ').collect();
+            packets.into_iter().map(dense).collect()
+        })),
+    row("codec.nc.empty-lines-dropped", &["STM-4"], "empty lines are dropped", CodecFault::Packets(|packets| {
         let text = lines(&packets.concat(), |line| match line {
             b"\r\n" => Vec::new(),
             line => line.to_vec(),
@@ -101,7 +103,7 @@ pub(super) const ROWS: &[Row] = &[
         packed(&[text], 992)
     })),
     row("codec.nc.comments-dropped", &["STM-7"], "comments in parentheses are dropped",
-        Twist::Packets(|packets| {
+        CodecFault::Packets(|packets| {
             let mut open = false;
             let text = packets.concat().into_iter().filter(|byte| {
                 open = *byte == b'(' || open && *byte != b'\r' && *byte != b')';
@@ -110,19 +112,20 @@ pub(super) const ROWS: &[Row] = &[
             packed(&[text.collect()], 992)
         })),
     row("codec.nc.takes-cp1252", &["STM-7"], "characters beyond ASCII are written as they are",
-        Twist::Around(|right, question| takes(right, question, "packets", "not-ascii"))),
+        CodecFault::Around(|right, question| takes(right, question, "packets", "not-ascii"))),
     row("codec.nc.takes-nul", &["STM-7"], "NULs in NC text are written as they are",
-        Twist::Around(|right, question| takes(right, question, "packets", "nul"))),
+        CodecFault::Around(|right, question| takes(right, question, "packets", "nul"))),
     row("codec.nc.takes-long-lines", &["STM-20"], "lines of more than 990 characters are written as they are",
-        Twist::Around(|right, question| takes(right, question, "packets", "too-long"))),
+        CodecFault::Around(|right, question| takes(right, question, "packets", "too-long"))),
     row("codec.nc.cuts-long-lines", &["STM-20"], "a line of 990 characters is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             let text = question.hex.as_deref().unwrap_or_default();
             let long =
                 |line: &[u8]| line.iter().filter(|byte| !b"\r\n".contains(byte)).count() == 990;
-            match question.op == "packets" && text.split(|byte| *byte == b'\n').any(long) {
-                true => refused("too-long"),
-                false => right(question),
+            if question.op == "packets" && text.split(|byte| *byte == b'\n').any(long) {
+                refused("too-long")
+            } else {
+                right(question)
             }
         })),
 ];

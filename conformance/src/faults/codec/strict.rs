@@ -1,6 +1,6 @@
 //! What is refused though it is right.
 
-use super::{Right, Row, Twist, refused, row};
+use super::{CodecFault, CodecSeed, Right, refused, row};
 use crate::codec::message::{Answer, Question};
 
 /// The first question's bytes at a place, as UNS32.
@@ -16,54 +16,56 @@ fn strict(
     stream: &str,
     is: impl FnOnce(&Question) -> bool,
 ) -> Answer {
-    match question.op == "decode" && question.stream == stream && is(question) {
-        true => refused("truncated"),
-        false => right(question),
+    if question.op == "decode" && question.stream == stream && is(question) {
+        refused("truncated")
+    } else {
+        right(question)
     }
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.refuses.elementary", &["VAR-7"], "a description without dimensions is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             strict(right, question, "variable-description", |question| at(question, 16) == Some(0))
         })),
     row("codec.refuses.arrays", &["VAR-4"], "a description of more than one dimension is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             strict(right, question, "variable-description", |question| {
                 at(question, 16).is_some_and(|m| m > 1)
             })
         })),
     row("codec.refuses.whole", &["VAR-11"], "a read by handle without indices is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             strict(right, question, "variable-handle-read", |question| at(question, 4) == Some(0))
         })),
     row("codec.refuses.extended-empty", &["VAR-16"], "an extended description without data is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             strict(right, question, "variable-extended-description", |question| {
                 question.hex.as_ref().is_some_and(Vec::is_empty)
             })
         })),
     row("codec.refuses.absent-instance", &["SDA-2"], "the object address (0, 0) is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             strict(right, question, "object-address", |question| at(question, 0) == Some(0))
         })),
     row("codec.refuses.result-alone", &["ADS-6"],
         "a reply that ends behind a result that is not 0 is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             let alone = question.hex.as_ref().is_some_and(|hex| hex.len() == 4);
-            match question.op == "decode" && alone && question.stream.ends_with("read-reply") {
-                true => refused("truncated"),
-                false => strict(right, question, "read-write-reply", |_| alone),
+            if question.op == "decode" && alone && question.stream.ends_with("read-reply") {
+                refused("truncated")
+            } else {
+                strict(right, question, "read-write-reply", |_| alone)
             }
         })),
-    row("codec.refuses.sum", &["VAR-1"], "the empty kind is refused", Twist::Around(|right, question| {
+    row("codec.refuses.sum", &["VAR-1"], "the empty kind is refused", CodecFault::Around(|right, question| {
         strict(right, question, "variable-kind", |question| {
             question.hex.as_deref() == Some(&[0])
         })
     })),
     row("codec.refuses.empty-packet", &["STM-2", "STM-4"], "a packet of more than one line is refused",
-        Twist::Around(|right, question| {
+        CodecFault::Around(|right, question| {
             strict(right, question, "program-stream", |question| {
                 question
                     .hex

@@ -3,7 +3,7 @@
 use ads_cnc::text::cp1252_to_char;
 
 use super::json::{numbers, texts};
-use super::{Row, Twist, row};
+use super::{CodecFault, CodecSeed, row};
 
 const NAMES: [&str; 4] =
     ["variable-kind", "variable-index-kind", "variable-name", "dynamic-name-request"];
@@ -17,36 +17,36 @@ fn nul(stream: &str, of: &str, mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.text.question-marks", &["GEN-3"],
         "characters beyond ASCII are read and written as question marks",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             texts(value, |bytes| {
                 bytes.into_iter().map(|byte| if byte.is_ascii() { byte } else { b'?' }).collect()
             })
         })),
-    row("codec.text.utf-8", &["GEN-3"], "texts are read and written in UTF-8", Twist::Value(|_, value| {
+    row("codec.text.utf-8", &["GEN-3"], "texts are read and written in UTF-8", CodecFault::Value(|_, value| {
         texts(value, |bytes| {
             let text: String = bytes.iter().map(|byte| cp1252_to_char(*byte)).collect();
             text.into_bytes()
         })
     })),
     row("codec.text.seven-bits", &["GEN-3"], "the highest bit of each character is dropped",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             texts(value, |bytes| bytes.into_iter().map(|byte| byte & 0x7F).collect())
         })),
     row("codec.text.upper-case", &["VAR-9", "DYN-3", "SDA-6", "COM-2", "SVC-9"],
         "texts are read and written in upper case",
-        Twist::Value(|_, value| texts(value, |bytes| bytes.to_ascii_uppercase()))),
+        CodecFault::Value(|_, value| texts(value, |bytes| bytes.to_ascii_uppercase()))),
     row("codec.text.cut-20", &["SDA-6", "VAR-4"], "texts have 20 characters at most",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             texts(value, |mut bytes| {
                 bytes.truncate(20);
                 bytes
             })
         })),
     row("codec.text.service-cut", &["SVC-1", "VAR-13"], "values of strings have 80 characters at most",
-        Twist::Value(|stream, value| {
+        CodecFault::Value(|stream, value| {
             if stream.starts_with("variable-value") || stream == "variable-name-write" {
                 texts(value, |mut bytes| {
                     bytes.truncate(80);
@@ -55,22 +55,22 @@ pub(super) const ROWS: &[Row] = &[
             }
         })),
     row("codec.text.service-uuid", &["SVC-9"], "UUIDs are read and written in upper case",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             texts(value, |bytes| match bytes.len() {
                 36 => bytes.to_ascii_uppercase(),
                 _ => bytes,
             })
         })),
     row("codec.nul.missing.variable-kind", &["VAR-1"], "kinds are written without a NUL",
-        Twist::Bytes(|stream, bytes| nul(stream, NAMES[0], bytes))),
+        CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[0], bytes))),
     row("codec.nul.missing.variable-index-kind", &["VAR-3"],
         "kinds behind an index are written without a NUL",
-        Twist::Bytes(|stream, bytes| nul(stream, NAMES[1], bytes))),
+        CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[1], bytes))),
     row("codec.nul.missing.variable-name", &["VAR-9"], "names are written without a NUL",
-        Twist::Bytes(|stream, bytes| nul(stream, NAMES[2], bytes))),
+        CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[2], bytes))),
     row("codec.nul.missing.variable-name-write", &["VAR-13"],
         "names before a value are written without a NUL",
-        Twist::Bytes(|stream, mut bytes| {
+        CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
             if let Some(nul) = nul.filter(|_| stream == "variable-name-write") {
                 bytes.remove(nul);
@@ -79,7 +79,7 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("codec.nul.double.variable-name-write", &["VAR-13"],
         "two NULs are written behind a name before a value",
-        Twist::Bytes(|stream, mut bytes| {
+        CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
             if let Some(nul) = nul.filter(|_| stream == "variable-name-write") {
                 bytes.insert(nul, 0);
@@ -88,7 +88,7 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("codec.nul.field.variable-name-write", &["VAR-13"],
         "a value is written behind a name field of 256 bytes",
-        Twist::Bytes(|stream, mut bytes| {
+        CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
             if let Some(nul) = nul.filter(|_| stream == "variable-name-write") {
                 let padding = 255_usize.saturating_sub(nul);
@@ -97,7 +97,7 @@ pub(super) const ROWS: &[Row] = &[
             bytes
         })),
     row("codec.descriptor.blanks", &["COM-2"], "texts of descriptors are padded with blanks",
-        Twist::Bytes(|stream, mut bytes| {
+        CodecFault::Bytes(|stream, mut bytes| {
             if stream.starts_with("object-descriptor") {
                 for record in bytes.chunks_exact_mut(84) {
                     let texts = record.iter_mut().skip(20).filter(|byte| **byte == 0);
@@ -107,7 +107,7 @@ pub(super) const ROWS: &[Row] = &[
             bytes
         })),
     row("codec.descriptor.access-inverted", &["COM-2"], "write access of a descriptor is inverted",
-        Twist::Value(|_, value| {
+        CodecFault::Value(|_, value| {
             if let Some(access) = value.get_mut("write_access") {
                 numbers(access, &["UNS16"], |number| i128::from(number == 0));
             }

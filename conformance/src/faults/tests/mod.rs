@@ -12,7 +12,7 @@ use super::*;
 use crate::testee::{self, Answer, Own, Question};
 use crate::{clients, suite};
 
-fn of_kind(kinds: &[Kind]) -> impl Iterator<Item = &'static Seed> {
+fn of_kind(kinds: &[SeedKind]) -> impl Iterator<Item = &'static Seed> {
     let kinds = kinds.to_vec();
     all().iter().filter(move |seed| kinds.contains(&seed.kind) && seed.field().is_none())
 }
@@ -25,7 +25,7 @@ fn ids_differ_and_sentences_say_something() {
         assert_eq!(by_id(&seed.id).map(|one| &one.what), Some(&seed.what));
         assert!(seed.what.len() > 10 && !seed.what.ends_with('.'), "{}", seed.id);
         assert!(seed.id.bytes().all(|byte| byte.is_ascii_graphic()), "{}", seed.id);
-        assert_eq!(seed.requirements.is_empty(), seed.kind == Kind::Different, "{}", seed.id);
+        assert_eq!(seed.requirements.is_empty(), seed.kind == SeedKind::Different, "{}", seed.id);
         for id in &seed.requirements {
             let clause = clause(id).unwrap_or_else(|| panic!("{}: {id}", seed.id));
             assert!(clause.requirement.excluded.is_none(), "{}: {id} is excluded", seed.id);
@@ -38,19 +38,19 @@ fn ids_differ_and_sentences_say_something() {
 fn every_defect_of_a_cnc_shows() {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
-    for seed in of_kind(&[Kind::Cnc, Kind::Different]) {
+    for seed in of_kind(&[SeedKind::Cnc, SeedKind::Different]) {
         // When bytes come, and in how many pieces, they do not show.
-        if matches!(seed.how, How::Cnc(Twist::Pieces(_))) || seed.id == "different.slow" {
+        if matches!(seed.how, How::Cnc(CncFault::Pieces(_))) || seed.id == "different.slow" {
             continue;
         }
         let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {
             None => Transcript::new(None, None),
             Some(_) => Transcript::new(
-                Some(&Seed { how: How::Cnc(Twist::Pieces(0)), ..seed.clone() }),
+                Some(&Seed { how: How::Cnc(CncFault::Pieces(0)), ..seed.clone() }),
                 None,
             ),
         });
-        if !Transcript::new(Some(seed), Some(&right.said)).differs {
+        if !Transcript::new(Some(seed), Some(&right.replies)).differs {
             hidden.push(seed.id.as_str());
         }
     }
@@ -68,7 +68,7 @@ fn questions() -> Vec<Question> {
 fn every_defect_of_a_codec_shows() {
     let questions = questions();
     let right: Vec<Answer> = questions.iter().map(|one| Own::default().answer(one)).collect();
-    let cnc = Transcript::new(None, None).said;
+    let cnc = Transcript::new(None, None).replies;
     let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
         let own = Own { defect: Some((*seed).clone()) };
         let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;

@@ -10,12 +10,12 @@ use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use super::{Faulty, Seed};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
-/// A CNC that is asked, and what it has said: up to the first difference from another.
+/// A CNC that is asked, and its replies, up to the first difference from another.
 pub(super) struct Transcript<'t> {
     faulty: Faulty,
     cnc: Arc<Cnc>,
     other: Option<&'t [Vec<u8>]>,
-    pub(super) said: Vec<Vec<u8>>,
+    pub(super) replies: Vec<Vec<u8>>,
     pub(super) differs: bool,
     count: u32,
 }
@@ -28,15 +28,15 @@ impl<'t> Transcript<'t> {
         let faulty = Faulty::new(Cnc::new(model).with_standing_clock(), seed);
         let cnc = Arc::clone(faulty.cnc());
         let mut transcript =
-            Self { faulty, cnc, other, said: Vec::new(), differs: false, count: 0 };
+            Self { faulty, cnc, other, replies: Vec::new(), differs: false, count: 0 };
         transcript.all();
         transcript
     }
 
-    fn hear(&mut self, said: Vec<u8>) {
-        let right = self.other.is_none_or(|other| other.get(self.said.len()) == Some(&said));
+    fn record(&mut self, reply: Vec<u8>) {
+        let right = self.other.is_none_or(|other| other.get(self.replies.len()) == Some(&reply));
         self.differs |= !right;
-        self.said.push(said);
+        self.replies.push(reply);
     }
 
     fn frame(&mut self, port: AmsPort, command: Command, data: &[u8]) -> Vec<u8> {
@@ -59,7 +59,7 @@ impl<'t> Transcript<'t> {
         let header = AmsHeader::request(target, client, command, self.count | 0x5000_0000);
         let mut answers = Vec::new();
         self.faulty.respond(NET_ID, &FrameRef::new(header, data).unwrap(), &mut answers);
-        self.hear(answers.clone());
+        self.record(answers.clone());
         answers
     }
 

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    ReplyData, Row, Twist, Upstream, class, fits, function, group, is, number, offset, on, put,
-    row, text, twisted, u32_at,
+    CncFault, CncSeed, ReplyData, Upstream, class, fault, function, group, is, number, offset, on,
+    row, set_u32, text, u32_at, within_length,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -53,7 +53,7 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
         (false, _) => cnc.answer(call),
         (true, Some(Function::FindInstance)) => cnc.answer(call).map(|mut bytes| {
             let offset = u32_at(&bytes, 4).unwrap_or_default();
-            put(&mut bytes, 4, offset >> 4);
+            set_u32(&mut bytes, 4, offset >> 4);
             bytes
         }),
         (true, _) => {
@@ -64,16 +64,17 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     unprinted(row("different.number-counts-first", &[],
         "the number of elements counts the first, which says it",
-        |cnc, call| match is_number(call) {
-            true => number(cnc.answer(call), 0, |count| count.wrapping_add(1)),
-            false => cnc.answer(call),
+        |cnc, call| if is_number(call) {
+            number(cnc.answer(call), 0, |count| count.wrapping_add(1))
+        } else {
+            cnc.answer(call)
         })),
     unprinted(row("different.number-2-bytes", &[], "the number of elements takes 2 bytes",
         |cnc, call| match (is_number(call), function(call), offset(call) & 0xFFF) {
-            (true, ..) => fits(
+            (true, ..) => within_length(
                 call,
                 cnc.whole(call).map(|mut bytes| {
                     bytes.truncate(2);
@@ -85,38 +86,42 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("different.first-without-attributes", &[],
         "the first element has a name and the number, and no other attribute",
-        |cnc, call| match is(call, ATTRIBUTES) && offset(call) & 0xFFF == 0 {
-            true => Err(AdsError::INVALID_OFFSET),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, ATTRIBUTES) && offset(call) & 0xFFF == 0 {
+            Err(AdsError::INVALID_OFFSET)
+        } else {
+            cnc.answer(call)
         }),
     row("different.hld-axes-of-first", &[], "the HLD of other channels than the first has no axes",
         |cnc, call| without(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)),
     row("different.path-preparation-without-axes", &[], "path preparation has no axes",
         |cnc, call| without(cnc, call, |class, _, axis| class == 0x4000 && axis > 0)),
     row("different.blank-number", &[], "where no axis is the number of elements is blank too",
-        |cnc, call| match is_number(call) && empty_place(call) {
-            true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
-            false => cnc.answer(call),
+        |cnc, call| if is_number(call) && empty_place(call) {
+            cnc.answer(call).map(|bytes| vec![0; bytes.len()])
+        } else {
+            cnc.answer(call)
         }),
     row("different.blank-real", &[], "where no axis is a REAL64 is no number",
-        |cnc, call| match is(call, &[Function::ReadElement]) && empty_place(call) {
-            true => cnc.answer(call).map(|bytes| match bytes.len() {
+        |cnc, call| if is(call, &[Function::ReadElement]) && empty_place(call) {
+            cnc.answer(call).map(|bytes| match bytes.len() {
                 8 => vec![0xFF; 8],
                 _ => bytes,
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     row("different.axes-of-0x1000", &[],
         "axes of the position controller, the interpolator and path preparation take 0x1000", strided),
     on("different.name-as-it-ends", &[],
         "the name of a parameter is taken without its NUL only, or with just one",
         &[Function::DynamicValueByName],
-        |cnc, call| match call.data.len() > text(call.data).len() + 1 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if call.data.len() > text(call.data).len() + 1 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
-    unprinted(twisted("different.come-and-go", &[],
-        "the CNC is one whose parameters come and go all the time", Twist::Model(MODEL))),
+    unprinted(fault("different.come-and-go", &[],
+        "the CNC is one whose parameters come and go all the time", CncFault::Model(MODEL))),
 ];
 
 /// A CNC with channels of other numbers, and parameters that are there for a moment.

@@ -1,17 +1,17 @@
 //! Other CNCs: with channels, axes, objects and variables of their own.
 
-use super::{Row, Twist, twisted, unprinted};
+use super::{CncFault, CncSeed, fault, unprinted};
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     model("different.model", "the CNC is a small one, with things of its own", MODEL),
     model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
     model("different.model-many", "the CNC has twelve channels, and axes in another order", MANY),
 ];
 
 /// A row about a CNC with another model.
-const fn model(id: &'static str, what: &'static str, model: &'static str) -> Row {
-    unprinted(twisted(id, &[], what, Twist::Model(model)))
+const fn model(id: &'static str, what: &'static str, model: &'static str) -> CncSeed {
+    unprinted(fault(id, &[], what, CncFault::Model(model)))
 }
 
 /// A CNC of an old version that offers next to nothing: no axis, nothing to be written, streaming

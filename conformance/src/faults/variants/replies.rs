@@ -8,12 +8,12 @@ use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    ELEMENT_TEXTS, Row, function, group, is, measured, offset, on, or_short, put, row, sent, text,
-    u32_at, unprinted,
+    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, row, sent,
+    set_u32, text, u32_at, unprinted,
 };
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("different.request-over-early", &[],
         "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
         |cnc, call| {
@@ -26,13 +26,14 @@ pub(super) const ROWS: &[Row] = &[
             done
         }),
     row("different.instances-named-alike", &[], "the name of element 0 of an axis is that of its channel",
-        |cnc, call| match is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
-            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
+            cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call))
+        } else {
+            cnc.answer(call)
         }),
     sent("different.errors-in-both", "errors stand in both headers", |_, _, mut bytes| {
         if let Some(error @ 1..) = u32_at(&bytes, 38) {
-            put(&mut bytes, 30, error);
+            set_u32(&mut bytes, 30, error);
         }
         bytes
     }),
@@ -50,14 +51,15 @@ pub(super) const ROWS: &[Row] = &[
             let inquiries = [Command::READ_DEVICE_INFO, Command::READ_STATE];
             if inquiries.contains(&request.header().command) {
                 bytes.truncate(42);
-                put(&mut bytes, 38, AdsError::SERVICE_NOT_SUPPORTED.0);
+                set_u32(&mut bytes, 38, AdsError::SERVICE_NOT_SUPPORTED.0);
             }
             measured(bytes)
         }),
     on("different.extended-external-only", &[], "an extended description of what has none is refused",
-        &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| match bytes.is_empty() {
-            true => Err(AdsError::INVALID_DATA),
-            false => Ok(bytes),
+        &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| if bytes.is_empty() {
+            Err(AdsError::INVALID_DATA)
+        } else {
+            Ok(bytes)
         })),
     unprinted(row("different.remains-behind-names", &[],
         "behind the NUL of names, types and units there are remains of others",
@@ -87,7 +89,7 @@ pub(super) const ROWS: &[Row] = &[
                 if let Ok(bytes) = &answer
                     && is_text(bytes)
                 {
-                    cnc.memory().keep(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
+                    cnc.memory().store(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
                 }
                 false
             }

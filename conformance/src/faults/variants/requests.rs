@@ -6,8 +6,8 @@ use ads_cnc::operation::{Function, OffsetRule, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    INDEXED, NAMED, Row, WRITES, function, functions, group, is, is_at, number, of_decoder, offset,
-    put, row, text, u32_at,
+    CncSeed, INDEXED, NAMED, WRITES, function, functions, group, is, is_at, is_lookup, number,
+    of_decoder, offset, row, set_u32, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -17,21 +17,24 @@ const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule:
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     row("different.name-unended", &[], "names without a NUL are taken",
-        |cnc, call| match is_at(call, NAMED) && !call.data.contains(&0) {
-            true if !call.data.is_empty() => cnc.with(call, &[call.data, &[0]].concat()),
-            _ => cnc.answer(call),
+        |cnc, call| if is_at(call, NAMED) && !call.data.contains(&0) && !call.data.is_empty() {
+            cnc.with(call, &[call.data, &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("different.name-bytes-behind", &[], "bytes behind the NUL of a name are ignored",
-        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
-            true if call.data.contains(&0) => cnc.with(call, &[text(call.data), &[0]].concat()),
-            _ => cnc.answer(call),
+        |cnc, call| if is_lookup(call) && call.data.contains(&0) {
+            cnc.with(call, &[text(call.data), &[0]].concat())
+        } else {
+            cnc.answer(call)
         }),
     row("different.kind-of-256", &[], "a kind takes 32 bytes at most, NULs behind it counted",
-        |cnc, call| match is(call, COUNT) && call.data.len() > 32 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, COUNT) && call.data.len() > 32 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("different.kind-unended", &[], "a kind without a NUL is taken", |cnc, call| match of_decoder(call) {
         Some(0x44) if !call.data.contains(&0) && call.service == Service::ReadWrite => {
@@ -40,9 +43,10 @@ pub(super) const ROWS: &[Row] = &[
         _ => cnc.answer(call),
     }),
     row("different.kind-of-259", &[], "an index and a kind take 36 bytes at most, NULs behind it counted",
-        |cnc, call| match is(call, INDEXED) && call.data.len() > 36 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
+        |cnc, call| if is(call, INDEXED) && call.data.len() > 36 {
+            Err(AdsError::INVALID_SIZE)
+        } else {
+            cnc.answer(call)
         }),
     row("different.index-261", &[], "an index and a kind may be longer than 260 bytes",
         |cnc, call| match of_decoder(call) {
@@ -79,7 +83,7 @@ pub(super) const ROWS: &[Row] = &[
                 let handle = u32_at(&data, 0).unwrap_or_default();
                 // Those of axes begin with 1.
                 if handle >> 24 == (OF_AXIS_INTERFACE >> 24) | 1 {
-                    put(&mut data, 0, handle & !OF_AXIS_INTERFACE);
+                    set_u32(&mut data, 0, handle & !OF_AXIS_INTERFACE);
                 }
                 cnc.with(call, &data)
             }

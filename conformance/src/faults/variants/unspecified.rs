@@ -4,8 +4,8 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    NAMED, ReplyData, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row,
-    text, twisted, u32_at, unprinted,
+    CncFault, CncSeed, NAMED, ReplyData, Upstream, fault, function, group, is, offset, on,
+    records_mut, row, set_u32, text, u32_at, unprinted,
 };
 use super::{measured, sent};
 
@@ -66,7 +66,7 @@ fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CncSeed] = &[
     on("different.contents-just", &[], "a content of COM is read with just the length that it has",
         &[Function::ReadObject], |cnc, call| cnc.answer(call).and_then(|bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
@@ -86,7 +86,7 @@ pub(super) const ROWS: &[Row] = &[
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
             for record in records_mut(&mut bytes) {
                 let id = u32_at(record, 0).unwrap_or_default();
-                put(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
+                set_u32(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
             }
             bytes
         }))),
@@ -102,17 +102,16 @@ pub(super) const ROWS: &[Row] = &[
     }),
     row("different.stream-busy", &[],
         "every third write of a stream is refused for now, whatever room there is",
-        |cnc, call| match is(call, STREAM) && (1..=992).contains(&call.data.len()) {
-            true => {
-                let mut memory = cnc.memory();
-                memory.count = memory.count.wrapping_add(1);
-                if memory.count % 3 == 0 {
-                    return Err(AdsError::INVALID_DATA);
-                }
-                drop(memory);
-                cnc.answer(call)
+        |cnc, call| if is(call, STREAM) && (1..=992).contains(&call.data.len()) {
+            let mut memory = cnc.memory();
+            memory.count = memory.count.wrapping_add(1);
+            if memory.count % 3 == 0 {
+                return Err(AdsError::INVALID_DATA);
             }
-            false => cnc.answer(call),
+            drop(memory);
+            cnc.answer(call)
+        } else {
+            cnc.answer(call)
         }),
     sent("different.errors-with-zeros",
         "a refused Read or ReadWrite has as many zeros as were asked for, up to 64",
@@ -120,33 +119,34 @@ pub(super) const ROWS: &[Row] = &[
             let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
             let refused = matches!(u32_at(&bytes, 38), Some(1..));
             if refused && bytes.len() == 46 && matches!(request.header().command.0, 2 | 9) {
-                put(&mut bytes, 42, asked);
+                set_u32(&mut bytes, 42, asked);
                 bytes.resize(usize::try_from(asked).unwrap_or_default().saturating_add(46), 0);
             }
             measured(bytes)
         }),
     row("different.descriptors-by-index", &[], "descriptors that are asked for by index have groups by index",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
-            true => cnc.answer(call).map(|mut bytes| {
+        |cnc, call| if is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
+            cnc.answer(call).map(|mut bytes| {
                 for record in records_mut(&mut bytes) {
                     let own = u32_at(record, 12).unwrap_or_default() & 0x0F_FF00;
                     let asked = group(call) & 0xFF;
                     let all = u32_at(record, 12).unwrap_or_default();
                     // The platform's stay where they are.
                     if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
-                        put(record, 12, own | asked);
+                        set_u32(record, 12, own | asked);
                     }
                 }
                 bytes
-            }),
-            false => cnc.answer(call),
+            })
+        } else {
+            cnc.answer(call)
         }),
     on("different.platform-elsewhere", &[], "descriptors of the platform have the other of its two groups",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
             for record in records_mut(&mut bytes) {
                 let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
                 if matches!(offset, Some(0x251 | 0x252)) {
-                    put(record, 12, at.unwrap_or_default() ^ 1);
+                    set_u32(record, 12, at.unwrap_or_default() ^ 1);
                 }
             }
             bytes
@@ -178,18 +178,18 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("different.texts-whole", &[], "a STRING is written with all its bytes, and refused with fewer",
         |cnc, call| match writes_text(cnc, call) {
-            Some(size) if super::behind(call.data).len() < size => Err(AdsError::INVALID_SIZE),
+            Some(size) if super::after_nul(call.data).len() < size => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
     row("different.texts-ended", &[], "a STRING is written with a NUL, and refused without",
         |cnc, call| match writes_text(cnc, call) {
-            Some(_) if !super::behind(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
+            Some(_) if !super::after_nul(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
-    unprinted(twisted("different.model-numbers", &[],
+    unprinted(fault("different.model-numbers", &[],
         "the CNC has channels 1, 9 and 255, axes with large numbers and long names, and \
          spindles only to be read",
-        Twist::Model(NUMBERS))),
+        CncFault::Model(NUMBERS))),
 ];
 
 /// A CNC whose numbers are as large as they may be.

@@ -7,7 +7,7 @@ use crate::report::bytes::ShownField;
 use crate::report::console::worded;
 use crate::report::model::{EvidenceReport, FailureReport};
 use crate::report::{BytesReport, FieldReport};
-use crate::text::hex::character;
+use crate::text::hex::{character, compact};
 
 #[derive(Serialize)]
 pub(super) struct FindingView {
@@ -117,7 +117,7 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
     BytesView {
         stream: bytes.stream.clone(),
         length: bytes.length,
-        rows: bytes.shown().into_iter().map(row_of).collect(),
+        rows: bytes.visible_fields().into_iter().map(row_of).collect(),
         faults: bytes.faults.clone(),
     }
 }
@@ -126,7 +126,7 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
 const ZEROS: usize = 8;
 
 fn row(field: &FieldReport) -> RowView {
-    let bytes: Vec<u8> = field.bytes().collect();
+    let bytes = field.bytes();
     let used = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     let marked = field.differs.iter().max().map_or(0, |last| last + 1);
     let shown = used.max(marked) + ZEROS;
@@ -139,7 +139,7 @@ fn row(field: &FieldReport) -> RowView {
             .take(shown)
             .enumerate()
             .map(|(place, &byte)| ByteView {
-                hex: format!("{byte:02x}"),
+                hex: compact::show(&[byte]),
                 character: character(byte),
                 differs: field.differs.contains(&place),
             })

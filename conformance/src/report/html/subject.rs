@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::finding::{FindingView, finding};
-use crate::judge::{Subject, Verdict};
+use crate::judge::{CaseSubject, Verdict};
 use crate::report::console::{counts, heading, worded};
 use crate::report::model::{CaseReport, Report};
 
@@ -57,7 +57,7 @@ struct CaseView {
     findings: Vec<FindingView>,
 }
 
-pub(super) fn subject(report: &Report, who: Subject) -> SubjectView {
+pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
     let mut groups: BTreeMap<(bool, String), Vec<&CaseReport>> = BTreeMap::new();
     for case in report.cases.iter().filter(|case| case.subject == who) {
         let group = match &case.stream {

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{Detection, Figures, Found, Mode, Row, Table, hash, inputs, measure};
+use super::{Detection, DetectionRow, DetectionTable, Figures, Found, Mode, hash, inputs, measure};
 use crate::faults::Seed;
 use crate::judge::order;
 use crate::selftest::parallel;
@@ -24,7 +24,7 @@ pub const SAMPLE: usize = 60;
 pub struct CheckedTable {
     /// The figures of each mode.
     #[serde(serialize_with = "figures")]
-    pub table: Table,
+    pub table: DetectionTable,
     /// How many defects were measured now.
     pub measured: usize,
     /// What is not as the committed table has it.
@@ -40,9 +40,9 @@ impl CheckedTable {
         tell: &(impl Fn(usize, usize) + Sync),
     ) -> Self {
         let mut differences = Vec::new();
-        let published = Table::published().unwrap_or_else(|| {
+        let published = DetectionTable::published().unwrap_or_else(|| {
             differences.push("the table cannot be read".to_owned());
-            Table { inputs: String::new(), rows: Vec::new() }
+            DetectionTable { inputs: String::new(), rows: Vec::new() }
         });
         if published.inputs != inputs() {
             differences.push(
@@ -73,7 +73,7 @@ impl CheckedTable {
         }
         let measured = rows.len();
         let table = match scope {
-            Scope::All if whole => Table { inputs: inputs(), rows },
+            Scope::All if whole => DetectionTable { inputs: inputs(), rows },
             _ => published,
         };
         Self { table, measured, differences }
@@ -84,7 +84,7 @@ impl CheckedTable {
 fn sample(
     mut seeds: Vec<&'static Seed>,
     seed: u32,
-    published: &Table,
+    published: &DetectionTable,
     tell: &(impl Fn(usize, usize) + Sync),
 ) -> Vec<&'static Seed> {
     let hashes = parallel(&seeds, 1, |seed| hash(seed).ok(), tell);
@@ -100,7 +100,7 @@ fn sample(
 }
 
 /// What of a row is another than it was.
-fn differing(before: Option<&Row>, now: &Row) -> Vec<String> {
+fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
     let id = &now.id;
     let Some(before) = before else { return vec![format!("{id}: not in the table")] };
     let mut differences = Vec::new();
@@ -124,7 +124,7 @@ fn differing(before: Option<&Row>, now: &Row) -> Vec<String> {
 }
 
 /// As JSON has it: the figures, and what is missed.
-fn figures<S: Serializer>(table: &Table, serializer: S) -> Result<S::Ok, S::Error> {
+fn figures<S: Serializer>(table: &DetectionTable, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct OfMode<'t> {
         mode: &'static str,
@@ -140,9 +140,9 @@ fn figures<S: Serializer>(table: &Table, serializer: S) -> Result<S::Ok, S::Erro
     serializer.collect_seq(modes)
 }
 
-impl Table {
+impl DetectionTable {
     /// The defects that are missed in a mode, each with the request that would have shown it.
-    pub fn missed(&self, mode: Mode) -> impl Iterator<Item = (&Row, &str)> {
+    pub fn missed(&self, mode: Mode) -> impl Iterator<Item = (&DetectionRow, &str)> {
         self.rows.iter().filter_map(move |row| match row.modes.get(&mode).map(|one| &one.result) {
             Some(Found::Missed(request)) => Some((row, request.as_str())),
             _ => None,

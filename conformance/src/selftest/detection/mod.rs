@@ -20,7 +20,7 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use crate::edition::Edition;
 use crate::faults::{Faulty, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
-use crate::judge::{Needs, Outcome, Selection, Verdict};
+use crate::judge::{CaseOutcome, Needs, Selection, Verdict};
 use crate::objects::{self, Object, Options};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
@@ -30,7 +30,7 @@ use crate::text::named;
 
 use super::Outcomes;
 pub use check::{CheckedTable, SAMPLE, Scope};
-pub use table::{Figures, Row, Table, inputs};
+pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 
 /// How the suite is run against a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -146,7 +146,7 @@ impl Device {
     }
 
     /// The answers of the CNC without a defect to every request that a mode may send.
-    fn right(&self, mode: Mode) -> Result<&[u64], Trouble> {
+    fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
         let [queries, writes, all] = &self.right;
         let right = match mode {
             Mode::ReadOnly | Mode::Profiled => queries,
@@ -160,7 +160,7 @@ impl Device {
     }
 
     /// What the suite finds, run as a user runs it.
-    fn outcomes(&self, seed: Option<&Seed>, mode: Mode) -> Result<Vec<Outcome>, Trouble> {
+    fn outcomes(&self, seed: Option<&Seed>, mode: Mode) -> Result<Vec<CaseOutcome>, Trouble> {
         let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
         let mut session = session::Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
         if session.greet(&profile).is_err() {
@@ -209,10 +209,10 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> 
 ///
 /// # Errors
 /// A fault of the suite, or of the simulated CNC.
-pub fn measure(seed: &Seed) -> Result<Row, Trouble> {
+pub fn measure(seed: &Seed) -> Result<DetectionRow, Trouble> {
     let detect = |mode| detect(seed, mode).map(|detection| (mode, detection));
     let modes = Mode::ALL.into_iter().map(detect).collect::<Result<BTreeMap<_, _>, _>>()?;
-    Ok(Row { id: seed.id.clone(), hash: hash(seed)?, modes })
+    Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
 }
 
 /// A hash of what the row says of the defect, and of the answers up to the first that is another
@@ -225,7 +225,7 @@ pub fn hash(seed: &Seed) -> Result<String, Trouble> {
     let Seed { id, requirements, what, edition, .. } = seed;
     let mut text = format!("{id} {requirements:?} {what} {edition:?}");
     for device in devices.iter().take(1) {
-        let right = device.right(Mode::All)?;
+        let right = device.correct_answers(Mode::All)?;
         let answers = witness::answers(device, Some(seed), Mode::All, Some(right))?.answers;
         text = format!("{text} {answers:?}");
     }

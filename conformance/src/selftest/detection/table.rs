@@ -10,7 +10,7 @@ use std::fmt::{self, Write as _};
 use serde::Serialize;
 
 use super::{Detection, Found, Mode};
-use crate::faults::{self, Kind, Seed};
+use crate::faults::{self, Seed, SeedKind};
 use crate::simulator::DEFAULT_MODEL;
 use crate::simulator::program::digest;
 use crate::suite;
@@ -20,7 +20,7 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 
 /// What is measured of one defect or variant.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct DetectionRow {
     pub id: String,
     /// A hash of what the row says of the defect, and of what the CNC answers with it.
     pub hash: String,
@@ -30,11 +30,11 @@ pub struct Row {
 
 /// All rows, and a hash of what they all rest on.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Table {
+pub struct DetectionTable {
     /// A hash of the cases, the levels of the requirements and the default model.
     pub inputs: String,
     /// In the order of the defects.
-    pub rows: Vec<Row>,
+    pub rows: Vec<DetectionRow>,
 }
 
 /// How many defects came out how in one mode.
@@ -74,13 +74,13 @@ pub(super) fn hash(text: &str) -> String {
     format!("{:016x}", digest(text.as_bytes()))
 }
 
-impl Table {
+impl DetectionTable {
     /// The table of this version; none if it cannot be read.
     pub fn published() -> Option<Self> {
         Self::parse(PUBLISHED)
     }
 
-    pub fn row(&self, seed: &Seed) -> Option<&Row> {
+    pub fn row(&self, seed: &Seed) -> Option<&DetectionRow> {
         self.rows.iter().find(|row| row.id == seed.id)
     }
 
@@ -105,10 +105,10 @@ impl Table {
     /// How many requirements fail by a defect of a single field, in the mode without writes and
     /// profile: the median and the 90th percentile of those that are caught at all.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
-        let of_field = |row: &&Row| {
+        let of_field = |row: &&DetectionRow| {
             let seed = faults::by_id(&row.id);
             seed.is_some_and(|seed| {
-                seed.field().is_some() == of_fields && seed.kind != Kind::Different
+                seed.field().is_some() == of_fields && seed.kind != SeedKind::Different
             })
         };
         let rows = self.rows.iter().filter(of_field);
@@ -126,7 +126,7 @@ impl Table {
     /// As it is committed.
     pub fn to_text(&self) -> String {
         let mut text = format!("inputs\t{}\n", self.inputs);
-        for Row { id, hash, modes } in &self.rows {
+        for DetectionRow { id, hash, modes } in &self.rows {
             let mut alike: Vec<(Vec<&str>, &Detection)> = Vec::new();
             for (mode, detection) in modes {
                 match alike.iter_mut().find(|(_, one)| *one == detection) {
@@ -168,7 +168,7 @@ impl Table {
             };
             if table.rows.last().is_none_or(|row| row.id != id) {
                 let (id, hash) = (id.to_owned(), hash.to_owned());
-                table.rows.push(Row { id, hash, modes: BTreeMap::new() });
+                table.rows.push(DetectionRow { id, hash, modes: BTreeMap::new() });
             }
             let row = table.rows.last_mut()?;
             for name in names.split(' ') {

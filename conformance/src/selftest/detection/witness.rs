@@ -7,36 +7,42 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::requests::{Answers, ask_everything};
+use super::requests::{RecordedAnswers, ask_everything};
 use super::{Device, Found, Mode};
-use crate::faults::{self, Change, Defect, Kind, Seed};
+use crate::faults::{self, FieldChange, FieldDefect, Seed, SeedKind};
 use crate::session::{Session, Trouble};
 use crate::simulator::Settings;
 
 /// Fields whose value is free, so that a one-to-one change of it gives a right CNC too: stream, field,
 /// changes, and why.
-const FREE: &[(&str, &str, &[Change], &str)] = &[
+const FREE: &[(&str, &str, &[FieldChange], &str)] = &[
     ("device-info-reply", "major", ONE_TO_ONE, "a CNC may have any version"),
     ("device-info-reply", "minor", ONE_TO_ONE, "a CNC may have any version"),
     ("device-info-reply", "build", ONE_TO_ONE, "a CNC may have any version"),
-    ("device-info-reply", "name", &[Change::FlipLow, Change::Invert], "a CNC may have any name"),
+    (
+        "device-info-reply",
+        "name",
+        &[FieldChange::FlipLow, FieldChange::Invert],
+        "a CNC may have any name",
+    ),
     ("device-state-reply", "ads_state", ONE_TO_ONE, "a CNC may be in any state"),
     ("device-state-reply", "device_state", ONE_TO_ONE, "a CNC may be in any state"),
     ("object-descriptor", "id", ONE_TO_ONE, "the number is unique, and nothing more is documented"),
     ("object-descriptor", "not_assigned", ONE_TO_ONE, "nothing is assigned to these bytes"),
-    ("object-descriptor", "write_access", &[Change::SwapBytes], "every number but 0 is TRUE"),
-    ("read-reply", "result", &[Change::SwapBytes], "no error number is documented"),
-    ("write-reply", "result", &[Change::SwapBytes], "no error number is documented"),
-    ("read-write-reply", "result", &[Change::SwapBytes], "no error number is documented"),
-    ("device-info-reply", "result", &[Change::SwapBytes], "no error number is documented"),
-    ("device-state-reply", "result", &[Change::SwapBytes], "no error number is documented"),
+    ("object-descriptor", "write_access", &[FieldChange::SwapBytes], "every number but 0 is TRUE"),
+    ("read-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
+    ("write-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
+    ("read-write-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
+    ("device-info-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
+    ("device-state-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
 ];
 
-const ONE_TO_ONE: &[Change] = &[Change::FlipLow, Change::Invert, Change::SwapBytes];
+const ONE_TO_ONE: &[FieldChange] =
+    &[FieldChange::FlipLow, FieldChange::Invert, FieldChange::SwapBytes];
 
 /// Why a CNC with this change of a field is a right one.
 pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
-    let Defect { stream, field, change, .. } = seed.field()?;
+    let FieldDefect { stream, field, change, .. } = seed.field()?;
     let free = FREE.iter().find(|(in_stream, name, changes, _)| {
         stream.layout().name == *in_stream && field.name() == *name && changes.contains(change)
     });
@@ -51,8 +57,9 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
     let mut shown = None;
     let mut witnesses: Vec<&str> = Vec::new();
     for device in devices {
-        let right = device.right(mode)?;
-        let Answers { answers: mine, difference } = answers(device, Some(seed), mode, Some(right))?;
+        let right = device.correct_answers(mode)?;
+        let RecordedAnswers { answers: mine, difference } =
+            answers(device, Some(seed), mode, Some(right))?;
         let Some(request) = difference else { continue };
         shown = shown.or(Some(request));
         // One that differs from the right CNC elsewhere gives other answers.
@@ -81,7 +88,7 @@ pub(super) fn answers(
     seed: Option<&Seed>,
     mode: Mode,
     right: Option<&[u64]>,
-) -> Result<Answers, Trouble> {
+) -> Result<RecordedAnswers, Trouble> {
     let cnc = device.cnc(seed)?;
     let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
@@ -102,10 +109,11 @@ fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
         return Ok(Arc::clone(variants));
     }
     let mut variants: BTreeMap<_, Vec<&Seed>> = BTreeMap::new();
-    let different = faults::all().iter().filter(|seed| seed.kind == Kind::Different);
+    let different = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
     for seed in different.filter(|seed| seed.own_model().is_none()) {
         if seed.edition.is_none_or(|edition| Some(edition) == device.settings.edition) {
-            let answers = answers(device, Some(seed), mode, Some(device.right(mode)?))?.answers;
+            let answers =
+                answers(device, Some(seed), mode, Some(device.correct_answers(mode)?))?.answers;
             variants.entry(first_difference(&answers)).or_default().push(seed);
         }
     }

@@ -7,11 +7,11 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName,
 };
 
-use super::{ReplyData, Running, encode};
+use super::{AnsweringCnc, ReplyData, encode};
 use crate::simulator::parameters::ParameterState;
 use crate::simulator::{to_len, to_u32};
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     pub(super) fn count_dynamic(&self, op: &CountDynamic) -> ReplyData {
         let channel = self.channel(op.channel)?;
         encode(DynamicCount(to_u32(self.state.parameters(channel, op.kind).count())))

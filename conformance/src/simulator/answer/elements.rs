@@ -8,9 +8,10 @@ use ads_cnc::operation::{FindInstance, WriteElement};
 use ads_cnc::sda::{ElementCount, ElementLength, ElementTextRef, ElementWriteFlag, ObjectAddress};
 use ads_cnc::{CncStr, ContentRef, TextRef};
 
-use super::{ReplyData, Running, encode};
-use crate::simulator::content::{self, Owner};
+use super::{AnsweringCnc, ReplyData, encode};
+use crate::simulator::content;
 use crate::simulator::model::Item;
+use crate::simulator::owner::Owner;
 use crate::simulator::{to_len, to_u32};
 
 /// What the first element of an instance says of itself: the number of the others.
@@ -18,7 +19,7 @@ const COUNT_TYPE: &str = "UNS32";
 const COUNT_LENGTH: u32 = 4;
 const COUNT_UNIT: &str = "-";
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     /// Where an instance is; (0, 0) if there is none (SDA-2).
     pub(super) fn find_instance(&self, op: &FindInstance) -> ReplyData {
         let found = self.instance(op.class_group(), op.query().channel, op.query().axis);

@@ -15,14 +15,14 @@ use ads_cnc::{Encode, NoData};
 
 use super::clock::Clock;
 use super::program::Policy;
-use super::state::State;
+use super::state::CncState;
 use super::{Model, ModelError, ReplyData, Responder, program, to_u32};
 
 /// The simulated CNC: a model, and its state behind one lock.
 #[derive(Debug)]
 pub struct Cnc {
     model: Model,
-    state: Mutex<State>,
+    state: Mutex<CncState>,
     clock: Clock,
     policy: Policy,
 }
@@ -31,7 +31,7 @@ impl Cnc {
     /// A CNC with this data model, in the state it starts in.
     pub fn new(model: Model) -> Self {
         let policy = Policy::DEFAULT;
-        let state = Mutex::new(State::new(&model, policy));
+        let state = Mutex::new(CncState::new(&model, policy));
         Self { model, state, clock: Clock::running(), policy }
     }
 
@@ -42,7 +42,7 @@ impl Cnc {
 
     /// With NC programs of this policy, in the state it starts in.
     pub(crate) fn with_policy(mut self, policy: Policy) -> Self {
-        self.state = Mutex::new(State::new(&self.model, policy));
+        self.state = Mutex::new(CncState::new(&self.model, policy));
         Self { policy, ..self }
     }
 
@@ -100,12 +100,12 @@ impl Cnc {
     }
 
     /// The state as it is by now.
-    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+    pub(super) fn state(&self) -> MutexGuard<'_, CncState> {
         self.state_and_time().0
     }
 
     /// The same, and when that is: the clock is read once for each request.
-    fn state_and_time(&self) -> (MutexGuard<'_, State>, Duration) {
+    fn state_and_time(&self) -> (MutexGuard<'_, CncState>, Duration) {
         // No panic is reachable under the lock, and each value is whole whatever happened.
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let now = self.now();
@@ -156,7 +156,7 @@ impl Cnc {
 
     fn reply(&self, request: &Request<'_>) -> ReplyData {
         let (state, now) = self.state_and_time();
-        let mut running = Running { model: &self.model, state, now };
+        let mut running = AnsweringCnc { model: &self.model, state, now };
         match request {
             Request::CountObjects(op) => running.count_objects(op),
             Request::ReadDescriptors(op) => running.descriptors(op),
@@ -207,13 +207,13 @@ impl Responder for Cnc {
 }
 
 /// The CNC while it answers.
-struct Running<'a> {
+struct AnsweringCnc<'a> {
     model: &'a Model,
-    state: MutexGuard<'a, State>,
+    state: MutexGuard<'a, CncState>,
     now: Duration,
 }
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     fn channel(&self, at: Channel) -> Result<usize, AdsError> {
         self.state.channel(self.model, at.addressing(), at.number())
     }

@@ -5,11 +5,12 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject, WriteObject};
 use ads_cnc::{ContentRef, Descriptors, DescriptorsRef, ObjectCount};
 
-use super::{ReplyData, Running, encode};
-use crate::simulator::content::{self, Owner};
+use super::{AnsweringCnc, ReplyData, encode};
+use crate::simulator::content;
+use crate::simulator::owner::Owner;
 use crate::simulator::{to_len, to_u32};
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     pub(super) fn count_objects(&self, op: &CountObjects) -> ReplyData {
         encode(ObjectCount(to_u32(self.objects(op.list)?.len())))
     }

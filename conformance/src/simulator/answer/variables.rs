@@ -17,12 +17,12 @@ use ads_cnc::{
 };
 
 use self::resolve::{Resolved, UNKNOWN, parameter};
-use super::{ReplyData, Running, encode};
-use crate::simulator::content::{check_size, put};
+use super::{AnsweringCnc, ReplyData, encode};
+use crate::simulator::content::{check_size, copy_padded};
 use crate::simulator::model::At;
 use crate::simulator::to_u32;
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     pub(super) fn count_variables(&self, op: &CountVariables<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         self.permit(Function::CountVariables, op.kind)?;
@@ -211,7 +211,10 @@ impl Running<'_> {
             }
         };
         // Where no axis is there is nothing to be written.
-        put(value.and_then(|value| value.get_mut(part)).ok_or(AdsError::INVALID_DATA)?, bytes);
+        copy_padded(
+            value.and_then(|value| value.get_mut(part)).ok_or(AdsError::INVALID_DATA)?,
+            bytes,
+        );
         Ok(Vec::new())
     }
 }

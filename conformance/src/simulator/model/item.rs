@@ -36,11 +36,11 @@ pub(in crate::simulator) enum Meaning {
 pub(in crate::simulator) struct Initial {
     /// Bytes of each.
     pub(in crate::simulator) size: usize,
-    pub(super) values: Values,
+    pub(super) values: InitialValues,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Values {
+pub(super) enum InitialValues {
     /// One for all instances.
     Same(Vec<u8>),
     /// One for each; zeros for those behind.
@@ -51,8 +51,8 @@ impl Initial {
     /// The value of an instance, from 0.
     pub(in crate::simulator) fn of(&self, instance: usize) -> Vec<u8> {
         match &self.values {
-            Values::Same(value) => value.clone(),
-            Values::Each(values) => {
+            InitialValues::Same(value) => value.clone(),
+            InitialValues::Each(values) => {
                 values.get(instance).cloned().unwrap_or_else(|| vec![0; self.size])
             }
         }

@@ -7,12 +7,12 @@ use toml::Value;
 #[derive(Debug)]
 pub(super) struct NamedType {
     pub(super) name: &'static str,
-    pub(super) scalar: Scalar,
+    pub(super) scalar: ScalarType,
 }
 
 /// How a value is made bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scalar {
+pub(super) enum ScalarType {
     Boolean,
     Unsigned(usize),
     Signed(usize),
@@ -22,7 +22,7 @@ pub(super) enum Scalar {
     String,
 }
 
-impl Scalar {
+impl ScalarType {
     /// Bytes of one value; none for a STRING.
     pub(super) const fn size(self) -> Option<usize> {
         match self {
@@ -35,51 +35,51 @@ impl Scalar {
     }
 }
 
-const fn named(name: &'static str, scalar: Scalar) -> NamedType {
+const fn named(name: &'static str, scalar: ScalarType) -> NamedType {
     NamedType { name, scalar }
 }
 
 /// Of variables (VAR-5).
 pub(super) const VARIABLE: &[NamedType] = &[
-    named("BOOLEAN", Scalar::Boolean),
-    named("SGN08", Scalar::Signed(1)),
-    named("UNS08", Scalar::Unsigned(1)),
-    named("SGN16", Scalar::Signed(2)),
-    named("UNS16", Scalar::Unsigned(2)),
-    named("SGN32", Scalar::Signed(4)),
-    named("UNS32", Scalar::Unsigned(4)),
-    named("REAL64", Scalar::Real64),
-    named("STRING", Scalar::String),
+    named("BOOLEAN", ScalarType::Boolean),
+    named("SGN08", ScalarType::Signed(1)),
+    named("UNS08", ScalarType::Unsigned(1)),
+    named("SGN16", ScalarType::Signed(2)),
+    named("UNS16", ScalarType::Unsigned(2)),
+    named("SGN32", ScalarType::Signed(4)),
+    named("UNS32", ScalarType::Unsigned(4)),
+    named("REAL64", ScalarType::Real64),
+    named("STRING", ScalarType::String),
 ];
 
 /// Of elements (SDA-7).
 pub(super) const ELEMENT: &[NamedType] = &[
-    named("BOOLEAN", Scalar::Boolean),
-    named("SGN08", Scalar::Signed(1)),
-    named("UNS08", Scalar::Unsigned(1)),
-    named("SGN16", Scalar::Signed(2)),
-    named("UNS16", Scalar::Unsigned(2)),
-    named("SGN32", Scalar::Signed(4)),
-    named("UNS32", Scalar::Unsigned(4)),
-    named("REAL32", Scalar::Real32),
-    named("REAL64", Scalar::Real64),
-    named("STRING", Scalar::String),
+    named("BOOLEAN", ScalarType::Boolean),
+    named("SGN08", ScalarType::Signed(1)),
+    named("UNS08", ScalarType::Unsigned(1)),
+    named("SGN16", ScalarType::Signed(2)),
+    named("UNS16", ScalarType::Unsigned(2)),
+    named("SGN32", ScalarType::Signed(4)),
+    named("UNS32", ScalarType::Unsigned(4)),
+    named("REAL32", ScalarType::Real32),
+    named("REAL64", ScalarType::Real64),
+    named("STRING", ScalarType::String),
 ];
 
 /// Of COM objects (GEN-5).
 pub(super) const OBJECT: &[NamedType] = &[
-    named("BOOL", Scalar::Boolean),
-    named("BYTE", Scalar::Unsigned(1)),
-    named("SINT", Scalar::Signed(1)),
-    named("WORD", Scalar::Unsigned(2)),
-    named("INT", Scalar::Signed(2)),
-    named("DWORD", Scalar::Unsigned(4)),
-    named("DINT", Scalar::Signed(4)),
-    named("REAL", Scalar::Real32),
-    named("LWORD", Scalar::Unsigned(8)),
-    named("LINT", Scalar::Signed(8)),
-    named("LREAL", Scalar::Real64),
-    named("STRING", Scalar::String),
+    named("BOOL", ScalarType::Boolean),
+    named("BYTE", ScalarType::Unsigned(1)),
+    named("SINT", ScalarType::Signed(1)),
+    named("WORD", ScalarType::Unsigned(2)),
+    named("INT", ScalarType::Signed(2)),
+    named("DWORD", ScalarType::Unsigned(4)),
+    named("DINT", ScalarType::Signed(4)),
+    named("REAL", ScalarType::Real32),
+    named("LWORD", ScalarType::Unsigned(8)),
+    named("LINT", ScalarType::Signed(8)),
+    named("LREAL", ScalarType::Real64),
+    named("STRING", ScalarType::String),
 ];
 
 pub(super) fn find(types: &'static [NamedType], name: &str) -> Result<&'static NamedType, String> {
@@ -97,7 +97,7 @@ pub(super) fn code(name: &str) -> VariableType {
 
 /// The bytes of one value of a type, or of an array of so many, of `size` bytes each.
 pub(super) fn bytes(
-    scalar: Scalar,
+    scalar: ScalarType,
     size: usize,
     count: Option<usize>,
     value: &Value,
@@ -123,29 +123,29 @@ fn flatten<'a>(value: &'a Value, into: &mut Vec<&'a Value>) {
     }
 }
 
-fn one(scalar: Scalar, size: usize, value: &Value) -> Result<Vec<u8>, String> {
+fn one(scalar: ScalarType, size: usize, value: &Value) -> Result<Vec<u8>, String> {
     match (scalar, value) {
-        (Scalar::Boolean, Value::Boolean(value)) => Ok(vec![u8::from(*value)]),
-        (Scalar::Boolean, Value::Integer(number)) => integer(*number, 0, 1, 1),
-        (Scalar::Unsigned(size), Value::Integer(number)) => {
+        (ScalarType::Boolean, Value::Boolean(value)) => Ok(vec![u8::from(*value)]),
+        (ScalarType::Boolean, Value::Integer(number)) => integer(*number, 0, 1, 1),
+        (ScalarType::Unsigned(size), Value::Integer(number)) => {
             integer(*number, 0, unsigned_max(size), size)
         }
-        (Scalar::Signed(size), Value::Integer(number)) => {
+        (ScalarType::Signed(size), Value::Integer(number)) => {
             // One bit less, for the sign.
             let max = unsigned_max(size) >> u32::from(size < 8);
             integer(*number, max.saturating_neg().saturating_sub(1), max, size)
         }
-        (Scalar::Real64, Value::Float(number)) => Ok(number.to_le_bytes().to_vec()),
-        (Scalar::Real64, Value::Integer(number)) => {
+        (ScalarType::Real64, Value::Float(number)) => Ok(number.to_le_bytes().to_vec()),
+        (ScalarType::Real64, Value::Integer(number)) => {
             parsed::<f64>(number).map(|n| n.to_le_bytes().to_vec())
         }
-        (Scalar::Real32, Value::Float(number)) => {
+        (ScalarType::Real32, Value::Float(number)) => {
             parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
         }
-        (Scalar::Real32, Value::Integer(number)) => {
+        (ScalarType::Real32, Value::Integer(number)) => {
             parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
         }
-        (Scalar::String, Value::String(text)) => string(text, size),
+        (ScalarType::String, Value::String(text)) => string(text, size),
         (_, value) => Err(format!("a {} is no value of this type", value.type_str())),
     }
 }

@@ -93,7 +93,7 @@ pub(in crate::simulator) fn handle_at(of_axis: Handle, channel: u8, place: u8) -
 
 #[cfg(test)]
 mod tests {
-    use super::super::item::Values;
+    use super::super::item::InitialValues;
     use super::*;
 
     fn cube() -> Variable {
@@ -103,7 +103,7 @@ mod tests {
             var_type: VariableType::SGN16,
             access: VariableAccess::READ_ONLY,
             dimensions: vec![2, 3, 4],
-            initial: Initial { size: 48, values: Values::Same(vec![0; 48]) },
+            initial: Initial { size: 48, values: InitialValues::Same(vec![0; 48]) },
             extended: None,
             service: None,
         }

@@ -5,17 +5,17 @@
 /// ```
 /// use std::time::Duration;
 ///
-/// use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, digest};
+/// use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig, digest};
 ///
 /// let config = ProgramConfig { pace: Pace::Fast, kept: 20, ..ProgramConfig::default() };
-/// let mut program = Program::new(config);
+/// let mut program = StreamingProgram::new(config);
 /// let text = b"N10 X1\r\nN20 X2\r\nN30 X3\r\nN40 X4\r\nN50 X5\r\nN60 X6\r\n";
 /// program.write(text, Duration::ZERO);
 /// let executed = program.executed();
 /// assert_eq!((executed.line_count(), executed.byte_count()), (6, 48));
 /// assert_eq!(executed.digest(), digest(text));
 /// assert!(executed.lines().eq([&b"N40 X4"[..], b"N50 X5", b"N60 X6"]));
-/// assert_eq!(executed.first_kept(), 4);
+/// assert_eq!(executed.first_recent(), 4);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Executed {
@@ -50,12 +50,12 @@ impl Executed {
     }
 
     /// The latest lines, as they came: each with its line end.
-    pub fn kept(&self) -> &[u8] {
+    pub fn recent(&self) -> &[u8] {
         &self.kept
     }
 
     /// Number of the first line that is kept, from 1; one past the last if none is.
-    pub fn first_kept(&self) -> u64 {
+    pub fn first_recent(&self) -> u64 {
         self.lines.saturating_sub(self.kept_lines).saturating_add(1)
     }
 

@@ -1,7 +1,7 @@
 //! NC programs: what runs in a channel, as far as streams and services see it.
 //!
-//! - [`Program`]: the streaming program. It gets its lines through the streaming interface and
-//!   runs them at a settable pace.
+//! - [`StreamingProgram`]: the streaming program. It gets its lines through the streaming interface
+//!   and runs them at a settable pace.
 //! - [`Script`]: a program that asks services through the Service Interface, over and over.
 //! - [`StreamingInterface`], [`service`]: the interfaces themselves, and one request of a program.
 //!
@@ -13,11 +13,11 @@
 //! use std::time::Duration;
 //!
 //! use ads_cnc::streaming::Ack;
-//! use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, State};
+//! use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig, State};
 //!
 //! let at = Duration::from_millis;
 //! let pace = Pace::lines_per_second(10).unwrap();
-//! let mut program = Program::new(ProgramConfig { pace, ..ProgramConfig::default() });
+//! let mut program = StreamingProgram::new(ProgramConfig { pace, ..ProgramConfig::default() });
 //! assert_eq!(program.write(b"N10 G01 X20\r\nN20 $GOTO N10\r\nN10: X2\r\n", at(0)), Ack::Accepted);
 //! program.advance(at(250));
 //! assert_eq!(program.executed().line_count(), 2);
@@ -45,8 +45,8 @@ pub(crate) use executed::lines;
 pub use executed::{Executed, digest};
 pub use interface::StreamingInterface;
 pub use pace::{Pace, ParsePaceError};
-pub(crate) use policy::{Buffer, Event, Policy};
-pub use script::{Repeat, Request, Script, ScriptConfig, ScriptError, ScriptState, Wait};
-pub(crate) use segment::Segment;
+pub(crate) use policy::{Buffer, Policy, ProgramEvent};
+pub use script::{Repeat, Script, ScriptConfig, ScriptError, ScriptState, ServiceRequest, Wait};
+pub(crate) use segment::ProgramSegment;
 pub use state::{Message, StartError, State};
-pub use stream::{Program, ProgramConfig, Start, result};
+pub use stream::{ProgramConfig, Start, StreamingProgram, result};

@@ -82,13 +82,13 @@ impl std::fmt::Display for Pace {
 
 /// When a line is done. Counts from a start, so that no rounding adds up.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Clock {
+pub(super) struct LineClock {
     since: Duration,
     /// Lines or bytes since then.
     units: u64,
 }
 
-impl Clock {
+impl LineClock {
     /// Begins with a line now.
     pub(super) fn begin(now: Duration) -> Self {
         Self { since: now, units: 0 }

@@ -5,7 +5,7 @@ use std::fmt;
 use ads_cnc::streaming::{Ack, Checker, LINE_END_ERROR, LineError};
 
 use super::interface::StreamingInterface;
-use super::segment::Segment;
+use super::segment::ProgramSegment;
 
 /// How NC programs go about.
 #[derive(Clone, Copy, Debug)]
@@ -13,13 +13,13 @@ pub(crate) struct Policy {
     /// A new streaming interface.
     pub(crate) buffer: fn() -> Box<dyn Buffer>,
     /// Checks lines that were read at once.
-    pub(crate) segment: fn(&mut Checker, &[u8]) -> Segment,
+    pub(crate) segment: fn(&mut Checker, &[u8]) -> ProgramSegment,
     /// What starts the streaming program besides a start.
-    pub(crate) starts: &'static [Event],
+    pub(crate) starts: &'static [ProgramEvent],
     /// What ends it besides a program end.
-    pub(crate) ends: &'static [Event],
+    pub(crate) ends: &'static [ProgramEvent],
     /// What empties the interface.
-    pub(crate) clears: &'static [Event],
+    pub(crate) clears: &'static [ProgramEvent],
     /// Number of the error of a line without CR LF.
     pub(crate) line_end_error: u32,
     /// Whether a script writes the request state before anything else, too.
@@ -32,7 +32,7 @@ pub(crate) struct Policy {
 
 /// What happens to a streaming program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Event {
+pub(crate) enum ProgramEvent {
     /// The channel is set up.
     PowerOn,
     Start,
@@ -46,10 +46,10 @@ impl Policy {
     /// As the manuals have it.
     pub(crate) const DEFAULT: Self = Self {
         buffer: || Box::new(StreamingInterface::new()),
-        segment: Segment::new,
+        segment: ProgramSegment::new,
         starts: &[],
-        ends: &[Event::Reset],
-        clears: &[Event::Reset],
+        ends: &[ProgramEvent::Reset],
+        clears: &[ProgramEvent::Reset],
         line_end_error: LINE_END_ERROR,
         state_first: false,
         awaits_response: true,

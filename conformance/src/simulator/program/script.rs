@@ -14,7 +14,7 @@ use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServ
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScriptConfig {
     /// The requests, in their order; a program without any has nothing to do.
-    pub requests: Vec<Request>,
+    pub requests: Vec<ServiceRequest>,
     /// How often all of them are made.
     pub repeat: Repeat,
     /// How long the program waits between two requests.
@@ -25,7 +25,7 @@ pub struct ScriptConfig {
 
 /// A request to a service: `V.G.SERVICE.UUID`, `.REQUEST` and `.REQUEST_STATE`, and the wait.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Request {
+pub struct ServiceRequest {
     pub uuid: ServiceId,
     /// What it is asked.
     pub text: CncString,
@@ -74,7 +74,7 @@ impl ScriptConfig {
         let uuid = ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?;
         let request = |text| {
             let text = CncString::from(CncStr::new(text)?);
-            Ok(Request { uuid, text, state: 1, wait: Wait::Loop })
+            Ok(ServiceRequest { uuid, text, state: 1, wait: Wait::Loop })
         };
         Ok(Self {
             requests: vec![request("3")?, request("-3")?],
@@ -325,7 +325,7 @@ impl Script {
 
 const NANOSECOND: Duration = Duration::from_nanos(1);
 
-impl Request {
+impl ServiceRequest {
     fn call(&self) -> Result<ServiceCall, CallError> {
         let wait = match self.wait {
             Wait::Loop => SysServiceWait::default(),

@@ -6,7 +6,7 @@ use super::executed::lines;
 
 /// Lines that were read together, and where they stop being run.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Segment {
+pub(crate) struct ProgramSegment {
     lines: Vec<u8>,
     at: usize,
     /// Number of the next line in the program, from 1.
@@ -30,7 +30,7 @@ pub(super) enum Next<'a> {
     Nothing,
 }
 
-impl Segment {
+impl ProgramSegment {
     /// Lines that this checker has not seen yet.
     pub(crate) fn new(checker: &mut Checker, read: &[u8]) -> Self {
         let number = checker.lines().saturating_add(1);

@@ -6,9 +6,9 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::streaming::{Ack, Checker};
 
 use super::executed::Executed;
-use super::pace::{Clock, Pace};
-use super::policy::{Buffer, Event, Policy};
-use super::segment::{Next, Segment};
+use super::pace::{LineClock, Pace};
+use super::policy::{Buffer, Policy, ProgramEvent};
+use super::segment::{Next, ProgramSegment};
 use super::state::{Message, StartError, State};
 
 /// How a channel is set up for streaming.
@@ -29,7 +29,7 @@ pub struct ProgramConfig {
 /// When a streaming program is started (STM-14). Nothing that starts one is documented for ADS.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// By [`Program::start`].
+    /// By [`StreamingProgram::start`].
     ByHand,
     /// At the beginning, once.
     #[default]
@@ -71,26 +71,26 @@ impl Default for ProgramConfig {
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3, 3 and 4.
 #[derive(Debug)]
-pub struct Program {
+pub struct StreamingProgram {
     config: ProgramConfig,
     policy: Policy,
     interface: Box<dyn Buffer>,
     checker: Checker,
-    phase: Phase,
-    clock: Clock,
+    phase: ProgramPhase,
+    clock: LineClock,
     now: Duration,
     executed: Executed,
     refusals: u64,
 }
 
 #[derive(Debug)]
-enum Phase {
-    Started(Segment),
+enum ProgramPhase {
+    Started(ProgramSegment),
     /// As the state says.
     Over(State),
 }
 
-impl Program {
+impl StreamingProgram {
     /// A channel that was switched on.
     pub fn new(config: ProgramConfig) -> Self {
         Self::with_policy(config, Policy::DEFAULT)
@@ -102,14 +102,14 @@ impl Program {
             policy,
             interface: (policy.buffer)(),
             checker: Checker::new(),
-            phase: Phase::Over(State::Stopped),
-            clock: Clock::default(),
+            phase: ProgramPhase::Over(State::Stopped),
+            clock: LineClock::default(),
             now: Duration::ZERO,
             executed: Executed::new(config.kept),
             refusals: 0,
             config,
         };
-        let starts = policy.starts.contains(&Event::PowerOn);
+        let starts = policy.starts.contains(&ProgramEvent::PowerOn);
         if (starts || program.config.start != Start::ByHand) && !program.config.name.is_empty() {
             program.begin();
         }
@@ -123,7 +123,7 @@ impl Program {
         let ack = self.interface.write(data);
         match ack {
             Ack::Accepted if was_dry => {
-                self.clock = Clock::begin(self.now);
+                self.clock = LineClock::begin(self.now);
                 self.run();
             }
             Ack::Busy => self.refusals = self.refusals.saturating_add(1),
@@ -149,13 +149,13 @@ impl Program {
             return Err(StartError::NoName);
         }
         match &self.phase {
-            Phase::Started(_) => return Err(StartError::Running),
-            Phase::Over(State::Aborted(_)) => return Err(StartError::Aborted),
-            Phase::Over(_) => {}
+            ProgramPhase::Started(_) => return Err(StartError::Running),
+            ProgramPhase::Over(State::Aborted(_)) => return Err(StartError::Aborted),
+            ProgramPhase::Over(_) => {}
         }
-        self.clear_at(Event::Start);
+        self.clear_at(ProgramEvent::Start);
         self.begin();
-        self.clock = Clock::begin(self.now);
+        self.clock = LineClock::begin(self.now);
         self.run();
         Ok(())
     }
@@ -164,16 +164,16 @@ impl Program {
     /// still be read back.
     pub fn reset(&mut self, now: Duration) {
         self.advance(now);
-        self.clear_at(Event::Reset);
-        if self.policy.ends.contains(&Event::Reset) {
-            self.phase = Phase::Over(State::Stopped);
+        self.clear_at(ProgramEvent::Reset);
+        if self.policy.ends.contains(&ProgramEvent::Reset) {
+            self.phase = ProgramPhase::Over(State::Stopped);
         }
-        if self.policy.starts.contains(&Event::Reset) {
+        if self.policy.starts.contains(&ProgramEvent::Reset) {
             self.begin();
         }
     }
 
-    fn clear_at(&mut self, event: Event) {
+    fn clear_at(&mut self, event: ProgramEvent) {
         if self.policy.clears.contains(&event) {
             self.interface.clear();
         }
@@ -183,21 +183,21 @@ impl Program {
     pub fn set_pace(&mut self, pace: Pace, now: Duration) {
         self.advance(now);
         self.config.pace = pace;
-        self.clock = Clock::begin(self.now);
+        self.clock = LineClock::begin(self.now);
         self.run();
     }
 
     /// Where it stands, as of the last access.
     pub fn state(&self) -> State {
         match &self.phase {
-            Phase::Over(state) => state.clone(),
-            Phase::Started(_) if self.is_dry() => State::Dry,
-            Phase::Started(_) => State::Running,
+            ProgramPhase::Over(state) => state.clone(),
+            ProgramPhase::Started(_) if self.is_dry() => State::Dry,
+            ProgramPhase::Started(_) => State::Running,
         }
     }
 
     fn is_dry(&self) -> bool {
-        let Phase::Started(segment) = &self.phase else { return false };
+        let ProgramPhase::Started(segment) = &self.phase else { return false };
         self.interface.len() == 0 && matches!(segment.next(), Next::Nothing)
     }
 
@@ -212,7 +212,7 @@ impl Program {
     }
 
     /// Bytes that the interface holds, as of the last access.
-    pub fn held(&self) -> usize {
+    pub fn buffered(&self) -> usize {
         self.interface.len()
     }
 
@@ -229,11 +229,11 @@ impl Program {
 
     fn begin(&mut self) {
         self.checker = Checker::new();
-        self.phase = Phase::Started(Segment::default());
+        self.phase = ProgramPhase::Started(ProgramSegment::default());
     }
 
     fn run(&mut self) {
-        while let Phase::Started(segment) = &mut self.phase {
+        while let ProgramPhase::Started(segment) = &mut self.phase {
             match segment.next() {
                 _ if self.config.pace == Pace::Hold => break,
                 Next::Line(line) => {
@@ -245,18 +245,18 @@ impl Program {
                 }
                 Next::Fault(finding) => {
                     let message = Message::of_finding(&self.config.name, &finding);
-                    self.phase = Phase::Over(State::Aborted(message));
+                    self.phase = ProgramPhase::Over(State::Aborted(message));
                 }
                 Next::End(end) => {
-                    self.clear_at(Event::End);
+                    self.clear_at(ProgramEvent::End);
                     match self.config.start {
                         Start::Again => self.begin(),
-                        _ => self.phase = Phase::Over(State::Ended(end)),
+                        _ => self.phase = ProgramPhase::Over(State::Ended(end)),
                     }
                 }
                 Next::Nothing if self.interface.len() == 0 => {
-                    if self.policy.ends.contains(&Event::Dry) && self.checker.lines() > 0 {
-                        self.phase = Phase::Over(State::Stopped);
+                    if self.policy.ends.contains(&ProgramEvent::Dry) && self.checker.lines() > 0 {
+                        self.phase = ProgramPhase::Over(State::Stopped);
                     }
                     break;
                 }
@@ -267,11 +267,11 @@ impl Program {
 
     fn read(&mut self) {
         self.phase = match self.interface.read() {
-            Ok(lines) => Phase::Started((self.policy.segment)(&mut self.checker, &lines)),
+            Ok(lines) => ProgramPhase::Started((self.policy.segment)(&mut self.checker, &lines)),
             Err(error) => {
                 let (number, before) = (self.policy.line_end_error, self.checker.lines());
                 let message = Message::of_line_end(&self.config.name, number, before, &error);
-                Phase::Over(State::Aborted(message))
+                ProgramPhase::Over(State::Aborted(message))
             }
         };
     }

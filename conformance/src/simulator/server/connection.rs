@@ -35,13 +35,13 @@ pub(super) const HELD_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 ///         Ok(())
 ///     })?;
 /// }
-/// assert_eq!((answers.len(), received.held()), (46, 0));
+/// assert_eq!((answers.len(), received.buffered()), (46, 0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct Received {
     bytes: Vec<u8>,
-    held: usize,
+    buffered: usize,
     answers: Vec<u8>,
 }
 
@@ -55,17 +55,21 @@ impl Received {
     /// Nothing yet.
     pub fn new() -> Self {
         // Pages nobody writes to take no memory.
-        Self { bytes: vec![0; RECEIVED_MAX], held: 0, answers: Vec::with_capacity(GATHERED_MAX) }
+        Self {
+            bytes: vec![0; RECEIVED_MAX],
+            buffered: 0,
+            answers: Vec::with_capacity(GATHERED_MAX),
+        }
     }
 
     /// Where the next bytes go; never empty.
     pub fn room(&mut self) -> &mut [u8] {
-        self.bytes.get_mut(self.held..).unwrap_or_default()
+        self.bytes.get_mut(self.buffered..).unwrap_or_default()
     }
 
     /// Bytes of a frame whose rest is awaited.
-    pub const fn held(&self) -> usize {
-        self.held
+    pub const fn buffered(&self) -> usize {
+        self.buffered
     }
 
     /// The most bytes that were ever held, answers included.
@@ -85,9 +89,9 @@ impl Received {
         net_id: AmsNetId,
         mut send: impl FnMut(&[u8]) -> io::Result<()>,
     ) -> io::Result<usize> {
-        self.held = self.held.saturating_add(count).min(self.bytes.len());
-        let held = self.bytes.get(..self.held).unwrap_or_default();
-        let mut rest = held;
+        self.buffered = self.buffered.saturating_add(count).min(self.bytes.len());
+        let buffered = self.bytes.get(..self.buffered).unwrap_or_default();
+        let mut rest = buffered;
         let broken = loop {
             match split(rest) {
                 Ok(Some((frame, len))) => {
@@ -108,10 +112,10 @@ impl Received {
             self.answers.clear();
         }
         broken?;
-        let answered = held.len().saturating_sub(rest.len());
+        let answered = buffered.len().saturating_sub(rest.len());
         if answered > 0 {
-            self.bytes.copy_within(answered..self.held, 0);
-            self.held = self.held.saturating_sub(answered);
+            self.bytes.copy_within(answered..self.buffered, 0);
+            self.buffered = self.buffered.saturating_sub(answered);
         }
         Ok(answered)
     }
@@ -129,10 +133,10 @@ pub(super) fn serve(
     limit.set(stream)?;
     loop {
         let count = match stream.read(received.room()) {
-            Ok(0) if received.held() == 0 => return Ok(()),
+            Ok(0) if received.buffered() == 0 => return Ok(()),
             Ok(0) => {
-                let held = received.held();
-                return Err(io::Error::other(format!("closed {held} bytes into a frame")));
+                let buffered = received.buffered();
+                return Err(io::Error::other(format!("closed {buffered} bytes into a frame")));
             }
             Ok(count) => count,
             Err(error) => match error.kind() {
@@ -144,7 +148,7 @@ pub(super) fn serve(
         let answered =
             received.take(count, cnc, options.net_id, |answers| send(cnc, stream, answers))?;
         if answered > 0 {
-            limit.asked(received.held() > 0);
+            limit.request_received(received.buffered() > 0);
         } else {
             limit.received();
         }
@@ -190,7 +194,7 @@ impl<'a> Limit<'a> {
     }
 
     /// Frames were whole; a part of another has come with them, or not.
-    fn asked(&mut self, part: bool) {
+    fn request_received(&mut self, part: bool) {
         self.awaited = Awaited::Next;
         if part {
             (self.awaited, self.since) = (Awaited::Rest, Instant::now());
@@ -201,7 +205,7 @@ impl<'a> Limit<'a> {
     /// time runs on.
     fn received(&mut self) {
         if self.awaited == Awaited::Next {
-            self.asked(true);
+            self.request_received(true);
         }
     }
 

@@ -15,7 +15,7 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 3] = [
         CountObjects::new(channel).into(),
-        WriteByName::new(channel, "V.E.nobody_has_this", &[0; 4])?.into(),
+        WriteByName::new(channel, "V.E.nobody_has_this", &[0; 4][..])?.into(),
         CountVariables::new(channel, Kind::V_E).into(),
     ];
     for request in requests {

@@ -7,7 +7,7 @@ use ads_cnc::address::{
 
 use crate::judge::{IfThere as _, Rule, Step, assumed};
 use crate::objects::{Object, ValueAddress};
-use crate::simulator::{Held, Holder};
+use crate::simulator::{Holder, StoredContent};
 use crate::suite::kit::{Instance, Probe};
 
 /// What a target says itself of where things are, where no manual does.
@@ -25,7 +25,7 @@ fn rules(ids: &[&'static str]) -> Vec<Rule> {
     ids.iter().map(|&id| Rule::from(id)).collect()
 }
 
-fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<ValueAddress> {
+fn object(held: &StoredContent, group: IndexGroup, offset: IndexOffset) -> Step<ValueAddress> {
     let size = u32::try_from(held.value.len())?;
     Ok(ValueAddress::Object { group, offset, size })
 }
@@ -35,7 +35,7 @@ fn com(addressing: Addressing, table: ComTable, instance: u8) -> IndexGroup {
 }
 
 fn element(
-    held: &Held,
+    held: &StoredContent,
     (addressing, class, instance): (Addressing, Class, u8),
     offset: IndexOffset,
 ) -> Step<ValueAddress> {
@@ -55,7 +55,7 @@ impl Addresses {
     }
 
     /// Each address of a content that a manual prints or the target says.
-    pub(crate) fn of(&self, held: &Held) -> Step<Vec<JudgedAddress>> {
+    pub(crate) fn of(&self, held: &StoredContent) -> Step<Vec<JudgedAddress>> {
         use Addressing::{Index, Logical};
         let at = |stride, axis: u8| -> Step<IndexOffset> {
             Ok(IndexOffset::for_axis(stride, axis.into(), held.element)?)
@@ -140,7 +140,7 @@ impl Addresses {
     }
 
     /// The element that a content is, if it is one, at its first address.
-    pub(crate) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
+    pub(crate) fn element(&self, held: &StoredContent) -> Step<Option<ElementAddress>> {
         let first = self.of(held)?.into_iter().next();
         Ok(first.and_then(|(place, _)| match place {
             ValueAddress::Element { element, .. } => Some(element),
@@ -170,7 +170,7 @@ impl Addresses {
     }
 
     /// How many elements the target says that there are where this one is.
-    pub(crate) fn count(&self, held: &Held) -> Option<u32> {
+    pub(crate) fn count(&self, held: &StoredContent) -> Option<u32> {
         let found = match held.holder {
             Holder::OfChannel { class, channel } => self.instance(class, channel, 0),
             Holder::OfAxis { class, axis } => self.instance(class, 0, axis),
@@ -192,7 +192,7 @@ impl Addresses {
     }
 }
 
-fn plus(first: IndexOffset, held: &Held) -> Step<IndexOffset> {
+fn plus(first: IndexOffset, held: &StoredContent) -> Step<IndexOffset> {
     Ok(IndexOffset::new(first.get().saturating_add(held.element)))
 }
 

@@ -12,7 +12,7 @@ use ads_cnc::operation::{Function, Request};
 use ads_cnc_vectors::Level;
 
 use crate::deadline::Deadline;
-use crate::exchange::{Exchange, Fault, Violation};
+use crate::exchange::{Exchange, ExchangeError, Violation};
 use crate::gate::Reason;
 use crate::judge::{
     Checks, Describe, Evidence, Judgement, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict,
@@ -210,7 +210,7 @@ impl<'s> Probe<'s> {
 
     /// Whether there is a target left.
     pub(crate) fn target(&mut self) -> Step {
-        if interrupt::came() {
+        if interrupt::is_requested() {
             self.interrupted = true;
             return Err(Stop::Interrupted);
         }
@@ -229,15 +229,17 @@ impl<'s> Probe<'s> {
     /// What came of a request.
     pub(crate) fn came(
         &mut self,
-        fault: Option<&Fault>,
+        fault: Option<&ExchangeError>,
         violations: &[Violation],
         what: &impl Display,
         evidence: Evidence,
     ) -> Step {
         let state = &mut *self.target;
         match fault {
-            Some(Fault::Refused(why)) => return Err(Stop::Refused(format!("{what}: {why}"))),
-            Some(Fault::Gone(why)) => {
+            Some(ExchangeError::Refused(why)) => {
+                return Err(Stop::Refused(format!("{what}: {why}")));
+            }
+            Some(ExchangeError::Disconnected(why)) => {
                 state.gone = Some(why.clone());
                 return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
             }
@@ -332,7 +334,9 @@ impl Checks for Probe<'_> {
 /// that later answers prove nothing: the case is inconclusive.
 pub(crate) fn heard(exchange: Exchange) -> Step<Exchange> {
     match &exchange.outcome {
-        Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
+        Err(fault @ ExchangeError::Silence(_)) => {
+            Err(Stop::Inconclusive(format!("{exchange}: {fault}")))
+        }
         _ => Ok(exchange),
     }
 }

@@ -15,7 +15,7 @@ use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescrip
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use crate::exchange::{Exchange, Fault};
+use crate::exchange::{Exchange, ExchangeError};
 use crate::gate::Entry;
 use crate::judge::{LeftChanged, Step, Stop};
 use crate::objects::ValueAddress;
@@ -237,13 +237,14 @@ impl Probe<'_> {
             change.address.write(&change.was).ok().and_then(|write| probe.insist(write))
         };
         let mut sent = send(self, change);
-        if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_)))) {
+        if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::Refused(_))))
+        {
             // On another connection the gate knows of no handle and of no list of objects.
             self.ask_again(change);
             sent = send(self, change);
         }
         change.refused = match sent.as_ref().map(|sent| &sent.outcome) {
-            Some(Err(Fault::Refused(why))) => Some(why.to_string()),
+            Some(Err(ExchangeError::Refused(why))) => Some(why.to_string()),
             _ => None,
         };
         sent.is_some_and(|sent| sent.success().is_some())

@@ -11,7 +11,7 @@ pub use streaming::{StreamActor, play as play_stream, take};
 
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
-use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
+use crate::judge::{Body, Case, CaseSubject, Needs, Step, Stop};
 use crate::suite::kit::Probe;
 
 /// What a client or a service does, which the suite itself is here.
@@ -26,7 +26,7 @@ pub(super) fn cases() -> Vec<Case> {
         Case {
             id: format!("seq-{}", sequence.id),
             title: sequence.title.clone(),
-            subject: Subject::Target,
+            subject: CaseSubject::Target,
             requirements: ids.filter(|id| !NOT_THE_TARGETS.contains(id)).collect(),
             needs: Needs::Simulator,
             body: Body::Sequence(sequence),

@@ -10,14 +10,16 @@ use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use super::{Done, Fault, differs, lacks};
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
-use crate::simulator::program::{Repeat, Request, Script, ScriptConfig, ServiceOutcome, Wait};
+use crate::simulator::program::{
+    Repeat, Script, ScriptConfig, ServiceOutcome, ServiceRequest, Wait,
+};
 
 /// The interfaces of a CNC's channels, by number, and the program that asks.
 pub trait ServiceActor {
     type Program: Asking;
 
     /// The program with one request.
-    fn ask(&self, request: Request) -> Result<Self::Program, CallError>;
+    fn ask(&self, request: ServiceRequest) -> Result<Self::Program, CallError>;
 
     /// The value of a variable: of a text without what fills it up.
     fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>>;
@@ -238,7 +240,7 @@ fn channel(step: &ServiceStep) -> u32 {
     step.channel.unwrap_or(1)
 }
 
-fn request(step: &ServiceStep) -> Done<Result<Request, CallError>> {
+fn request(step: &ServiceStep) -> Done<Result<ServiceRequest, CallError>> {
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value)).transpose();
     let wait = match &step.wait {
         None => Wait::Loop,
@@ -253,13 +255,13 @@ fn request(step: &ServiceStep) -> Done<Result<Request, CallError>> {
     let asked = CncStr::from_bytes(&asked).map(CncString::from);
     let uuid = ServiceId::new(step.uuid.as_deref().ok_or_else(|| lacks("UUID"))?);
     Ok(match (uuid, asked) {
-        (Ok(uuid), Ok(text)) => Ok(Request { uuid, text, state, wait }),
+        (Ok(uuid), Ok(text)) => Ok(ServiceRequest { uuid, text, state, wait }),
         (Err(error), _) | (_, Err(error)) => Err(error.into()),
     })
 }
 
 /// A script of one request.
-pub fn script(request: Request) -> Result<Script, CallError> {
+pub fn script(request: ServiceRequest) -> Result<Script, CallError> {
     let config = ScriptConfig {
         requests: vec![request],
         repeat: Repeat::Times(1),

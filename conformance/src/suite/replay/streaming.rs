@@ -6,7 +6,7 @@ use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sende
 use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
 use super::{Done, Fault, differs, lacks};
-use crate::simulator::program::{Message, Pace, Program, State};
+use crate::simulator::program::{Message, Pace, State, StreamingProgram};
 
 /// A CNC that a program is streamed to.
 pub trait StreamActor {
@@ -96,7 +96,11 @@ fn write(
 }
 
 /// Lets the decoder run for no time at all, in which it reads and runs what is there.
-pub fn take(program: &mut Program, step: &StreamStep, now: Duration) -> Done<Option<&'static str>> {
+pub fn take(
+    program: &mut StreamingProgram,
+    step: &StreamStep,
+    now: Duration,
+) -> Done<Option<&'static str>> {
     if !matches!(program.state(), State::Running | State::Dry) {
         return Ok(Some("not-started"));
     }
@@ -104,7 +108,7 @@ pub fn take(program: &mut Program, step: &StreamStep, now: Duration) -> Done<Opt
     program.forget_executed();
     program.set_pace(Pace::Fast, now);
     program.set_pace(Pace::Hold, now);
-    let executed = program.executed().kept();
+    let executed = program.executed().recent();
     let Some(behind) = stated.strip_prefix(executed) else { return Ok(Some("outcome")) };
     match program.state() {
         State::Aborted(Message { number, line, column, text, .. }) => {

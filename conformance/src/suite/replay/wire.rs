@@ -16,7 +16,9 @@ use super::{Done, Fault, differs, service, streaming};
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, ServiceInterface};
-use crate::simulator::program::{Pace, Program, ProgramConfig, Request, Script, Start};
+use crate::simulator::program::{
+    Pace, ProgramConfig, Script, ServiceRequest, Start, StreamingProgram,
+};
 use crate::suite::kit::{
     HELD_MAX, Probe, StreamWrite, heard, send, send_until_taken, service_channels,
 };
@@ -59,7 +61,7 @@ impl ServicePlayer<'_, '_> {
 impl ServiceActor for ServicePlayer<'_, '_> {
     type Program = Script;
 
-    fn ask(&self, request: Request) -> Result<Script, CallError> {
+    fn ask(&self, request: ServiceRequest) -> Result<Script, CallError> {
         Ok(self.cnc.as_run(script(request)?))
     }
 
@@ -125,7 +127,7 @@ struct StreamPlayer<'s, 'p> {
 }
 
 impl StreamPlayer<'_, '_> {
-    fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
+    fn with<T>(&self, then: impl FnOnce(&mut StreamingProgram) -> T) -> Done<T> {
         Ok(self.cnc.with_program(self.channel.number(), then)?)
     }
 
@@ -156,7 +158,7 @@ impl StreamActor for StreamPlayer<'_, '_> {
     }
 
     fn held(&mut self) -> Done<usize> {
-        self.with(|program| program.held())
+        self.with(|program| program.buffered())
     }
 
     /// Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what

@@ -100,7 +100,7 @@ const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let may = |probe: &mut Probe<'_>, channel: Channel| -> Step<bool> {
-        probe.may(WriteByName::new(channel, Response.name(), b"\0")?)
+        probe.may(WriteByName::new(channel, Response.name(), &b"\0"[..])?)
     };
     for channel in service_channels(probe)? {
         if !may(probe, channel)? {

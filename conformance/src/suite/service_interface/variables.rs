@@ -106,7 +106,8 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             probe.check("SVC-1", same, expected, || Hex(by_handle));
             // And the other way round.
             if variable == Response {
-                let write = WriteByHandle::new(channel, handle, U32List::EMPTY, b"by handle\0");
+                let write =
+                    WriteByHandle::new(channel, handle, U32List::EMPTY, &b"by handle\0"[..]);
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
                 let same = until_nul(&read) == b"by handle";

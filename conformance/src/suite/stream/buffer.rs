@@ -9,7 +9,7 @@ use ads_cnc::streaming::Ack;
 use super::comment;
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
-use crate::simulator::program::{Pace, Program, ProgramConfig, Start, State};
+use crate::simulator::program::{Pace, ProgramConfig, Start, State, StreamingProgram};
 use crate::suite::kit::{HELD_MAX, Probe, StreamWrite, send, send_until_taken};
 
 /// Sets the streaming program of the first channel up, does something with it, and leaves it as it
@@ -52,7 +52,7 @@ pub(super) struct StreamProgram<'c> {
 }
 
 impl StreamProgram<'_> {
-    pub(super) fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Step<T> {
+    pub(super) fn with<T>(&self, then: impl FnOnce(&mut StreamingProgram) -> T) -> Step<T> {
         Ok(self.cnc.with_program(self.number, then)?)
     }
 
@@ -61,11 +61,11 @@ impl StreamProgram<'_> {
     }
 
     pub(super) fn held(&self) -> Step<usize> {
-        self.with(|program| program.held())
+        self.with(|program| program.buffered())
     }
 
     pub(super) fn executed(&self) -> Step<Vec<u8>> {
-        self.with(|program| program.executed().kept().to_vec())
+        self.with(|program| program.executed().recent().to_vec())
     }
 
     pub(super) fn state(&self) -> Step<State> {

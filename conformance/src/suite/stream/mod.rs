@@ -135,7 +135,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
         if begun.elapsed().max(waited) > patience {
             let room = match &probe.target.cnc {
                 Some(cnc) => {
-                    let held = cnc.with_program(channel.number(), |program| program.held());
+                    let held = cnc.with_program(channel.number(), |program| program.buffered());
                     held?.saturating_add(data.len()) <= HELD_MAX
                 }
                 None => false,

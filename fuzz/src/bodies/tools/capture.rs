@@ -1,7 +1,7 @@
 //! Captured traffic: files of anything, and conversations that came in pieces.
 
 use ads_cnc_conformance::capture::{
-    Collector, End, FileError, Options, Piece, Ports, check as judge, frames,
+    CaptureOptions, CapturePiece, Collector, FileEnd, FileError, Ports, check as judge, frames,
 };
 
 use super::Input;
@@ -28,14 +28,18 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     }
 }
 
-fn read(file: &[u8], ports: Ports, defect: Defect) -> (Result<End, FileError>, Vec<Piece>) {
+fn read(
+    file: &[u8],
+    ports: Ports,
+    defect: Defect,
+) -> (Result<FileEnd, FileError>, Vec<CapturePiece>) {
     let mut pieces = Vec::new();
     let mut end = frames(file, ports, |piece| pieces.push(piece));
     if let (true, Ok(end)) = (defect.is(4), &mut end) {
-        *end = End::Whole;
+        *end = FileEnd::Whole;
     }
     if defect.is(3) {
-        pieces.retain(|piece| matches!(piece, Piece::Frame { .. }));
+        pieces.retain(|piece| matches!(piece, CapturePiece::Frame { .. }));
     }
     (end, pieces)
 }
@@ -43,19 +47,20 @@ fn read(file: &[u8], ports: Ports, defect: Defect) -> (Result<End, FileError>, V
 /// Any file: it is read to its end, or it is said where it is cut; what is judged is what was read.
 fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     let (end, pieces) = read(bytes, ports.clone(), defect);
-    let options = Options { ports: ports.clone(), vectors: Some(Collector::new(false)) };
+    let options = CaptureOptions { ports: ports.clone(), vectors: Some(Collector::new(false)) };
     let judged = judge(bytes, options);
     let end = match (end, judged) {
         (Ok(end), Ok(judged)) => {
-            let found = pieces.iter().filter(|piece| matches!(piece, Piece::Frame { .. })).count();
+            let found =
+                pieces.iter().filter(|piece| matches!(piece, CapturePiece::Frame { .. })).count();
             let counted = judged.tally.frames + u64::from(defect.is(5) && found > 3);
             assert_eq!(counted, found as u64);
             let told = judged.tally.end.clone();
-            let told = if defect.is(4) { Some(End::Whole) } else { told };
+            let told = if defect.is(4) { Some(FileEnd::Whole) } else { told };
             assert_eq!(told.as_ref(), Some(&end));
             let is_told =
                 judged.tally.lines().iter().any(|line| line.contains("a cut of the file"));
-            assert_eq!(is_told, judged.tally.end != Some(End::Whole));
+            assert_eq!(is_told, judged.tally.end != Some(FileEnd::Whole));
             end
         }
         (Err(end), Err(judged)) => {
@@ -64,14 +69,14 @@ fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
         }
         other => panic!("{other:?}"),
     };
-    if let (End::Whole, Some((_, shorter))) = (&end, bytes.split_last()) {
+    if let (FileEnd::Whole, Some((_, shorter))) = (&end, bytes.split_last()) {
         let (cut, _) = read(shorter, ports, defect);
-        assert!(!matches!(cut, Ok(End::Whole)), "the last byte is nobody's");
+        assert!(!matches!(cut, Ok(FileEnd::Whole)), "the last byte is nobody's");
     }
     let bytes: Vec<_> = pieces.iter().map(|piece| format!("{piece:?}")).collect();
     match end {
-        End::Whole => Outcome::accepted(bytes),
-        End::Cut(why) => Outcome::refused((why, bytes)),
+        FileEnd::Whole => Outcome::accepted(bytes),
+        FileEnd::Cut(why) => Outcome::refused((why, bytes)),
     }
 }
 
@@ -83,15 +88,15 @@ fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
     }
     let file = conversation.pcap();
     let (end, pieces) = read(&file, Ports::Of(vec![48898]), defect);
-    assert_eq!(end.expect("a file"), End::Whole);
+    assert_eq!(end.expect("a file"), FileEnd::Whole);
     let mut found = [Vec::new(), Vec::new()];
     let mut is_lost = false;
     for piece in pieces {
         match piece {
-            Piece::Frame { from, bytes, .. } => {
+            CapturePiece::Frame { from, bytes, .. } => {
                 found[usize::from(from.port() == 48898)].push(bytes);
             }
-            Piece::Gap { .. } | Piece::Rest(_) => is_lost = true,
+            CapturePiece::Gap { .. } | CapturePiece::Rest(_) => is_lost = true,
         }
     }
     if defect.is(1) && conversation.is_twice {

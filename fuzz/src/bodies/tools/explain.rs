@@ -7,8 +7,8 @@ use ads_cnc::operation::{Call, Service};
 use ads_cnc::streaming::{NcText, check_line_ends};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
-    Explanation, Outcome as CheckEvent, Question, ServiceAddress, Subject, Values, explain,
-    parse_hex,
+    ExplainQuery, ExplainSubject, Explanation, ExplanationOutcome, ServiceAddress, ValueFormat,
+    explain, parse_hex,
 };
 
 use super::Input;
@@ -47,14 +47,14 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let place = (what != 0 && what != 3).then(|| place(&mut input));
     let bytes = input.rest();
     let subject = match (what, place) {
-        (0, _) => Subject::Stream(stream),
-        (1, Some(place)) => Subject::Place(place),
-        (2, Some(place)) if bytes.is_empty() => Subject::Address(place),
-        (3 | 4, place) => Subject::Frames(place),
+        (0, _) => ExplainSubject::Stream(stream),
+        (1, Some(place)) => ExplainSubject::Place(place),
+        (2, Some(place)) if bytes.is_empty() => ExplainSubject::Address(place),
+        (3 | 4, place) => ExplainSubject::Frames(place),
         _ => return Outcome::unread(),
     };
     let typed = values.ty.is_some();
-    let mut explanation = explain(&Question { subject, values }, bytes);
+    let mut explanation = explain(&ExplainQuery { subject, values }, bytes);
     bend(&mut explanation, defect);
     check_explanation(&explanation, bytes);
     let mut plain = printed(&explanation);
@@ -74,12 +74,12 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         _ => {}
     }
     match explanation.outcome {
-        CheckEvent::Explained => Outcome::accepted(plain),
+        ExplanationOutcome::Explained => Outcome::accepted(plain),
         _ => Outcome::refused(plain),
     }
 }
 
-fn has_escape(part: &ads_cnc_conformance::explain::Part) -> bool {
+fn has_escape(part: &ads_cnc_conformance::explain::ExplainedStream) -> bool {
     part.rows.iter().any(|row| row.ty == "STRING" && row.hex.contains("1b"))
 }
 
@@ -96,7 +96,7 @@ fn bend(explanation: &mut Explanation, defect: Defect) {
     {
         explanation.parts.truncate(3);
     }
-    if defect.is(6) && matches!(explanation.outcome, CheckEvent::Explained) {
+    if defect.is(6) && matches!(explanation.outcome, ExplanationOutcome::Explained) {
         let again = explanation.parts.iter().find(|part| !part.rows.is_empty()).cloned();
         explanation.parts.extend(again);
     }
@@ -153,13 +153,13 @@ fn are_frames(mut bytes: &[u8]) -> bool {
     }
 }
 
-fn values(input: &mut Input<'_>) -> Values {
+fn values(input: &mut Input<'_>) -> ValueFormat {
     let ty = usize::from(input.byte()).checked_sub(1).and_then(|ty| DataType::ALL.get(ty).copied());
     let (count, length) = (input.byte(), input.byte());
     // With the highest bit it is many.
     let length = u32::from(length & 0x7F) << if length & 0x80 == 0 { 0 } else { 25 };
     let dimensions = [length, 2, 1][..usize::from(count % 4)].to_vec();
-    Values { ty, dimensions }
+    ValueFormat { ty, dimensions }
 }
 
 fn place(input: &mut Input<'_>) -> ServiceAddress {

@@ -4,7 +4,7 @@ use ads_cnc::CncString;
 use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
 use ads_cnc::ads::AmsNetId;
 use ads_cnc::operation::Call;
-use ads_cnc_conformance::gate::{self, Allowed, Entry, Gate, List, Moment};
+use ads_cnc_conformance::gate::{self, Allowed, AllowedList, Entry, Gate, Moment};
 
 use super::Input;
 use super::calls::{call, written};
@@ -173,11 +173,11 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
             group: IndexGroup::new(input.long()),
             offset: IndexOffset::new(input.long()),
         },
-        3 => Entry::Object { list: List::Platform, name: name(input)? },
-        4 => Entry::Object { list: List::Channel(channel(input)?), name: name(input)? },
+        3 => Entry::Object { list: AllowedList::Platform, name: name(input)? },
+        4 => Entry::Object { list: AllowedList::Channel(channel(input)?), name: name(input)? },
         5 => {
             let axis = PlatformAxis::new(input.byte().into()).ok()?;
-            Entry::Object { list: List::Axis(axis), name: name(input)? }
+            Entry::Object { list: AllowedList::Axis(axis), name: name(input)? }
         }
         6 => Entry::Stream(channel(input)?),
         _ => Entry::Service(channel(input)?),

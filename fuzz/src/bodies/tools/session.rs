@@ -107,7 +107,7 @@ impl Session {
             });
             bend(&mut self.answers, before, self.defect);
             self.is_over = taken.is_err();
-            let kept = if self.defect.is(6) { self.received.held() * 1000 } else { 0 };
+            let kept = if self.defect.is(6) { self.received.buffered() * 1000 } else { 0 };
             assert!(self.received.capacity() + kept <= CONNECTION_BYTES_MAX);
             assert!(!self.received.room().is_empty());
         }
@@ -118,7 +118,7 @@ impl Session {
         let read = reading(call);
         let before = read.as_ref().map(|read| self.cnc.answer(&read.call()));
         let begin = self.answers.len();
-        if self.received.held() > 0 {
+        if self.received.buffered() > 0 {
             return;
         }
         self.piece.extend(frame(call, 1));

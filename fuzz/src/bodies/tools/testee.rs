@@ -3,7 +3,7 @@
 use std::io::BufReader;
 
 use ads_cnc_conformance::process::{read_line, text};
-use ads_cnc_conformance::testee::{Answer, Reaction, Reply, answered, greeted};
+use ads_cnc_conformance::testee::{Answer, Reply, TesteeReaction, answered, greeted};
 use serde_json::Value;
 
 use super::Input;
@@ -80,9 +80,9 @@ fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
         Err(why) => return (false, format!("{why:?}")),
     };
     // What is shown of it is no more than a person reads.
-    let short = |reaction: &Reaction| match reaction {
-        Reaction::Garbled(why) => assert!(why.len() < 2000, "{why}"),
-        other => assert!(matches!(other, Reaction::Answer(_)), "{other:?}"),
+    let short = |reaction: &TesteeReaction| match reaction {
+        TesteeReaction::Garbled(why) => assert!(why.len() < 2000, "{why}"),
+        other => assert!(matches!(other, TesteeReaction::Answer(_)), "{other:?}"),
     };
     let hello = greeted(&line);
     match &hello {
@@ -99,12 +99,15 @@ fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
     };
     let (reaction, in_step) = answered(&first, asked);
     short(&reaction);
-    if let Reaction::Answer(answer) = &reaction {
+    if let TesteeReaction::Answer(answer) = &reaction {
         assert!(in_step);
         is_one(&line);
         again(answer.clone(), defect);
     }
-    (hello.is_ok() || matches!(reaction, Reaction::Answer(_)), format!("{hello:?} {reaction:?}"))
+    (
+        hello.is_ok() || matches!(reaction, TesteeReaction::Answer(_)),
+        format!("{hello:?} {reaction:?}"),
+    )
 }
 
 /// An answer is one of four to this case, and nothing else.
@@ -123,5 +126,5 @@ fn again(mut answer: Answer, defect: Defect) {
         rejection.at = None;
     }
     let read = answered(&line.expect("JSON"), SEQ);
-    assert_eq!(read, (Reaction::Answer(answer), true));
+    assert_eq!(read, (TesteeReaction::Answer(answer), true));
 }

@@ -23,13 +23,13 @@ impl Transcript<'_> {
     }
 
     /// Writes, and reads it back.
-    fn put(&mut self, port: u16, group: u32, offset: u32, data: &[u8]) {
+    fn write_and_read(&mut self, port: u16, group: u32, offset: u32, data: &[u8]) {
         self.write(port, group, offset, data);
         self.read(port, group, offset, 256);
     }
 
     /// The same by name.
-    fn put_named(&mut self, group: u32, name: &[u8], value: &[u8]) {
+    fn write_and_read_by_name(&mut self, group: u32, name: &[u8], value: &[u8]) {
         self.write(552, group, 0x4A, &[name, value].concat());
         self.ask(group, 0x48, 4096, name);
     }
@@ -59,37 +59,37 @@ impl Transcript<'_> {
             self.read(552, 0x12_2301, 3, 4);
             self.ask(0x12_2301, 0x20, 8, &[1, 0, 0, 0]);
         }
-        self.put(553, 0x12_0101, 0x1D, b"a longer text\0");
-        self.put(553, 0x12_0101, 0x1D, b"short\0");
-        self.put(553, 0x12_0101, 0x14, &[9]);
-        self.put(553, 0x12_0101, 0x1A, &1.1_f64.to_le_bytes());
-        self.put(553, 0x02_0101, 1, &[1]);
-        self.put(553, 0x12_0101, 1, &[0]);
-        self.put(553, 0x12_0102, 1, &[1]);
+        self.write_and_read(553, 0x12_0101, 0x1D, b"a longer text\0");
+        self.write_and_read(553, 0x12_0101, 0x1D, b"short\0");
+        self.write_and_read(553, 0x12_0101, 0x14, &[9]);
+        self.write_and_read(553, 0x12_0101, 0x1A, &1.1_f64.to_le_bytes());
+        self.write_and_read(553, 0x02_0101, 1, &[1]);
+        self.write_and_read(553, 0x12_0101, 1, &[0]);
+        self.write_and_read(553, 0x12_0102, 1, &[1]);
         self.read(553, 0x12_0101, 1, 1);
-        self.put(552, 0x12_3301, 2, &(-7_i16).to_le_bytes());
-        self.put(552, 0x12_3301, 2, &7_i16.to_le_bytes());
-        self.put(552, 0x12_3301, 0x1_0001, &[0]);
+        self.write_and_read(552, 0x12_3301, 2, &(-7_i16).to_le_bytes());
+        self.write_and_read(552, 0x12_3301, 2, &7_i16.to_le_bytes());
+        self.write_and_read(552, 0x12_3301, 0x1_0001, &[0]);
         self.read(552, 0x12_3300, 0x1001, 1);
-        self.put(552, 0x12_1302, 0x2_0002, &[1; 8]);
+        self.write_and_read(552, 0x12_1302, 0x2_0002, &[1; 8]);
         // The axis leaves the place, and comes back.
         self.read(552, 0x12_1301, 0x3_0002, 8);
-        self.put(552, 0x12_1301, 0x3_0001, &[0, 0]);
+        self.write_and_read(552, 0x12_1301, 0x3_0001, &[0, 0]);
         self.read(552, 0x12_1301, 0x3_0002, 8);
-        self.put(552, 0x12_1301, 0x3_0001, &[3, 0]);
+        self.write_and_read(552, 0x12_1301, 0x3_0001, &[3, 0]);
     }
 
     fn parts(&mut self) {
         let one = 0x12_2301;
-        self.put_named(one, b"V.E.Variable_2[0]\0", &[9]);
+        self.write_and_read_by_name(one, b"V.E.Variable_2[0]\0", &[9]);
         self.ask(one, 0x48, 64, b"V.E.Variable_2\0");
-        self.put_named(one, b"V.E.text\0", b"abc\0");
-        self.put_named(one, b"V.E.text\0", b"abc");
-        self.put_named(one, b"V.E.texts[2]\0", b"another text\0");
-        self.put_named(one, b"V.CYC.count\0", &[1, 2, 3, 4]);
+        self.write_and_read_by_name(one, b"V.E.text\0", b"abc\0");
+        self.write_and_read_by_name(one, b"V.E.text\0", b"abc");
+        self.write_and_read_by_name(one, b"V.E.texts[2]\0", b"another text\0");
+        self.write_and_read_by_name(one, b"V.CYC.count\0", &[1, 2, 3, 4]);
         self.ask(one, 0x48, 4, b"V.E.largest[12]\0");
         let long = format!("V.E.name_of_255_characters_{}\0", "x".repeat(228));
-        self.put_named(one, long.as_bytes(), &[7]);
+        self.write_and_read_by_name(one, long.as_bytes(), &[7]);
         self.write(552, one, 0x4A, &[&b"V.E.Variable_123\0"[..], &[3; 2031]].concat());
         let by_index: [(&[u8], &[&[u32]]); 4] = [
             (b"V.E.cube\0", &[&[1, 2, 3], &[0, 0, 4]]),
@@ -126,21 +126,25 @@ impl Transcript<'_> {
         self.ask(0x12_2302, 0x46, 4, b"V.E.channel\0");
         self.ask(one, 0x47, 4, &numbers(&[first, 0]));
         // By handle as by name.
-        self.put_named(one, REQUEST, b"a request of more than twenty characters\0");
+        self.write_and_read_by_name(one, REQUEST, b"a request of more than twenty characters\0");
         let request = handle(self.ask(one, 0x46, 4, REQUEST));
         self.ask(one, 0x47, 256, &numbers(&[request, 0]));
         let state = handle(self.ask(one, 0x46, 4, REQUEST_STATE));
-        self.put_named(one, RESPONSE_STATE, &[1, 0, 0, 0]);
+        self.write_and_read_by_name(one, RESPONSE_STATE, &[1, 0, 0, 0]);
         self.write(552, one, 0x49, &numbers(&[state, 0, 1]));
         self.ask(one, 0x48, 4, RESPONSE_STATE);
-        self.put_named(one, RESPONSE, &[&[b'y'; 127][..], &[0]].concat());
-        self.put_named(one, RESPONSE, b"short\0");
-        self.put_named(one, b"V.G.SERVICE.UUID\0", b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0");
+        self.write_and_read_by_name(one, RESPONSE, &[&[b'y'; 127][..], &[0]].concat());
+        self.write_and_read_by_name(one, RESPONSE, b"short\0");
+        self.write_and_read_by_name(
+            one,
+            b"V.G.SERVICE.UUID\0",
+            b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0",
+        );
     }
 
     fn between_channels(&mut self) {
         for (group, name) in [(0x12_2301, REQUEST_STATE), (0x12_2302, RESPONSE_STATE)] {
-            self.put_named(group, name, &[1, 0, 0, 0]);
+            self.write_and_read_by_name(group, name, &[1, 0, 0, 0]);
             self.ask(0x12_2301, 0x48, 4, REQUEST_STATE);
         }
     }
@@ -161,7 +165,7 @@ impl Transcript<'_> {
         self.write(553, 0x12_0101, 0x90, &[line(20), line(20)].concat());
         self.write(553, 0x12_0101, 0x90, &line(38));
         self.write(553, 0x12_0101, 0x90, &line(2));
-        self.tell();
+        self.record_programs();
         for channel in [1, 2] {
             let now = Duration::from_secs(1);
             self.cnc.with_program(channel, |program| program.reset(now)).unwrap();

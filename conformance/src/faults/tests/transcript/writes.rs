@@ -153,7 +153,7 @@ impl Transcript<'_> {
 
     fn exchanged(&mut self, channel: u8, place: u8, axis: u32) {
         let done = self.cnc.exchange_axis(channel, place, axis);
-        self.hear(format!("{done:?}").into_bytes());
+        self.record(format!("{done:?}").into_bytes());
     }
 
     pub(super) fn changes(&mut self) {
@@ -198,21 +198,21 @@ impl Transcript<'_> {
                         self.write(553, group, 0x91, packet);
                     }
                     self.cnc.pass(Duration::from_millis(1));
-                    self.tell();
+                    self.record_programs();
                 }
                 let now = Duration::from_secs(5);
                 self.cnc.with_program(1, |program| program.start(now).is_ok()).unwrap();
-                self.tell();
+                self.record_programs();
                 self.cnc.with_program(1, |program| program.reset(now)).unwrap();
-                self.tell();
+                self.record_programs();
                 self.write(553, 0x02_0101, 0x90, b"N90 X9\r\n");
-                self.tell();
+                self.record_programs();
                 self.cnc.with_program(1, |program| program.start(now).is_ok()).unwrap();
-                self.tell();
+                self.record_programs();
             }
         }
         self.write(553, 0x12_0102, 0x90, b"N10 X1\r\n");
-        self.tell();
+        self.record_programs();
         // More comes while what was read with an end is run.
         let slow = Pace::lines_per_second(10).unwrap();
         self.cnc.set_program(1, hold(slow, Start::Once)).unwrap();
@@ -220,7 +220,7 @@ impl Transcript<'_> {
         self.write(553, 0x12_0101, 0x90, b"N30 X3\r\n");
         for _ in 0..3 {
             self.cnc.pass(Duration::from_secs(1));
-            self.tell();
+            self.record_programs();
             self.cnc
                 .with_program(1, |program| program.start(Duration::from_secs(8)).is_ok())
                 .unwrap();
@@ -230,24 +230,25 @@ impl Transcript<'_> {
         let line = [&[b'X'; 498][..], b"\r\n"].concat();
         for _ in 0..20 {
             self.write(553, 0x02_0101, 0x90, &line);
-            self.tell();
+            self.record_programs();
         }
         self.cnc.with_program(1, |program| program.start(Duration::from_secs(9)).is_ok()).unwrap();
-        self.tell();
+        self.record_programs();
         for _ in 0..4 {
             self.write(553, 0x02_0101, 0x90, &line);
-            self.tell();
+            self.record_programs();
         }
     }
 
     /// What programs have run, and where they stand.
-    pub(super) fn tell(&mut self) {
+    pub(super) fn record_programs(&mut self) {
         for channel in [1, 2] {
-            let said = self.cnc.with_program(channel, |program| {
-                let lines = program.executed().kept().to_vec();
-                [lines, format!("{:?} {}", program.state(), program.held()).into_bytes()].concat()
+            let reply = self.cnc.with_program(channel, |program| {
+                let lines = program.executed().recent().to_vec();
+                [lines, format!("{:?} {}", program.state(), program.buffered()).into_bytes()]
+                    .concat()
             });
-            self.hear(said.unwrap_or_default());
+            self.record(reply.unwrap_or_default());
         }
     }
 
@@ -269,8 +270,8 @@ impl Transcript<'_> {
         let answers = |script: Option<&mut Script>| {
             format!("{:?}", script.unwrap().answers().collect::<Vec<_>>()).into_bytes()
         };
-        let said = self.cnc.with_script(1, answers).unwrap();
-        self.hear(said);
+        let reply = self.cnc.with_script(1, answers).unwrap();
+        self.record(reply);
         self.cnc.set_script(1, None).unwrap();
     }
 }

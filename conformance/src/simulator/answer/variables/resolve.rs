@@ -6,7 +6,7 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::Function;
 use ads_cnc::{CncStr, CncString, Handle, Kind, U32List, VariablePath};
 
-use super::Running;
+use super::AnsweringCnc;
 use crate::edition::Feature;
 use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
 use crate::simulator::to_len;
@@ -21,7 +21,7 @@ pub(super) enum Resolved {
 /// A refusal of a name that stands for nothing.
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
-impl Running<'_> {
+impl AnsweringCnc<'_> {
     /// Whether edition and version have a function for a kind.
     pub(super) fn permit(&self, function: Function, kind: Kind<'_>) -> Result<(), AdsError> {
         let answer = self.model.edition.permits(function, kind, self.model.version);

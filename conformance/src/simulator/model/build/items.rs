@@ -7,8 +7,8 @@ use toml::{Spanned, Value};
 
 use super::super::document::{ClassesTable, ElementRow, ElementTable, ObjectRow};
 use super::super::error::Source;
-use super::super::item::{ClassModel, Elements, Initial, Item, Meaning, Objects, Values};
-use super::super::types::{self, NamedType, Scalar};
+use super::super::item::{ClassModel, Elements, Initial, InitialValues, Item, Meaning, Objects};
+use super::super::types::{self, NamedType, ScalarType};
 use super::super::{ModelError, class_place};
 use super::text;
 use crate::simulator::{CONTENT_MAX, to_len};
@@ -22,7 +22,7 @@ const OFFSET_OF_AXES: u32 = 0x1_0000;
 const HLD_AXIS_STRIDE: usize = 0x1000;
 
 /// A value as it is declared, whatever it is of.
-pub(super) struct Declared<'a> {
+pub(super) struct DeclaredValue<'a> {
     pub(super) source: Source<'a>,
     pub(super) types: &'static [NamedType],
     pub(super) of_type: &'a Spanned<String>,
@@ -34,7 +34,7 @@ pub(super) struct Declared<'a> {
     pub(super) max: usize,
 }
 
-impl Declared<'_> {
+impl DeclaredValue<'_> {
     /// The type's name, and the values at the start.
     pub(super) fn read(&self) -> Result<(&'static str, Initial), ModelError> {
         let of_type = self.of_type;
@@ -61,14 +61,14 @@ impl Declared<'_> {
             (Some(_), Some(values)) => {
                 return Err(self.source.error(&values.span(), "either value or values"));
             }
-            (None, None) => Values::Same(vec![0; size]),
+            (None, None) => InitialValues::Same(vec![0; size]),
             (Some(value), None) => {
-                Values::Same(self.bytes(*scalar, each, value.get_ref(), &value.span())?)
+                InitialValues::Same(self.bytes(*scalar, each, value.get_ref(), &value.span())?)
             }
             (None, Some(values)) => {
                 let span = values.span();
                 let bytes = |value| self.bytes(*scalar, each, value, &span);
-                Values::Each(values.get_ref().iter().map(bytes).collect::<Result<_, _>>()?)
+                InitialValues::Each(values.get_ref().iter().map(bytes).collect::<Result<_, _>>()?)
             }
         };
         Ok((name, Initial { size, values }))
@@ -76,7 +76,7 @@ impl Declared<'_> {
 
     fn bytes(
         &self,
-        scalar: Scalar,
+        scalar: ScalarType,
         each: usize,
         value: &Value,
         span: &std::ops::Range<usize>,
@@ -126,7 +126,7 @@ pub(super) fn objects(
     let mut objects = Objects::default();
     for row in rows {
         let name = text(source, &row.name)?;
-        let (type_name, initial) = Declared {
+        let (type_name, initial) = DeclaredValue {
             source,
             types: types::OBJECT,
             of_type: &row.r#type,
@@ -227,7 +227,7 @@ fn element(
             return Err(source.error(&span, "at most 255 characters and a NUL"));
         }
     }
-    let (type_name, initial) = Declared {
+    let (type_name, initial) = DeclaredValue {
         source,
         types: types::ELEMENT,
         of_type: &row.r#type,

@@ -9,7 +9,7 @@ use super::super::ModelError;
 use super::super::document::{RequestRow, ServiceTable, StreamingTable};
 use super::super::error::Source;
 use crate::simulator::program::{
-    Pace, ParsePaceError, ProgramConfig, Repeat, Request, Script, ScriptConfig, Start, Wait,
+    Pace, ParsePaceError, ProgramConfig, Repeat, Script, ScriptConfig, ServiceRequest, Start, Wait,
 };
 use crate::text::some_time;
 
@@ -77,12 +77,12 @@ pub(super) fn service(
     })
 }
 
-fn request(source: Source<'_>, row: &RequestRow) -> Result<Request, ModelError> {
+fn request(source: Source<'_>, row: &RequestRow) -> Result<ServiceRequest, ModelError> {
     let uuid = ServiceId::new(row.uuid.get_ref());
     let uuid = uuid.map_err(|error| source.error(&row.uuid.span(), error))?;
     let text = super::text(source, &row.request)?;
     let wait = row.wait.as_ref().map(Spanned::get_ref);
-    let request = Request {
+    let request = ServiceRequest {
         uuid,
         text,
         state: row.state.as_ref().map_or(1, |state| *state.get_ref()),

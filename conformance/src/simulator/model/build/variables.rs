@@ -13,11 +13,11 @@ use toml::Spanned;
 use super::super::ModelError;
 use super::super::document::VariableRow;
 use super::super::error::Source;
-use super::super::item::{Initial, Values};
+use super::super::item::{Initial, InitialValues};
 use super::super::types;
 use super::super::variable::{Variable, Variables};
 use super::encodes;
-use super::items::Declared;
+use super::items::DeclaredValue;
 use crate::simulator::{to_len, to_u32};
 
 /// Room for the axis's name behind that of its variable.
@@ -39,7 +39,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         let of = row.dimensions.as_ref().map(Spanned::span).unwrap_or(span);
         return Err(source.error(&of, "every dimension has an element, and they can be counted"));
     };
-    let (type_name, initial) = Declared {
+    let (type_name, initial) = DeclaredValue {
         source,
         types: types::VARIABLE,
         of_type: &row.r#type,
@@ -204,7 +204,7 @@ fn service_variable(one: ServiceVariable, handle: Handle) -> Variable {
         var_type: one.var_type(),
         access: VariableAccess::READ_WRITE,
         dimensions: Vec::new(),
-        initial: Initial { size, values: Values::Same(vec![0; size]) },
+        initial: Initial { size, values: InitialValues::Same(vec![0; size]) },
         extended: None,
         service: Some(one),
     }

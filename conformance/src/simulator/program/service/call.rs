@@ -40,11 +40,11 @@ pub struct ServiceCall {
     state: [u8; 4],
     wait: SysServiceWait,
     response: Vec<u8>,
-    phase: Phase,
+    phase: CallPhase,
 }
 
 #[derive(Clone, Debug)]
-enum Phase {
+enum CallPhase {
     Uuid,
     Request,
     State,
@@ -164,24 +164,24 @@ impl ServiceCall {
             state: state.to_le_bytes(),
             wait,
             response: Vec::new(),
-            phase: Phase::Uuid,
+            phase: CallPhase::Uuid,
         })
     }
 
     /// What to do next; the same until it is done.
     pub fn step(&self) -> CallStep<'_> {
         match &self.phase {
-            Phase::Uuid => CallStep::Write(ServiceVariable::Uuid, &self.uuid),
-            Phase::Request => CallStep::Write(ServiceVariable::Request, &self.request),
-            Phase::State => CallStep::Write(ServiceVariable::RequestState, &self.state),
-            Phase::Waiting(waiting) => match waiting.step() {
+            CallPhase::Uuid => CallStep::Write(ServiceVariable::Uuid, &self.uuid),
+            CallPhase::Request => CallStep::Write(ServiceVariable::Request, &self.request),
+            CallPhase::State => CallStep::Write(ServiceVariable::RequestState, &self.state),
+            CallPhase::Waiting(waiting) => match waiting.step() {
                 WaitStep::Read(variable) => CallStep::Read(variable),
                 WaitStep::Wait { until } => CallStep::Wait { until },
                 // With a response it goes on to read that.
                 WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
             },
-            Phase::Response(_) => CallStep::Read(ServiceVariable::Response),
-            Phase::Done(state) => CallStep::Done { state: *state, response: self.response() },
+            CallPhase::Response(_) => CallStep::Read(ServiceVariable::Response),
+            CallPhase::Done(state) => CallStep::Done { state: *state, response: self.response() },
         }
     }
 
@@ -194,10 +194,10 @@ impl ServiceCall {
     /// was to be.
     pub fn written(&mut self, now: Duration) {
         match self.phase {
-            Phase::Uuid => self.phase = Phase::Request,
-            Phase::Request => self.phase = Phase::State,
-            Phase::State => self.phase = Phase::Waiting(self.wait.start(now)),
-            Phase::Waiting(_) | Phase::Response(_) | Phase::Done(_) => {}
+            CallPhase::Uuid => self.phase = CallPhase::Request,
+            CallPhase::Request => self.phase = CallPhase::State,
+            CallPhase::State => self.phase = CallPhase::Waiting(self.wait.start(now)),
+            CallPhase::Waiting(_) | CallPhase::Response(_) | CallPhase::Done(_) => {}
         }
     }
 
@@ -208,24 +208,24 @@ impl ServiceCall {
     /// read again.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         match &mut self.phase {
-            Phase::Waiting(waiting) => {
+            CallPhase::Waiting(waiting) => {
                 waiting.read(value, now)?;
                 if let WaitStep::Done { state } = waiting.step() {
-                    self.phase = Phase::Response(state);
+                    self.phase = CallPhase::Response(state);
                 }
             }
-            Phase::Response(state) => {
+            CallPhase::Response(state) => {
                 self.response = text_value(value, ServiceVariable::Response)?;
-                self.phase = Phase::Done(*state);
+                self.phase = CallPhase::Done(*state);
             }
-            Phase::Uuid | Phase::Request | Phase::State | Phase::Done(_) => {}
+            CallPhase::Uuid | CallPhase::Request | CallPhase::State | CallPhase::Done(_) => {}
         }
         Ok(())
     }
 
     /// Ends a [`CallStep::Wait`]: reads again.
     pub fn poll(&mut self) {
-        if let Phase::Waiting(waiting) = &mut self.phase {
+        if let CallPhase::Waiting(waiting) = &mut self.phase {
             waiting.poll();
         }
     }

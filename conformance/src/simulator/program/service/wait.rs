@@ -94,7 +94,7 @@ impl SysServiceWait {
     /// Begins to wait. `now` is a time that never goes back, from any start.
     pub fn start(self, now: Duration) -> Waiting {
         let deadline = self.longest.map(|longest| now.saturating_add(longest.time));
-        Waiting { keep_waiting: self.keep_waiting, deadline, phase: Phase::Read }
+        Waiting { keep_waiting: self.keep_waiting, deadline, phase: WaitPhase::Read }
     }
 }
 
@@ -124,11 +124,11 @@ impl SysServiceWait {
 pub struct Waiting {
     keep_waiting: u32,
     deadline: Option<Duration>,
-    phase: Phase,
+    phase: WaitPhase,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum WaitPhase {
     Read,
     Idle,
     Done(u32),
@@ -169,10 +169,10 @@ impl Waiting {
     /// What to do next; the same until it is done.
     pub const fn step(&self) -> WaitStep {
         match self.phase {
-            Phase::Read => WaitStep::Read(ServiceVariable::ResponseState),
-            Phase::Idle => WaitStep::Wait { until: self.deadline },
-            Phase::Done(state) => WaitStep::Done { state },
-            Phase::TimedOut => WaitStep::TimedOut,
+            WaitPhase::Read => WaitStep::Read(ServiceVariable::ResponseState),
+            WaitPhase::Idle => WaitStep::Wait { until: self.deadline },
+            WaitPhase::Done(state) => WaitStep::Done { state },
+            WaitPhase::TimedOut => WaitStep::TimedOut,
         }
     }
 
@@ -185,14 +185,14 @@ impl Waiting {
     /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
     /// for a state that does not have exactly four bytes; read it again.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
-        if let Phase::Read = self.phase {
+        if let WaitPhase::Read = self.phase {
             let state = ServiceVariable::ResponseState.state(value)?;
             self.phase = if state != self.keep_waiting {
-                Phase::Done(state)
+                WaitPhase::Done(state)
             } else if self.deadline.is_some_and(|deadline| now >= deadline) {
-                Phase::TimedOut
+                WaitPhase::TimedOut
             } else {
-                Phase::Idle
+                WaitPhase::Idle
             };
         }
         Ok(())
@@ -200,8 +200,8 @@ impl Waiting {
 
     /// Ends a [`WaitStep::Wait`]: reads again.
     pub fn poll(&mut self) {
-        if let Phase::Idle = self.phase {
-            self.phase = Phase::Read;
+        if let WaitPhase::Idle = self.phase {
+            self.phase = WaitPhase::Read;
         }
     }
 }

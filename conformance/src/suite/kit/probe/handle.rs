@@ -3,7 +3,7 @@
 use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
-use crate::exchange::Fault;
+use crate::exchange::ExchangeError;
 use crate::gate::{Doubt, Reason, Refusal};
 use crate::judge::Step;
 use crate::profile::Claim;
@@ -55,7 +55,7 @@ impl Probe<'_> {
     pub(crate) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
         match self.target.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),
-            Err(Fault::Refused(refusal)) => Ok(Err(Some(*refusal))),
+            Err(ExchangeError::Refused(refusal)) => Ok(Err(Some(*refusal))),
             Err(_) => Ok(Err(None)),
         }
     }

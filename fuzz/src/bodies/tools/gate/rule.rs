@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{Addressing, Channel};
 use ads_cnc::operation::Call;
-use ads_cnc_conformance::gate::{Entry, List};
+use ads_cnc_conformance::gate::{AllowedList, Entry};
 
 use super::harmless::{is_harmless, number};
 
@@ -97,12 +97,12 @@ impl<'e> Rule<'e> {
         self.entries.iter().any(|entry| {
             let Entry::Object { list, name } = entry else { return false };
             let of = match list {
-                List::Platform => 0x13_0100,
-                List::Channel(channel) => match at(*channel) {
+                AllowedList::Platform => 0x13_0100,
+                AllowedList::Channel(channel) => match at(*channel) {
                     (true, number) => 0x13_0100 | number,
                     (false, number) => 0x3_0100 | number,
                 },
-                List::Axis(axis) => 0x13_0200 | u32::from(axis.index()),
+                AllowedList::Axis(axis) => 0x13_0200 | u32::from(axis.index()),
             };
             let seen = self.objects.iter().filter(|(group, object)| {
                 let told = &object[20..52];
