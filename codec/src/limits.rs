@@ -38,7 +38,7 @@ pub const VARIABLE_MAX: usize = length::<ValueRef<'_>>();
 pub const HANDLE_VALUE_MAX: usize = most::<HandleWriteRef<'_>>("value");
 /// Bytes of a value that is written by name (VAR-13).
 pub const NAME_VALUE_MAX: usize = most::<NameWriteRef<'_>>("value");
-/// Dimensions of a description beside a name of one NUL (VAR-24).
+/// Dimensions of a description with an empty name (VAR-24).
 pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
 /// Dimensions of a description without a name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");

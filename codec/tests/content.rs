@@ -36,13 +36,13 @@ fn functions_are_no_content() {
         let (group, offset) = (call.index_group, call.index_offset);
         let error = match call.port {
             AmsPort::COM => {
-                assert!(WriteObject::new(group, offset, &[]).is_err());
+                assert!(WriteObject::new(group, offset, &[][..]).is_err());
                 ReadObject::new(group, offset, 4).unwrap_err()
             }
             _ => {
                 let Some(ads_cnc::address::Group::Class(class)) = group.parts() else { panic!() };
                 let element = ElementAddress::new(class, offset);
-                assert!(WriteElement::new(element, &[]).is_err());
+                assert!(WriteElement::new(element, &[][..]).is_err());
                 assert_eq!(CountElements::new(element).unwrap_err().found(), offset.get());
                 ReadElement::new(element, 4).unwrap_err()
             }
@@ -111,7 +111,7 @@ fn content_is_where_and_as_long_as_was_asked_for() {
     for (wrong, near) in [(0x13_0101, 0x12_0101), (0x12_2301, 0x12_0100), (0xF005, 0x12_0100)] {
         let error = ReadObject::new(group(wrong), offset, 2).unwrap_err();
         assert_eq!((error.kind(), error.expected()), (ErrorKind::Mismatch, near));
-        assert_eq!(WriteObject::new(group(wrong), offset, &[]), Err(error));
+        assert_eq!(WriteObject::new(group(wrong), offset, &[][..]), Err(error));
     }
     assert!(ReadObject::new(group(0x12_0101), offset, 0x40_0000).is_ok());
     assert_eq!(

@@ -50,6 +50,15 @@ fn names_are_equal_by_their_text_and_its_case() {
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
 }
 
+/// NULs after a kind are no part of it; they are of a text with its end (E-34).
+#[test]
+fn kinds_are_equal_by_their_text() {
+    let padded = VariableKindRef::decode(b"V.E\0\0").unwrap().kind;
+    assert_eq!(padded.field().tail(), Some(&[0][..]));
+    check(&[Kind::V_E, padded, Kind::new("V.E").unwrap()], Kind::V_G);
+    assert_ne!(padded.field(), Kind::V_E.field());
+}
+
 /// A UUID is the same in capitals.
 #[test]
 fn uuids_are_equal_in_capitals() {

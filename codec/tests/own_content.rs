@@ -30,6 +30,10 @@ fn fixed_streams_are_arrays() {
         WriteReply, [3, 7, 0, 0];
         ReadRequest, [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12];
         DeviceStateReply, [0, 0, 0, 0, 5, 0, 1, 0];
+        dynamic::DynamicValue, [1, 2, 3, 4, 5, 6, 7, 8];
+        AmsHeader, std::array::from_fn::<u8, 32, _>(|at| u8::try_from(at).unwrap());
+        DeviceInfoReply, std::array::from_fn::<u8, 24, _>(|at| u8::try_from(at).unwrap());
+        Descriptor, std::array::from_fn::<u8, 84, _>(|at| u8::try_from(at).unwrap());
     }
 }
 

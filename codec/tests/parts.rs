@@ -51,7 +51,7 @@ fn elements_keep_their_address() {
         assert_eq!(counted.element(), first);
         let second = first.nth(1).unwrap();
         let read = ReadElement::new(second, 4).unwrap();
-        let write = WriteElement::new(second, b"1234").unwrap();
+        let write = WriteElement::new(second, &b"1234"[..]).unwrap();
         assert_eq!((read.element(), write.element()), (second, second));
         let mut buf = [0; 16];
         let there = dispatched(write.into(), &mut buf);
@@ -79,7 +79,7 @@ fn lists_and_objects_keep_their_address() {
         let group = ComGroup { access: Access::Element, ..list.parts() };
         let offset = IndexOffset::new(0x17);
         let read = ReadObject::new(group.index_group(), offset, 8).unwrap();
-        let write = WriteObject::new(group.index_group(), offset, b"12345678").unwrap();
+        let write = WriteObject::new(group.index_group(), offset, &b"12345678"[..]).unwrap();
         assert_eq!((read.address(), write.address()), ((group, offset), (group, offset)));
         assert_eq!(write.content().bytes, b"12345678");
     }

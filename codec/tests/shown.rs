@@ -132,6 +132,9 @@ fn texts_are_in_characters_with_their_end() {
     debugs(with(Some(&[0, 0])), r#""a" and 2 NULs more"#);
     debugs(with(Some(&[0, 0xAB])), r#""a" and [00, ab]"#);
     debugs(with(None), r#""a" without NUL"#);
+    shows(with(Some(&[0, 0])), "a");
+    shows(with(None), "a");
+    shows(Text::from(with(None)), "a");
     debugs(Kind::V_E, r#""V.E""#);
     let path = VariablePath::new("V.E.test[4].Länge").unwrap();
     shows(path, "V.E.test[4].Länge");
@@ -143,7 +146,10 @@ fn texts_are_in_characters_with_their_end() {
 #[test]
 fn values_are_numbers_and_texts() {
     debugs(DynamicValue::from_bits(1.5_f64.to_bits()), "1.5 (0x3ff8000000000000)");
+    shows(DynamicValue::from(1.5), "1.5");
     debugs(Boolean(2), "2");
+    shows(Boolean(2), "TRUE");
+    shows(Boolean::FALSE, "FALSE");
     let elements = Elements::new(DataType::Uns16, U32List::from(&[2]), &[1, 0, 2, 0]).unwrap();
     debugs(elements, "[Uns16(1), Uns16(2)]");
     let elements = Elements::new(DataType::Sgn08, U32List::from(&[3]), &[1, 2, 0xFF]).unwrap();

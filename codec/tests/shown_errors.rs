@@ -140,10 +140,10 @@ fn errors_of_arguments_name_the_argument() {
 
     let shape = Shape::new(DataType::Sgn32, U32List::EMPTY, 4).unwrap();
     let written = shape.encode(&1.5_f64, &mut [0; 8]).map_err(text).unwrap_err();
-    assert_eq!(written, "typed-value: type at offset 0: expected SGN32, found REAL64");
+    assert_eq!(written, "expected SGN32, found REAL64");
     let read = shape.elements(&[0; 4]).unwrap().copy_to(&mut [0.0_f32]);
     let read = read.map_err(text).unwrap_err();
-    assert_eq!(read, "typed-value: type at offset 0: expected REAL32, found SGN32");
+    assert_eq!(read, "expected REAL32, found SGN32");
 }
 
 /// Each class of errors has words of its own.

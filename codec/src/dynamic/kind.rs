@@ -39,7 +39,7 @@ impl DynamicKind {
     /// All of them, in the manual's order.
     pub const ALL: [Self; 4] = [Self::P, Self::VL, Self::VP, Self::VS];
 
-    /// This kind's of a function's four offsets.
+    /// The offset for this kind, of a function's four offsets.
     pub(crate) const fn offset(self, [p, vl, vp, vs]: [u32; 4]) -> IndexOffset {
         IndexOffset::new(match self {
             Self::P => p,

@@ -33,8 +33,8 @@ impl Layout {
         false
     }
 
-    /// Whether the maximum length of the stream has room for the maximum of each row, and no more
-    /// than that for rows that only this length limits.
+    /// Whether the maximum length of the stream fits the maximum of each row, and equals it where
+    /// no other check limits the row.
     pub(crate) const fn is_filled(&self) -> bool {
         let (mut fields, mut before) = (self.fields, 0_u32);
         while let [row, rest @ ..] = fields {

@@ -118,8 +118,8 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// Rejects an element that is a function; the first element of an instance is one, too: it has the
-/// number of elements.
+/// Rejects an offset that belongs to a function. That of the first element of an instance does, to
+/// [`CountElements`](super::CountElements).
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)

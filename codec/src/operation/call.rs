@@ -73,7 +73,7 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, or only content that takes another service.
+    /// No function of the index group has this offset, or only content access, which takes another service.
     Offset(IndexOffset),
     /// The function takes another service.
     Service {

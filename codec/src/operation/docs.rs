@@ -319,8 +319,8 @@ macro_rules! documented {
     (CountElements $($item:tt)+) => {
         /// Reads the number of element types of an instance: the content of its first element.
         ///
-        /// At the offset of a first element by the stride 0x1000 (platform axes of the HLD, E-01) a server
-        /// dispatches it as [`ReadElement`](super::ReadElement) of four bytes.
+        /// A server cannot recognise the first element of an axis with the stride 0x1000 (platform axes of the
+        /// HLD, E-01): it dispatches this call as [`ReadElement`](super::ReadElement) of four bytes.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -358,7 +358,7 @@ macro_rules! documented {
     (WriteElement $($item:tt)+) => {
         /// Writes the content of an element. It may set the machine in motion.
         ///
-        /// The write flag: whether the element may be written.
+        /// [`ReadElementWriteFlag`] reads whether the element may be written.
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
         ///

@@ -109,7 +109,7 @@ pub enum OffsetRule {
     OfKind([u32; 4]),
     /// This offset and all greater ones.
     AtLeast(u32),
-    /// This element of every axis from 1 on, 0x10000 apart (VAR-26).
+    /// `axis * 0x10000` plus this element, for every axis from 1 on (VAR-26).
     OfAxis(u32),
     /// The first element of an instance: of the channel, and of axes 0x10000 apart.
     FirstElement,

@@ -73,8 +73,8 @@ impl ObjectAddress {
     /// The instance's first element; `None` if the instance does not exist.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that is not that of a class; the error expects that of the
-    /// position controller, 0x120300.
+    /// [`ErrorKind::Mismatch`] for a group that belongs to no class; [`Error::expected`] is an example,
+    /// 0x120300.
     pub fn first_element(&self) -> Result<Option<ElementAddress>, Error> {
         const EXPECTED: IndexGroup = ClassGroup {
             addressing: Addressing::Logical,

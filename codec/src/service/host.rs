@@ -22,12 +22,12 @@ use crate::text::CncStr;
 /// the earlier request from one to the later, nor two requests with the same UUID, text and state.
 ///
 /// # When something fails
-/// A step stays the same until the caller reports its end, by [`read`](Self::read),
+/// [`step`](Self::step) returns the same step until the caller reports its completion, by [`read`](Self::read),
 /// [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll). A read can be
 /// repeated. Report a failed write by [`failed`](Self::failed): the value may have been written, and the
 /// program may have continued. So the host reads before it writes again.
 ///
-/// The interface does not show one case: two hosts share a channel, and the first one's write of
+/// One case cannot be detected: two hosts share a channel, and the first one's write of
 /// RESPONSE_STATE is reported as failed but was done. If the program then calls a service of the second
 /// host, and a service of the first again while the first host reads, this host writes the state once
 /// more and ends a request that it has not served. One host for all services of a channel is safe.
@@ -220,7 +220,7 @@ impl<'s> Host<'s> {
     ///
     /// # Errors
     /// - [`Truncated`](crate::ErrorKind::Truncated), [`Trailing`](crate::ErrorKind::Trailing): a
-    ///   state of not just four bytes,
+    ///   state that does not have four bytes,
     /// - [`TooLong`](crate::ErrorKind::TooLong): a request of more than 128 bytes with its NUL.
     ///
     /// While it polls, an invalid value means that it waits for the next [`poll`](Self::poll). After

@@ -12,7 +12,8 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 /// Comment blocks, labels, program ends and line numbers are carried over from one part to the next. Two
 /// differences remain, as it knows neither later lines nor all earlier ones:
 /// - A jump goes back if its label is in its own line or an earlier one, and not in a later line *of the
-///   same part* (assumed). Only for a label that is in both does the result depend on the parts.
+///   same part* (assumed). The split into parts changes the result only if a label is both before and after the
+///   jump.
 /// - At least the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels are known, as long as they have
 ///   no more than [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together. A jump back to
 ///   an older label is not detected.
@@ -222,17 +223,17 @@ impl fmt::Debug for CheckEvents<'_> {
 
 /// The diagnostics of a text, in its order; an open comment block comes last.
 ///
-/// The rules that this manual does not have: *online* marks those of the vendor's public help for the
-/// NC language, *assumed* those without a source:
+/// Some rules are not in the manual on data streaming: *online* marks those of the vendor's public help
+/// for the NC language, *assumed* those without a source:
 /// - Words and labels compare without regard to case (assumed). A `$` word ends where its letters
 ///   end; nothing may be between `$` and the word (online).
 /// - Parentheses nest (online). Text between two `"` in a line is neither code nor comment
 ///   (assumed).
-/// - `#COMMENT BEGIN` and `END` count at the start of a line, after `/` and the block number at
-///   most; the blocks do not nest, and their other content is skipped (online: nesting
+/// - `#COMMENT BEGIN` and `END` are recognised at the start of a line only; `/` and a block number may
+///   precede them. The blocks do not nest, and their other content is skipped (online: nesting
 ///   can be switched on).
-/// - A label is `N40:` or `[NAME]` at the start of a line, after `/` and, a name, after the
-///   block number; `N040:` is the same label (assumed), blanks before the colon are permitted
+/// - A label is `N40:` or `[NAME]` at the start of a line. `/` may precede it; a block number may
+///   precede `[NAME]`. `N040:` is the same label (assumed), blanks before the colon are permitted
 ///   (the name and the blanks: online). Labels belong to the program they are in; one begins at
 ///   each line whose first character is `%` (online).
 /// - A jump goes forward if its label is in any line below. It goes back if the label is in its
@@ -245,7 +246,7 @@ impl fmt::Debug for CheckEvents<'_> {
 ///   nor comment (assumed).
 /// - A line joined to the next by `\` is checked as two (assumed).
 ///
-/// The text is read twice: for labels first, of which the last line of each is kept, then for words.
+/// The text is read twice: first to record the last line of each label, then for words.
 /// The memory is that of the labels: their names, and about 80 bytes for each.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.

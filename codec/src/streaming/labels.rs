@@ -5,10 +5,11 @@ use alloc::vec::Vec;
 
 use super::scan::Label;
 
-/// The number of latest labels that a checker of packets knows at least …
+/// The least number of recent labels that a checker of packets knows, if they have no more than
+/// [`CHARACTERS`].
 pub(super) const LABELS: usize = 8192;
 
-/// … if all of them together have no more characters than this.
+/// The most characters of all labels together for which a checker knows [`LABELS`] of them.
 pub(super) const CHARACTERS: usize = 256 * 1024;
 
 /// The last line of each label of the present program, and of those before it that came with the

@@ -31,7 +31,7 @@ pub struct Packets<'a> {
     crlf: bool,
 }
 
-/// The memory that has a packet.
+/// Where the bytes of a packet are: in the text or in the buffer.
 #[derive(Clone, Copy)]
 pub(super) enum PacketBytes<'a> {
     Text(&'a [u8]),
@@ -61,9 +61,11 @@ impl<'a> Packets<'a> {
         }
     }
 
-    /// The next packet, if it is sent as it is in the text: all packets of a text for which
-    /// [`is_wire`](super::NcText::is_wire) is true, and those without the last line if only its line end
-    /// is missing.
+    /// The next packet, borrowed from the text; `None` if a line end must be added or replaced: then use
+    /// [`next_into`](Self::next_into).
+    ///
+    /// All packets can be borrowed if [`is_wire`](super::NcText::is_wire) is true. If only the end of the
+    /// last line is missing, all but the last packet can.
     ///
     /// ```
     /// use ads_cnc::streaming::NcText;

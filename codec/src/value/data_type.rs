@@ -7,7 +7,7 @@ use crate::text::CncStr;
 
 /// Declares the codes of variables' types and [`DataType`] from one table of types.
 ///
-/// A type that no variable has has its name as text instead of a constant's name.
+/// Types that variables do not use give their name as a string literal.
 macro_rules! data_types {
     (
         $(#[$code_doc:meta])*

@@ -46,8 +46,8 @@ impl<'a> Shape<'a> {
     /// The STRINGs of an array have equal shares of the bytes, at least one byte each (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] of the size: expected is the size of the elements, for texts the next
-    /// smaller multiple of their number; found is the size given.
+    /// [`ErrorKind::Mismatch`] of the size: expected is the size of the elements, for STRING the
+    /// size rounded down to a multiple of their number; found is the size given.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {

@@ -80,8 +80,8 @@ impl<'a> VariablePath<'a> {
         VariablePath::write(self.kind(), parts, buf)
     }
 
-    /// The name on the channel interface of a variable of the axis interface: the axis's instance
-    /// identifier becomes the last part.
+    /// Converts a name of the axis interface to the name on the channel interface, by appending the
+    /// axis's instance identifier.
     ///
     /// Indices at the end stay there, after the axis: their position is not documented.
     ///

@@ -148,8 +148,8 @@ impl<'a> VariablePath<'a> {
         Self { text: self.text.split_at(self.variable_end).0, ..*self }
     }
 
-    /// The axis a name of the kind V.A is for on the channel interface, its instance identifier:
-    /// the last part if there are two or more.
+    /// The axis of a V.A name on the channel interface, by its instance identifier: the last part if the
+    /// name has two or more.
     ///
     /// Names on the axis interface have no axis: there the last part is the variable. The name itself does
     /// not show for which interface it is.

@@ -61,7 +61,7 @@ fn frames(bytes: &[u8]) -> Result<(), Error> {
         seen((ads::FrameRef::data(&frame), len));
         let header = ads::FrameRef::header(&frame);
         seen(ads::FrameRef::new(header, any(bytes)));
-        seen(ads::AmsHeader::response(header));
+        seen((ads::AmsHeader::response(header), ads::AmsHeader::to_bytes(&header)));
         seen(ads::AmsHeader::request(header.target, header.source, header.command, any(1)));
         if let Ok(Some(call)) = operation::Call::from_frame(&frame) {
             let mut buf = [0; ROOM];
@@ -70,7 +70,7 @@ fn frames(bytes: &[u8]) -> Result<(), Error> {
     }
     seen(ads::AdsError::is_ok(ads::AdsError(any(7))));
     let reply = ads::DeviceInfoReply::decode(bytes)?;
-    seen(ads::DeviceInfoReply::name(&reply));
+    seen((ads::DeviceInfoReply::name(&reply), ads::DeviceInfoReply::to_bytes(&reply)));
     Ok(())
 }
 
@@ -106,6 +106,7 @@ fn descriptors(bytes: &[u8]) -> Result<(), Error> {
     seen((Descriptor::not_assigned(&made), Descriptor::size(&made)));
     seen((Descriptor::write_access(&made), Descriptor::data_type(&made)));
     seen((Descriptor::name(&made), Descriptor::type_name(&made), Descriptor::type_size(&made)));
+    seen(Descriptor::to_bytes(&made));
     let view = Descriptor::as_ref(&made);
     seen((DescriptorRef::id(&view), DescriptorRef::index_group(&view)));
     seen((DescriptorRef::index_offset(&view), DescriptorRef::not_assigned(&view)));
