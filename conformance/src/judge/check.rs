@@ -218,8 +218,9 @@ pub(crate) struct Record {
     pub(crate) checks: usize,
 }
 
-/// Who judges checks: a case that asks for itself, or one that looks on.
+/// Records checks: of a case that sends requests, or of captured traffic.
 pub(crate) trait Checks {
+    /// Judges a check for each of the rules; returns `kept`. The words are formatted if it fails.
     fn check(
         &mut self,
         rules: impl Rules,

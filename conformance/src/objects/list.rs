@@ -1,13 +1,14 @@
-//! Whose objects are in a list.
+//! Lists of objects, elements and variables.
 
 use std::fmt;
 
-use ads_cnc::address::Class;
+use ads_cnc::address::{Class, ComTable};
 use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::ObjectList;
 
 use crate::explain::class_name;
 
-/// A list of objects, elements or variables, as people name it.
+/// A list of objects, elements or variables, by the name that tools display.
 ///
 /// ```
 /// use ads_cnc::address::Class;
@@ -27,20 +28,31 @@ pub enum List {
     /// An instance of a class of SDA and GEO.
     Class {
         class: Class,
-        /// Which channel; of a spindle its index, of the platform none.
+        /// The channel number, or the index of a spindle; None for the platform.
         channel: Option<u8>,
-        /// Which axis, or which place of the channel; none for the channel itself.
+        /// The axis, by its index in the platform or the channel; None for the channel itself.
         axis: Option<u8>,
     },
     /// Variables of a kind, `V.E` for one.
     Variables {
         kind: &'static str,
         channel: u8,
-        /// Which place, over the axis interface.
+        /// The axis by its index in the channel, over the axis interface.
         axis: Option<u16>,
     },
     /// Dynamic parameters.
     Parameters { kind: DynamicKind, channel: u8 },
+}
+
+impl From<ObjectList> for List {
+    fn from(list: ObjectList) -> Self {
+        let parts = list.parts();
+        match (parts.table, parts.instance) {
+            (ComTable::Axis, axis) => Self::Axis(axis),
+            (ComTable::Channel, 0) => Self::Platform,
+            (ComTable::Channel, number) => Self::Channel(number),
+        }
+    }
 }
 
 impl fmt::Display for List {

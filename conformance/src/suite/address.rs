@@ -11,7 +11,7 @@ use ads_cnc_vectors::Hex;
 use super::kit::{Probe, RawCall};
 use super::{Row, case};
 use crate::exchange::Exchange;
-use crate::judge::{Needs, OrStop as _, Record, Step, Stop, assumed, online};
+use crate::judge::{Checks as _, Needs, OrStop as _, Record, Step, Stop, assumed, online};
 use crate::objects::KINDS;
 use crate::text::hex::spaced;
 

@@ -5,7 +5,7 @@ use ads_cnc::operation::{ReadByHandle, ReadByName};
 
 use super::kit::{Probe, brackets, each_array, each_variable, element_name};
 use super::{Row, case};
-use crate::judge::{Needs, Step, assumed};
+use crate::judge::{Checks as _, Needs, Step, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -8,7 +8,7 @@ use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
 use super::{Row, case};
-use crate::judge::{Needs, Step};
+use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

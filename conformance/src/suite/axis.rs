@@ -14,7 +14,7 @@ use super::kit::{
     name_of,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Step, applicable, assumed};
+use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -5,7 +5,7 @@ use ads_cnc::operation::{AxisHandleByName, ReadElement, Request};
 
 use super::kit::{OF_PLACES, Probe};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
 
 #[rustfmt::skip]
@@ -18,7 +18,7 @@ pub(super) const CASES: &[Row] = &[
 type Content = Option<Vec<u8>>;
 
 /// A content that is the same when it is read again.
-fn still<'r>(probe: &mut Probe<'_>, read: impl Into<Request<'r>>) -> Step<Content> {
+fn steady_content<'r>(probe: &mut Probe<'_>, read: impl Into<Request<'r>>) -> Step<Content> {
     let read = read.into();
     let first = probe.ask("ADR-13", read)?;
     Ok(Some(first.clone()).filter(|_| probe.try_ask(read).is_ok_and(|now| now == Some(first))))
@@ -49,7 +49,7 @@ fn contents(
         for element in instance.elements() {
             let Some(length) = probe.length_of(element)? else { continue };
             let Ok(read) = ReadElement::new(element, length) else { continue };
-            all.push(still(probe, read)?);
+            all.push(steady_content(probe, read)?);
         }
     }
     Ok(all)
@@ -66,7 +66,7 @@ fn objects(probe: &mut Probe<'_>, list: List, axis: Option<u32>) -> Step<Vec<Con
         let (true, Ok(read)) = (axis.is_none_or(|axis| axis == at), object.address.read()) else {
             continue;
         };
-        all.push(still(probe, read)?);
+        all.push(steady_content(probe, read)?);
     }
     Ok(all)
 }

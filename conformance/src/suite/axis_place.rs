@@ -14,7 +14,7 @@ use super::kit::{
     name_of,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, assumed};
+use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

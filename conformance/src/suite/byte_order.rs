@@ -8,7 +8,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Counted, Probe, is_permuted, name_of};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Step};
+use crate::judge::{Checks as _, IfThere as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -9,7 +9,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, VARIABLES_MAX};
 use super::{Row, case};
-use crate::judge::{Needs, Step};
+use crate::judge::{Checks as _, Needs, Step};
 use crate::simulator::Configured;
 
 #[rustfmt::skip]

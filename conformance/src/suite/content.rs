@@ -9,7 +9,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
+use crate::judge::{Checks as _, IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
 use crate::objects::Object;
 
 #[rustfmt::skip]

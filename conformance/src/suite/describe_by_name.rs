@@ -10,7 +10,7 @@ use ads_cnc::{
 use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
 use crate::edition::Feature;
-use crate::judge::{Needs, OrStop as _, Step, Stop, assumed, online};
+use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
 #[rustfmt::skip]

@@ -6,7 +6,7 @@ use ads_cnc::operation::Task;
 use super::kit::Probe;
 use super::{Row, case};
 use crate::client::{Inquired, Inquiry, Said};
-use crate::judge::{Evidence, Needs, Step};
+use crate::judge::{Checks as _, Evidence, Needs, Step};
 use crate::simulator;
 use crate::values::until_nul;
 
@@ -26,7 +26,7 @@ impl Probe<'_> {
         self.target()?;
         let inquired = self.target.client.inquire::<R>(task.port());
         let fault = inquired.outcome.as_ref().err();
-        self.came(fault, &inquired.violations, &inquired, Evidence::from(&inquired))?;
+        self.record_exchange(fault, &inquired.violations, &inquired, Evidence::from(&inquired))?;
         Ok(inquired)
     }
 }

@@ -14,7 +14,7 @@ use super::kit::{
     Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, type_and_length,
 };
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step, assumed};
+use crate::judge::{Checks as _, Needs, OrStop as _, Step, assumed};
 use crate::objects::decode_element_count;
 
 #[rustfmt::skip]
@@ -57,13 +57,13 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         probe.pass("ADR-6");
         let found = || format!("{} bytes for the number of {instance}", data.len());
         probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", found);
-        let told = decode_element_count(&data);
-        probe.check("SDA-4", told.is_some(), "a number", found);
-        let same = told == Some(instance.told);
-        let found = || format!("{told:?} elements of {instance}");
-        probe.check("SDA-4", same, || format!("{}, as before", instance.told), found);
+        let reported = decode_element_count(&data);
+        probe.check("SDA-4", reported.is_some(), "a number", found);
+        let same = reported == Some(instance.reported);
+        let found = || format!("{reported:?} elements of {instance}");
+        probe.check("SDA-4", same, || format!("{}, as before", instance.reported), found);
         let count = instance.count;
-        match (instance.counts_itself(), instance.told) {
+        match (instance.counts_itself(), instance.reported) {
             (true, _) => with_first = Some((instance.to_string(), probe.evidence())),
             (false, 1..) => alone = Some(instance.to_string()),
             (false, 0) => {}
@@ -92,7 +92,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     }
     // Whether element 0 is counted is assumed, but not that of one it is and of another not.
     if let Some((with_first, evidence)) = with_first {
-        probe.show(evidence);
+        probe.set_evidence(evidence);
         let found = || format!("one more for {with_first}");
         let rule = if alone.is_some() { "SDA-4".into() } else { assumed("SDA-4") };
         let like = alone.map(|alone| format!(", as for {alone}")).unwrap_or_default();

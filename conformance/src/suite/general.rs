@@ -13,7 +13,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, assumed, online};
+use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -9,7 +9,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, Steady, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step, Stop, assumed};
+use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

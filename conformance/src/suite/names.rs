@@ -5,7 +5,7 @@ use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
 use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step, Stop, assumed};
+use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 use crate::values::until_nul;
 
 #[rustfmt::skip]

@@ -5,7 +5,7 @@ use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
 use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
 use super::{Row, case};
-use crate::judge::{Needs, Step};
+use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -12,7 +12,7 @@ use super::kit::{
     OBJECTS_MAX, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, applicable, assumed};
+use crate::judge::{Checks as _, Needs, Step, Stop, applicable, assumed};
 use crate::objects::{List, Object};
 
 #[rustfmt::skip]

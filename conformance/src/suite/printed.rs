@@ -57,7 +57,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     };
     let exchange = probe.call(&call)?;
     let values = typed(context);
-    probe.show(probe.evidence().map(|evidence| Evidence { values, ..evidence }));
+    probe.set_evidence(probe.evidence().map(|evidence| Evidence { values, ..evidence }));
     let received = exchange.success();
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);

@@ -39,7 +39,7 @@ pub fn run(
     }));
     if let Some(target) = target {
         // What a panic here leaves changed is reported as such.
-        let _panic = caught(|| Probe::new(target).put_back_rest());
+        let _panic = caught(|| Probe::new(target).restore_rest());
     }
     outcomes
 }
@@ -84,11 +84,11 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
         Ok(step) => step,
         Err(panicked) => Err(Stop::Harness(panicked)),
     };
-    let put_back = caught(|| probe.put_back()).unwrap_or_else(|panicked| {
+    let restored_all = caught(|| probe.restore_all()).unwrap_or_else(|panicked| {
         probe.target.changes.give_up();
         Err(Stop::Harness(panicked))
     });
-    let step = step.and(put_back);
+    let step = step.and(restored_all);
     let step = probe.end(step);
     let (judgements, checks) = probe.into_findings();
     CaseOutcome::tried(case, judgements, checks, step.err())

@@ -3,7 +3,7 @@
 
 use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Checks as _, Needs, Rule, Step, Stop};
 use crate::objects::{List, Object, ValueAddress};
 use crate::simulator::{Holder, StoredContent};
 use crate::text::hex::spaced;

@@ -5,7 +5,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, same};
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, assumed};
+use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
@@ -57,7 +57,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
             &before,
             |probe| characters(probe, &address, &what, before.len()),
             |probe| {
-                let taken = probe.put(&write_check, &address, &before)?;
+                let taken = probe.write_checked(&write_check, &address, &before)?;
                 Ok(taken
                     && probe.value_at(&address)?.is_some_and(|read| same(&read, &before, true)))
             },
@@ -89,7 +89,11 @@ fn is_read_again(
 ) -> Step {
     // Which texts are taken is documented nowhere.
     let taken = [assumed("GEN-3")];
-    if !probe.put(&WriteCheck { what, rules: &taken, is_text: true, name: None }, address, value)? {
+    if !probe.write_checked(
+        &WriteCheck { what, rules: &taken, is_text: true, name: None },
+        address,
+        value,
+    )? {
         return Ok(());
     }
     let read = probe.value_at(address)?.unwrap_or_default();

@@ -11,7 +11,7 @@ use super::kit::{
 };
 use super::{Row, case};
 use crate::explain::{ValueFormat, type_by_name};
-use crate::judge::{Evidence, Needs, Rule, Step};
+use crate::judge::{Checks as _, Evidence, Needs, Rule, Step};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
@@ -48,7 +48,7 @@ fn compare_with_whole<'r>(
         let expected = part(&whole);
         let dimensions: &[u32] = if expected == whole { &variable.dimensions } else { &[] };
         let values = typed(variable, dimensions);
-        probe.show(evidence.map(|evidence| Evidence { values, ..*evidence }));
+        probe.set_evidence(evidence.map(|evidence| Evidence { values, ..*evidence }));
         let words = || format!("{} of the whole of {name}", spaced(&expected));
         probe.check_reply(rules, false, &expected, words, || Hex(read));
     });

@@ -10,7 +10,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step};
+use crate::judge::{Checks as _, Needs, OrStop as _, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

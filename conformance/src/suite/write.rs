@@ -9,7 +9,7 @@ use super::kit::{
     handle_of, same, write_check,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, assumed};
+use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]

@@ -8,7 +8,7 @@ use super::kit::{
     NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, another, is_sendable, writable_numbers,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Step, applicable};
+use crate::judge::{Checks as _, Needs, Step, applicable};
 use crate::objects::{List, ValueAddress};
 
 #[rustfmt::skip]
@@ -144,7 +144,7 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         probe.send(address.write(&other)?)?;
         let evidence = probe.evidence();
         let after = probe.value_at(&address)?.unwrap_or_default();
-        probe.show(evidence);
+        probe.set_evidence(evidence);
         let kept = after != other;
         let expected = || format!("{} of {what}, blank as before", Hex(blank.clone()));
         probe.check("SDA-11", kept, expected, || Hex(after));

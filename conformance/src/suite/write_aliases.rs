@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step};
+use crate::judge::{Checks as _, Needs, Rule, Step};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]

@@ -8,7 +8,7 @@ use super::kit::{
     NOTHING_WRITABLE, Probe, RawCall, WritableElement, WriteCheck, elements_with_flag,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, applicable, assumed};
+use crate::judge::{Checks as _, Needs, Rule, Step, applicable, assumed};
 use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
@@ -88,7 +88,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let is_own = taken.is_empty();
         for (rule, twin, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
-            probe.show(evidence);
+            probe.set_evidence(evidence);
             let kept = again.as_ref() != Some(before);
             let expected = || format!("{} at a place of its own", one.what);
             probe.check(rule, kept, expected, || format!("written in {twin} too"));

@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, each_of_access, handle_of, same, write_check};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, assumed};
+use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]

@@ -7,7 +7,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, axis_address, element_count, is_of_service, write_value};
 use super::{Row, case};
-use crate::judge::{Evidence, Needs, Rule, Step, Stop};
+use crate::judge::{Checks as _, Evidence, Needs, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
@@ -171,7 +171,7 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
             let (name, channel) = (&one.variable.name.text, one.channel.number());
             let expected =
                 || format!("{} of {name} of channel {channel}", Hex(seen.expected.clone()));
-            probe.show(seen.evidence.clone());
+            probe.set_evidence(seen.evidence.clone());
             probe.check(rule, false, expected, || Hex(seen.read.clone()));
         }
     }

@@ -10,7 +10,7 @@ use super::kit::{
     require_taken, writable_numbers, write_check,
 };
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
+use crate::judge::{Checks as _, Needs, OrStop as _, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]

@@ -9,7 +9,7 @@ use super::kit::{
     require_taken,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, assumed, online};
+use crate::judge::{Checks as _, Needs, Rule, Step, assumed, online};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
@@ -130,7 +130,7 @@ impl WrongSizeWrite<'_> {
         let is_taken = is_taken(probe, way.id, what, bad)?;
         let evidence = probe.evidence();
         let (read, after) = (probe.value_at(&way.address)?, probe.value_at(watched)?);
-        probe.show(evidence);
+        probe.set_evidence(evidence);
         let rule = if is_text { of_size } else { assumed(way.id) };
         probe.check(rule, !is_taken, || format!("an error number for {what}"), "a success");
         if is_taken {

@@ -5,7 +5,7 @@ use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, each_of_access, write_value};
 use super::{Row, case};
-use crate::judge::{Needs, Step, online};
+use crate::judge::{Checks as _, Needs, Step, online};
 use crate::objects::ValueAddress;
 use crate::values::until_nul;
 

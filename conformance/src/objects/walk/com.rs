@@ -52,7 +52,7 @@ impl Walk<'_> {
         for object in all.into_iter().filter(|_| is_selected) {
             let is_known = object.address.content().is_some_and(|at| known.contains(&at));
             if !is_known && self.is_named(&object.name) {
-                self.found(object)?;
+                self.add(object)?;
             }
         }
         Ok(Some(addresses))

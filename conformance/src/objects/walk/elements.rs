@@ -87,12 +87,12 @@ impl Walk<'_> {
         }
         self.instances.push(first);
         if self.enter(list) {
-            self.of_instance(list, class, first)?;
+            self.elements_of(list, class, first)?;
         }
         Ok(true)
     }
 
-    fn of_instance(
+    fn elements_of(
         &mut self,
         list: List,
         class: Class,
@@ -109,7 +109,7 @@ impl Walk<'_> {
             let Some(name) = name.map(|name| name.text.text) else { return Ok(false) };
             if walk.is_named(&name) {
                 let object = walk.element(list, class, element, number, name)?;
-                walk.found(object)?;
+                walk.add(object)?;
             }
             Ok(true)
         })?;

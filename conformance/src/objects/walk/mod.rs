@@ -1,4 +1,4 @@
-//! Finds what is there: see [`objects`](super) for which requests that takes.
+//! Finds what a CNC has: [`objects`](super) lists the requests.
 
 mod com;
 mod elements;
@@ -16,11 +16,11 @@ use crate::session::{Session, Trouble};
 use elements::Attributes;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
 
-/// The most numbers in a row that are not there before no more are asked for.
+/// The most numbers in a row that the target may reject before a list counts as ended.
 pub const GAP: u32 = 8;
-/// Descriptors that are asked for in one request.
+/// Descriptors in one request.
 pub const RANGE: u32 = 256;
-/// The most channels, axes, places and spindles.
+/// The most channels, axes and spindles.
 const NUMBER_MAX: u32 = 255;
 
 /// The most objects that are listed, and looked at in one list.
@@ -29,7 +29,7 @@ pub const OBJECTS_MAX: u32 = 100_000;
 pub const NAMES_MAX: usize = 8 << 20;
 /// The most requests of a walk.
 pub const REQUESTS_MAX: u64 = 1_000_000;
-/// The most lines of what the CNC did not tell.
+/// The most notes.
 const NOTES_MAX: usize = 1_000;
 
 /// What to look for.
@@ -61,10 +61,10 @@ pub struct WalkResult {
     pub is_cut: bool,
 }
 
-/// How far it is, for whoever waits.
+/// The progress of a walk.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkProgress {
-    /// In which list.
+    /// The list that is being read.
     pub list: List,
     /// Objects found so far.
     pub objects: usize,
@@ -135,8 +135,8 @@ struct Walk<'w> {
     task: Task,
     /// Why GEO is not asked.
     geo: Result<(), Trouble>,
-    /// What elements said of themselves, for those that are alike: by class, whether it is of an
-    /// axis, and number.
+    /// Attributes that were read, by class, whether of an axis, and number: elements of other instances
+    /// with the same name are assumed to have the same.
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
 }
 
@@ -184,7 +184,7 @@ impl Walk<'_> {
         self.options.names.as_ref().is_none_or(|names| names.matches(&name.to_string()))
     }
 
-    fn found(&mut self, object: Object) -> Result<(), Trouble> {
+    fn add(&mut self, object: Object) -> Result<(), Trouble> {
         if usize::try_from(OBJECTS_MAX).is_ok_and(|most| self.found.objects.len() >= most) {
             return Err(Trouble::Enough(format!("{OBJECTS_MAX} objects were found")));
         }
@@ -202,7 +202,7 @@ impl Walk<'_> {
     /// The channels that are active.
     fn channels(&mut self) -> Result<Vec<Channel>, Trouble> {
         if !self.options.channels.is_empty() {
-            return self.of_those_named();
+            return self.channels_given();
         }
         let mut ranks = 0_usize;
         for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
@@ -226,8 +226,8 @@ impl Walk<'_> {
         Ok(found)
     }
 
-    /// Of the channels that are asked for those that are there, each once.
-    fn of_those_named(&mut self) -> Result<Vec<Channel>, Trouble> {
+    /// The channels of the options that the target has, each once.
+    fn channels_given(&mut self) -> Result<Vec<Channel>, Trouble> {
         let mut found = Vec::new();
         for &channel in &self.options.channels {
             if found.contains(&channel) {

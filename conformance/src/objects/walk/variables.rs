@@ -59,7 +59,7 @@ impl Walk<'_> {
         let answered = self.each((first..).take(count_of(most)), |walk, index| {
             let Some(object) = object(walk, index)? else { return Ok(false) };
             if walk.is_named(&object.name) {
-                walk.found(object)?;
+                walk.add(object)?;
             }
             Ok(true)
         })?;

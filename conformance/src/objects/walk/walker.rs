@@ -1,11 +1,11 @@
 //! What every walk asks for, and where its lists end.
 
-use ads_cnc::address::{Channel, Class, ComTable, ElementAddress};
+use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{CountElements, ObjectList, ReadDescriptors, Request};
 use ads_cnc::sda::{ElementCount, ElementLength};
 use ads_cnc::{Decode, Descriptors, Kind};
 
-use super::super::{List, Object};
+use super::super::Object;
 use super::{GAP, NUMBER_MAX};
 
 /// The kinds of variables that have an index.
@@ -156,22 +156,11 @@ pub(crate) trait Walker: Sized {
 
     /// How many elements an instance has, as the target says.
     fn count_elements(&mut self, first: ElementAddress) -> Result<Option<u32>, Self::Error> {
-        // An instance may be said to begin where a function is.
+        // A target may give the address of a function.
         let data = match CountElements::new(first) {
             Ok(count) => self.request(count)?,
             Err(_) => None,
         };
         Ok(data.and_then(|data| decode_element_count(&data)))
-    }
-}
-
-impl From<ObjectList> for List {
-    fn from(list: ObjectList) -> Self {
-        let parts = list.parts();
-        match (parts.table, parts.instance) {
-            (ComTable::Axis, axis) => Self::Axis(axis),
-            (ComTable::Channel, 0) => Self::Platform,
-            (ComTable::Channel, number) => Self::Channel(number),
-        }
     }
 }

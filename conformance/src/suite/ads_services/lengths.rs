@@ -7,8 +7,8 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, VariableType};
 
-use super::maybe;
-use crate::judge::Step;
+use super::ask_if_claimed;
+use crate::judge::{Checks as _, Step};
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall, name_of};
 use crate::wire_service::clause;
@@ -19,7 +19,7 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let requests: [Request<'_>; 2] =
         [CountVariables::new(channel, Kind::V_G).into(), CountObjects::new(channel).into()];
     for request in requests {
-        let Some(whole) = maybe(probe, request)? else { continue };
+        let Some(whole) = ask_if_claimed(probe, request)? else { continue };
         for piece in [37, 6, 1] {
             probe.target.client.set_piece(Some(piece));
             let exchange = probe.send(request);
@@ -73,7 +73,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     }
     let call = RawCall::new(request)?;
     let rule = clause(call.service);
-    let Some(whole) = maybe(probe, request)?.filter(|data| !data.is_empty()) else {
+    let Some(whole) = ask_if_claimed(probe, request)?.filter(|data| !data.is_empty()) else {
         return Ok(());
     };
     let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);

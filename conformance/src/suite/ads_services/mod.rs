@@ -15,7 +15,7 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
 use super::{Row, case};
-use crate::judge::{Needs, Step};
+use crate::judge::{Checks as _, Needs, Step};
 use crate::objects::decode_element_count;
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, Steady, compare, name_of};
@@ -61,7 +61,10 @@ fn some<'a>(
 
 /// The answer to a request, if the target claims to have one: whether it gives one is judged
 /// elsewhere.
-fn maybe<'a>(probe: &mut Probe<'_>, request: impl Into<Request<'a>>) -> Step<Option<Vec<u8>>> {
+fn ask_if_claimed<'a>(
+    probe: &mut Probe<'_>,
+    request: impl Into<Request<'a>>,
+) -> Step<Option<Vec<u8>>> {
     let request = request.into();
     match probe.claims(request.function()) {
         Claim::No => Ok(None),
@@ -78,7 +81,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: &str = "ADS-1";
     for list in probe.lists()? {
         // That platform axes have lists of their own is assumed.
-        let Some(data) = maybe(probe, CountObjects::new(list))? else { continue };
+        let Some(data) = ask_if_claimed(probe, CountObjects::new(list))? else { continue };
         let count = number(&data).min(SOME);
         let mut all: Vec<Vec<u8>> = Vec::new();
         for index in 1..=count {
@@ -91,7 +94,8 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
             all.push(one);
         }
         if let (Ok(several), true) = (ReadDescriptors::new(list, 1, count), count > 1)
-            && let Some(several) = maybe(probe, several)?.filter(|data| data.len() > DESCRIPTOR_LEN)
+            && let Some(several) =
+                ask_if_claimed(probe, several)?.filter(|data| data.len() > DESCRIPTOR_LEN)
         {
             let same = several == all.concat();
             probe.check(RULE, same, "the descriptors as they are one by one", "others");
@@ -178,11 +182,11 @@ fn names_agree(
     kind: DynamicKind,
 ) -> Step {
     let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
-        let data = maybe(probe, CountDynamic::new(channel, kind))?;
+        let data = ask_if_claimed(probe, CountDynamic::new(channel, kind))?;
         Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
     };
     let has = |probe: &mut Probe<'_>, index: u32| -> Step<bool> {
-        let name = maybe(probe, DynamicNameByIndex::new(channel, kind, index)?)?;
+        let name = ask_if_claimed(probe, DynamicNameByIndex::new(channel, kind, index)?)?;
         Ok(name.is_some_and(|name| name.first().is_some_and(|&first| first != 0)))
     };
     let compared = compare(
@@ -217,7 +221,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step {
             let first = address.and_then(|address| address.first_element().ok().flatten());
             let Some(first) = first else { continue };
             let Ok(count) = CountElements::new(first) else { continue };
-            let data = maybe(probe, count)?;
+            let data = ask_if_claimed(probe, count)?;
             let count = data.as_deref().and_then(decode_element_count);
             let expected = "a number of elements where the object address says";
             probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));
@@ -225,7 +229,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step {
                 let Ok(element) = first.nth(place) else { break };
                 let Some(length) = probe.length_of(element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };
-                let Some(data) = maybe(probe, read)? else { continue };
+                let Some(data) = ask_if_claimed(probe, read)? else { continue };
                 let found = || format!("{} bytes", data.len());
                 let same = u32::try_from(data.len()).is_ok_and(|len| len == length);
                 probe.check("ADS-1", same, || format!("{length} bytes, as its length says"), found);

@@ -5,7 +5,7 @@ use ads_cnc::address::IndexOffset;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{CountObjects, CountVariables, Request, WriteByName};
 
-use crate::judge::Step;
+use crate::judge::{Checks as _, Step};
 use crate::suite::kit::{Probe, RawCall};
 
 /// Which number it is nobody says, so any other is right too: but not the same one with its bytes
@@ -29,15 +29,16 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
         let found = number(probe, &bad)?;
         let turned = own.0.swap_bytes();
         let expected = || format!("{own:#x}, or another");
-        probe
-            .check("ADS-4", found.is_none_or(|found| found.0 != turned), expected, || shown(found));
+        probe.check("ADS-4", found.is_none_or(|found| found.0 != turned), expected, || {
+            display(found)
+        });
     }
     let good = RawCall::new(CountVariables::new(channel, Kind::V_E))?;
     let call = good.with(|call| call.port = AmsPort(1));
     let found = number(probe, &call)?;
     let turned = AdsError::TARGET_PORT_NOT_FOUND.0.swap_bytes();
     let expected = "an error, its lowest byte first";
-    probe.check("ADS-5", found.is_none_or(|found| found.0 != turned), expected, || shown(found));
+    probe.check("ADS-5", found.is_none_or(|found| found.0 != turned), expected, || display(found));
     Ok(())
 }
 
@@ -48,6 +49,6 @@ fn number(probe: &mut Probe<'_>, call: &RawCall) -> Step<Option<AdsError>> {
     Ok(errors.into_iter().flatten().find(|error| !error.is_ok()))
 }
 
-fn shown(error: Option<AdsError>) -> String {
+fn display(error: Option<AdsError>) -> String {
     error.map_or_else(|| "none".to_owned(), |error| format!("{error:#x}"))
 }

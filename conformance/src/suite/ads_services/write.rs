@@ -3,7 +3,7 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use crate::judge::{Rule, Step, applicable};
+use crate::judge::{Checks as _, Rule, Step, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service};
 
@@ -27,7 +27,7 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
             }
             let is_text = variable.var_type == VariableType::STRING;
             let neighbour = tried.last().map(|(address, _)| address.clone());
-            at(probe, &address, &name.to_string(), is_text, neighbour.as_ref())?;
+            write_beside(probe, &address, &name.to_string(), is_text, neighbour.as_ref())?;
             tried.push((address, name));
         }
         any |= !tried.is_empty();
@@ -53,7 +53,7 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
         if tried >= SOME || !filled || !probe.may_write(address, &name)? {
             continue;
         }
-        at(probe, address, &name, false, None)?;
+        write_beside(probe, address, &name, false, None)?;
         tried = tried.saturating_add(1);
     }
     Ok(tried > 0)
@@ -63,7 +63,7 @@ fn any(value: &[u8]) -> bool {
     value.iter().any(|&byte| byte != 0)
 }
 
-fn at(
+fn write_beside(
     probe: &mut Probe<'_>,
     address: &ValueAddress,
     what: &str,

@@ -8,7 +8,7 @@ use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueBy
 use ads_cnc_vectors::Hex;
 
 use super::{number, prefix};
-use crate::judge::Step;
+use crate::judge::{Checks as _, Step};
 use crate::simulator::Cnc;
 use crate::suite::kit::Probe;
 

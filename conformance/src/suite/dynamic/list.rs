@@ -12,7 +12,7 @@ use ads_cnc::operation::{
 use ads_cnc_vectors::Hex;
 
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
-use crate::judge::{Evidence, Step, Stop, assumed};
+use crate::judge::{Checks as _, Evidence, Step, Stop, assumed};
 use crate::objects::KINDS;
 use crate::profile::Claim;
 use crate::suite::kit::{PendingCheck, Probe, between, steadily};
@@ -61,20 +61,20 @@ fn ask_name(
     Ok(NameReply { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
-/// What is told of a kind, while nobody makes or deletes a parameter.
+/// The names of a kind, read while nobody makes or deletes a parameter.
 struct ParameterList {
     count: u32,
     /// Of each index, up to the first that is refused.
     names: Vec<NameReply>,
     beyond: NameReply,
     /// An index that has another name if it is asked for in another order.
-    swayed: Option<NameReply>,
+    unsteady: Option<NameReply>,
 }
 
 impl ParameterList {
     fn is_doubtful(&self) -> bool {
-        let refused = self.names.iter().any(|told| told.data.is_none());
-        refused || self.beyond.data.is_some() || self.swayed.is_some()
+        let refused = self.names.iter().any(|reply| reply.data.is_none());
+        refused || self.beyond.data.is_some() || self.unsteady.is_some()
     }
 
     fn is_same(&self, other: &Self) -> bool {
@@ -86,7 +86,7 @@ impl ParameterList {
 /// How often a list that does not stand is read again.
 const TRIES: usize = 5;
 
-fn ahead(
+fn names_ascending(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: DynamicKind,
@@ -104,7 +104,7 @@ fn ahead(
     Ok(all)
 }
 
-fn backwards(
+fn names_descending(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: DynamicKind,
@@ -123,7 +123,7 @@ fn same(one: &[NameReply], other: &[NameReply]) -> bool {
 }
 
 /// The list of a kind; none if it never stood.
-fn settled(
+fn steady_list(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: DynamicKind,
@@ -149,27 +149,27 @@ fn listed(
     kind: DynamicKind,
     count: u32,
 ) -> Step<Option<ParameterList>> {
-    let names = ahead(probe, channel, kind, count)?;
+    let names = names_ascending(probe, channel, kind, count)?;
     let beyond = ask_name(probe, channel, kind, count.saturating_add(1))?;
-    let back = backwards(probe, channel, kind, &names)?;
-    let mut swayed = None;
+    let back = names_descending(probe, channel, kind, &names)?;
+    let mut unsteady = None;
     if !same(&names, &back) {
-        let once_more = ahead(probe, channel, kind, count)?;
-        let and_back = backwards(probe, channel, kind, &names)?;
+        let once_more = names_ascending(probe, channel, kind, count)?;
+        let and_back = names_descending(probe, channel, kind, &names)?;
         if !same(&names, &once_more) || !same(&back, &and_back) {
             return Ok(None);
         }
         let mut pairs = names.iter().zip(back);
-        swayed = pairs.find(|(one, other)| one.data != other.data).map(|(_, other)| other);
+        unsteady = pairs.find(|(one, other)| one.data != other.data).map(|(_, other)| other);
     }
-    Ok(Some(ParameterList { count, names, beyond, swayed }))
+    Ok(Some(ParameterList { count, names, beyond, unsteady }))
 }
 
 pub(super) fn names(probe: &mut Probe<'_>) -> Step {
     let (mut any, mut moved) = (false, None);
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            match settled(probe, channel, kind)? {
+            match steady_list(probe, channel, kind)? {
                 Some(list) => {
                     any |= list.count > 0;
                     judge(probe, kind, &list);
@@ -186,19 +186,19 @@ pub(super) fn names(probe: &mut Probe<'_>) -> Step {
 }
 
 fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
-    let ParameterList { count, names, beyond, swayed } = list;
+    let ParameterList { count, names, beyond, unsteady } = list;
     let mut seen = HashSet::new();
-    for told in names {
-        probe.show(told.evidence.clone());
-        let expected = || format!("a name of index {} of {count} of {}", told.index, prefix(kind));
+    for reply in names {
+        probe.set_evidence(reply.evidence.clone());
+        let expected = || format!("a name of index {} of {count} of {}", reply.index, prefix(kind));
         // The number may be wrong as well as the range; of the first, the function too.
-        let rules: &[&str] = match told.index {
+        let rules: &[&str] = match reply.index {
             1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
             _ => &["DYN-1", "DYN-5", "SDA-12"],
         };
-        probe.check(rules, told.data.is_some(), expected, &told.result);
-        let Some(data) = &told.data else { continue };
-        let found = || format!("{} bytes of index {}", data.len(), told.index);
+        probe.check(rules, reply.data.is_some(), expected, &reply.result);
+        let Some(data) = &reply.data else { continue };
+        let found = || format!("{} bytes of index {}", data.len(), reply.index);
         let expected = || format!("at most {DYNAMIC_NAME_MAX} bytes");
         probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, found);
         let name = DynamicName::decode(data);
@@ -206,7 +206,7 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
             continue;
         }
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
-        let found = || format!("{name:?} at index {}", told.index);
+        let found = || format!("{name:?} at index {}", reply.index);
         let ended = name.chars().count() < DYNAMIC_NAME_MAX;
         probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", found);
         let of_kind = is_of(kind, &name);
@@ -214,14 +214,14 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
         let own = seen.insert(name.clone());
         probe.check(["DYN-2", "DYN-5"], own, "another at each index", found);
     }
-    if let Some(other) = swayed {
-        probe.show(other.evidence.clone());
+    if let Some(other) = unsteady {
+        probe.set_evidence(other.evidence.clone());
         let found = || format!("{}, asked for backwards", other.result);
         let expected = || format!("the name of index {}, whatever was asked before", other.index);
         probe.check("DYN-2", false, expected, found);
     }
     // Whoever has one more than it says to have tells its name.
-    probe.show(beyond.evidence.clone());
+    probe.set_evidence(beyond.evidence.clone());
     let data = beyond.data.as_deref().unwrap_or_default();
     let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
     let another = name.is_ok_and(|name| is_of(kind, &name) && !seen.contains(&name));

@@ -6,8 +6,8 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 
-use super::{each, first, refuses_still, told};
-use crate::judge::{Step, assumed};
+use super::{each, first, names_of, refuses_still};
+use crate::judge::{Checks as _, Step, assumed};
 use crate::suite::kit::{Probe, RawCall};
 
 pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
@@ -29,7 +29,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
         let short = RawCall::new(request)?.with(|call| call.read_length = 3);
         let what = "a read length of 3 for a number";
         refuses_still(probe, assumed("ADS-1"), what, at, short, request)?;
-        for (_, known) in told(probe, channel, kind, count)? {
+        for (_, known) in names_of(probe, channel, kind, count)? {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
             let good = RawCall::new(request)?;

@@ -82,8 +82,8 @@ fn nothing() -> Stop {
     Stop::not_applicable("there is no parameter at the moment")
 }
 
-/// The names of a kind that are told, without those that are not; that is judged elsewhere.
-fn told(
+/// The names of a kind up to the first index that is rejected; other cases judge that.
+fn names_of(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: DynamicKind,
@@ -104,7 +104,7 @@ fn told(
 
 /// The first name of a kind. A program may have deleted it meanwhile.
 fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<CncString> {
-    let first = told(probe, channel, kind, 1)?.into_iter().next();
+    let first = names_of(probe, channel, kind, 1)?.into_iter().next();
     let lacks = || Stop::Inconclusive(format!("{}: no name of index 1", prefix(kind)));
     first.map(|(_, name)| name).ok_or_else(lacks)
 }

@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, TextRef};
 
-use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
+use super::{PARAMETERS_MAX, each, first, names_of, number, prefix, refuses_still};
 use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
 use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};
@@ -96,7 +96,7 @@ fn near(kind: DynamicKind, known: &str) -> Vec<String> {
 
 pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
-        let names = told(probe, channel, kind, count)?;
+        let names = names_of(probe, channel, kind, count)?;
         let Some((_, known)) = names.first() else {
             return Err(Stop::Inconclusive(format!("{}: no name of index 1", prefix(kind))));
         };
@@ -139,7 +139,7 @@ pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
             let count = |channel| CountDynamic::new(channel, kind).into();
             same_by_rank(probe, count(channel), count(rank))?;
             let count = number(probe, channel, kind)?.min(PARAMETERS_MAX);
-            for (index, name) in told(probe, channel, kind, count)? {
+            for (index, name) in names_of(probe, channel, kind, count)? {
                 let text = TextRef::from(name.as_cnc_str());
                 let of = |channel| -> Step<[Request<'_>; 3]> {
                     let name = DynamicNameByIndex::new(channel, kind, index)?;

@@ -1,6 +1,6 @@
 //! The types of elements, by their names.
 
-use crate::judge::{Rule, assumed, online};
+use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::suite::kit::Probe;
 
 /// The bytes of a type, and whether the manuals say them or only help pages do. The tables of

@@ -25,39 +25,40 @@ pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// The most axes and spindles that are looked for.
 pub(crate) const INSTANCES_MAX: u32 = 255;
 
-/// Classes with an instance for each channel, and one for each place of it.
+/// Classes with an instance for each channel, and one for each axis of it.
 pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
 
-/// What is known of a target; nothing before a case asks.
+/// The objects and instances of a target, read when a case first needs them.
 #[derive(Debug, Default)]
 pub(crate) struct Inventory {
     objects: Option<Vec<Object>>,
     instances: Option<Vec<Instance>>,
 }
 
-/// An instance of a class, by what it was asked for.
+/// An instance of a class, by the channel and the axis of its request.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
     pub(crate) class: Class,
     pub(crate) channel: u32,
     pub(crate) axis: u32,
     pub(crate) first: ElementAddress,
-    /// How many elements it says to have.
-    pub(crate) told: u32,
-    /// How many it means, without that which says how many: whether that is counted nobody says.
+    /// The number of elements that the target reports.
+    pub(crate) reported: u32,
+    /// The elements without element 0, which holds their number: whether the number counts it is not
+    /// documented.
     pub(crate) count: u32,
-    /// How many of them are looked at.
+    /// The elements that cases look at.
     reached: u32,
 }
 
 impl Instance {
-    /// Whether its number counts the element that says it.
+    /// Whether its number counts element 0.
     pub(crate) const fn counts_itself(&self) -> bool {
-        self.told > self.count
+        self.reported > self.count
     }
 
-    /// Its elements, without that which says how many there are.
+    /// Its elements without element 0.
     pub(crate) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
         (1..=self.reached).map_while(|place| self.first.nth(place).ok())
     }
@@ -149,7 +150,7 @@ impl Probe<'_> {
         Ok(platform.chain(channels).chain(axes?).collect())
     }
 
-    /// Every object of all lists. What cannot be read is judged elsewhere, and left out here.
+    /// Every object of all lists. Other cases judge a descriptor that cannot be read.
     pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
         if self.target.inventory.objects.is_none() {
             let mut all = Vec::new();
@@ -164,14 +165,13 @@ impl Probe<'_> {
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
-    /// Whether an instance is at a place that the profile says to be without an axis.
+    /// Whether an instance is at an axis index to which, by the profile, the channel assigns no axis.
     pub(crate) fn is_claimed_empty(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
         OF_PLACES.contains(&instance.class) && self.target.profile.empty_places.contains(&at)
     }
 
-    /// Every instance that the target says to have. Whether it says so rightly is judged
-    /// elsewhere.
+    /// Every instance for which the target gives an address. Other cases judge the address.
     pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
@@ -180,7 +180,7 @@ impl Probe<'_> {
             let (mut all, channels) = (Vec::new(), self.channels()?);
             for class in CLASSES {
                 self.instances_of(class, &channels, true, &mut |probe, channel, axis| {
-                    probe.found(class, channel, axis, &mut all)
+                    probe.has_instance(class, channel, axis, &mut all)
                 })?;
             }
             self.target.inventory.instances = Some(all);
@@ -189,7 +189,7 @@ impl Probe<'_> {
         all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")
     }
 
-    fn found(
+    fn has_instance(
         &mut self,
         class: Class,
         channel: u32,
@@ -202,19 +202,18 @@ impl Probe<'_> {
         if all.iter().any(|known| known.class == class && known.first == first) {
             return Ok(false);
         }
-        let told = self.count_elements(first)?.unwrap_or_default();
-        let reached = self.reach(first, told.min(OBJECTS_MAX))?;
-        // One less than it says, and there it ends: the first is counted.
-        let is_itself = told > 0
-            && reached.saturating_add(1) == told
+        let reported = self.count_elements(first)?.unwrap_or_default();
+        let reached = self.reach(first, reported.min(OBJECTS_MAX))?;
+        // One element fewer than the number has a name: the number counts element 0.
+        let is_itself = reported > 0
+            && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
-        let count = if is_itself { reached } else { told };
-        all.push(Instance { class, channel, axis, first, told, count, reached });
+        let count = if is_itself { reached } else { reported };
+        all.push(Instance { class, channel, axis, first, reported, count, reached });
         Ok(true)
     }
 
-    /// How many of an instance's elements there are to look at, if it says to have so many: all, if
-    /// the last one has a name.
+    /// The number of elements up to the last that has a name, of `count` that the target reports.
     fn reach(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
         if self.is_named(first, count)? {
             return Ok(count);
@@ -237,7 +236,7 @@ impl Probe<'_> {
         }
     }
 
-    /// What the target says of where an instance is; nothing if it refuses.
+    /// The address that the target gives an instance; None if it rejects the request.
     pub(crate) fn address_of(
         &mut self,
         class: Class,

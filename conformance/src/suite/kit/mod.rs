@@ -40,7 +40,7 @@ pub(crate) use object_list::{
     descriptors_one_by_one, known_object_count, object_count, read_descriptors,
 };
 pub use probe::Probe;
-pub(crate) use probe::heard;
+pub(crate) use probe::with_reply;
 pub(crate) use raw_call::{IntoRawCall, RawCall};
 pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};

@@ -35,7 +35,7 @@ pub struct Probe<'s> {
     pub target: &'s mut TargetState,
     record: Record,
     last: Option<Evidence>,
-    asked: usize,
+    requests: usize,
     /// Whether it was kept from asking, as the run is to end.
     pub(crate) interrupted: bool,
     /// Why something that the file names is not written.
@@ -49,7 +49,7 @@ impl<'s> Probe<'s> {
             target,
             record: Record::default(),
             last: None,
-            asked: 0,
+            requests: 0,
             interrupted: false,
             doubt: None,
             deadline: None,
@@ -116,21 +116,6 @@ impl<'s> Probe<'s> {
         self.target.profile.claims(function)
     }
 
-    /// Judges a check, for each of the rules. The words are formatted if it fails.
-    pub fn check(
-        &mut self,
-        rules: impl Rules,
-        kept: bool,
-        expected: impl Describe,
-        found: impl Describe,
-    ) -> bool {
-        // After an interrupt requests are no longer sent; that is not a fault of the target.
-        if !self.interrupted {
-            self.record.add_all(rules, kept, expected, found, || self.last.clone());
-        }
-        kept
-    }
-
     /// A check that passed.
     pub fn pass(&mut self, rules: impl Rules) {
         self.check(rules, true, "", "");
@@ -188,8 +173,8 @@ impl<'s> Probe<'s> {
     pub(crate) fn call(&mut self, request: &RawCall) -> Step<Exchange> {
         self.target()?;
         let call = request.call();
-        self.asked = self.asked.saturating_add(1);
-        if self.asked > REQUESTS_MAX {
+        self.requests = self.requests.saturating_add(1);
+        if self.requests > REQUESTS_MAX {
             let why =
                 format!("{REQUESTS_MAX} requests, and no end to what the target says to have");
             return Err(Stop::Inconclusive(why));
@@ -201,7 +186,7 @@ impl<'s> Probe<'s> {
         }
         let exchange = self.target.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
-        self.came(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
+        self.record_exchange(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
         if fault.is_none() && !self.target.answered.contains(&call.service) {
             self.target.answered.push(call.service);
         }
@@ -227,7 +212,7 @@ impl<'s> Probe<'s> {
     }
 
     /// What came of a request.
-    pub(crate) fn came(
+    pub(crate) fn record_exchange(
         &mut self,
         fault: Option<&ExchangeError>,
         violations: &[Violation],
@@ -313,7 +298,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Puts this evidence under the checks that follow.
-    pub(crate) fn show(&mut self, evidence: Option<Evidence>) {
+    pub(crate) fn set_evidence(&mut self, evidence: Option<Evidence>) {
         self.last = evidence;
     }
 }
@@ -326,13 +311,17 @@ impl Checks for Probe<'_> {
         expected: impl Describe,
         found: impl Describe,
     ) -> bool {
-        Probe::check(self, rules, kept, expected, found)
+        // After an interrupt requests are no longer sent; that is not a fault of the target.
+        if !self.interrupted {
+            self.record.add_all(rules, kept, expected, found, || self.last.clone());
+        }
+        kept
     }
 }
 
 /// An exchange with any reply. Without a reply the target may or may not have executed the request, so
 /// that later answers prove nothing: the case is inconclusive.
-pub(crate) fn heard(exchange: Exchange) -> Step<Exchange> {
+pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
     match &exchange.outcome {
         Err(fault @ ExchangeError::Silence(_)) => {
             Err(Stop::Inconclusive(format!("{exchange}: {fault}")))

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Hex;
 
-use crate::judge::{Describe, Evidence, Rule, Rules, Step, Stop};
+use crate::judge::{Checks as _, Describe, Evidence, Rule, Rules, Step, Stop};
 use crate::suite::kit::Probe;
 
 /// How often a value that does not stand still is read again.
@@ -157,9 +157,9 @@ impl PendingCheck {
 
     fn record(self, probe: &mut Probe<'_>) {
         let last = probe.evidence();
-        probe.show(self.evidence);
+        probe.set_evidence(self.evidence);
         probe.check(&self.rules[..], self.kept, self.expected, self.found);
-        probe.show(last);
+        probe.set_evidence(last);
     }
 }
 

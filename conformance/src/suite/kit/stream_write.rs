@@ -9,7 +9,7 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::Ack;
 
 use crate::judge::{Describe, Step};
-use crate::suite::kit::{Probe, RawCall, heard};
+use crate::suite::kit::{Probe, RawCall, with_reply};
 
 /// The most bytes that the interface of a stream holds.
 pub(crate) const HELD_MAX: usize = 4094;
@@ -80,7 +80,7 @@ pub(crate) fn send_until_taken(
 /// Sends bytes to the stream as they are, whether a client may or not.
 pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
-    let exchange = heard(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
+    let exchange = with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
     let answer = exchange.answer();
     let errors = answer.map(|answer| [answer.ams_error, answer.result]);
     Ok(StreamWrite {

@@ -11,7 +11,7 @@ use ads_cnc::CncString;
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Hex;
 
-use crate::judge::{Rule, Step, Stop};
+use crate::judge::{Checks as _, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Probe, RawCall};
 use crate::values::until_nul;
@@ -100,7 +100,7 @@ impl Probe<'_> {
     }
 
     /// Writes a value that must be taken.
-    pub(crate) fn put(
+    pub(crate) fn write_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
         address: &ValueAddress,
@@ -134,7 +134,7 @@ impl Probe<'_> {
         }
         let other = another(&before, write_check.is_text);
         // What it holds it takes first: nothing is changed by that.
-        if !self.put(write_check, address, &before)? {
+        if !self.write_checked(write_check, address, &before)? {
             return Ok(());
         }
         self.changing(
@@ -142,7 +142,7 @@ impl Probe<'_> {
             address,
             &before,
             |probe| probe.change(write_check, address, &before, &other, then),
-            |probe| probe.restore(write_check, address, &before),
+            |probe| probe.restore_checked(write_check, address, &before),
         )
     }
 
@@ -154,7 +154,7 @@ impl Probe<'_> {
         other: &[u8],
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        if !self.put(write_check, address, other)? {
+        if !self.write_checked(write_check, address, other)? {
             return Ok(());
         }
         let after = self.value_at(address)?.unwrap_or_default();
@@ -169,13 +169,13 @@ impl Probe<'_> {
     }
 
     /// Whether the old value is there again, or one that moves by itself.
-    fn restore(
+    fn restore_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         before: &[u8],
     ) -> Step<bool> {
-        let taken = self.put(write_check, address, before)?;
+        let taken = self.write_checked(write_check, address, before)?;
         // A read without an answer shows nothing.
         let Some(after) = self.value_at(address)? else { return Ok(false) };
         let kept = same(&after, before, write_check.is_text);

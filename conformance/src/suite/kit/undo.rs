@@ -155,8 +155,8 @@ impl Probe<'_> {
             }
             restored => restored.map(drop),
         };
-        let put_back = self.put_back();
-        changed.and(restored).and(put_back)
+        let restored_all = self.restore_all();
+        changed.and(restored).and(restored_all)
     }
 
     /// Rejects a change, and any further request of a case that has changed a value, when the file that
@@ -176,22 +176,22 @@ impl Probe<'_> {
 
     /// Restores all that is changed, the last change first; also if the run is interrupted and if
     /// nothing more is asked of the target otherwise.
-    pub(crate) fn put_back(&mut self) -> Step {
+    pub(crate) fn restore_all(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.target.changes.last() {
-            all = all.and(self.put_back_one(change));
+            all = all.and(self.restore_one(change));
         }
         all
     }
 
     /// Tries again what could not be restored.
-    pub(crate) fn put_back_rest(&mut self) {
+    pub(crate) fn restore_rest(&mut self) {
         self.target.changes.all().iter_mut().for_each(|change| change.given_up = false);
         // What is left is shown.
-        let _left = self.put_back();
+        let _left = self.restore_all();
     }
 
-    fn put_back_one(&mut self, mut change: Change) -> Step {
+    fn restore_one(&mut self, mut change: Change) -> Step {
         let (changes, address) = (self.target.changes.clone(), change.address.clone());
         let mut written = false;
         for times in 0..=WRITES_MAX {
@@ -204,12 +204,12 @@ impl Probe<'_> {
                 }
             }
             // A write whose answer was lost may have been done.
-            let now = self.look(&change);
+            let now = self.present_value(&change);
             changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
             // A value that changes by itself will not be as it was. Two reads show that.
             let moves = !is_same && written && now.is_some() && {
-                let values = now.as_ref().zip(self.look(&change));
+                let values = now.as_ref().zip(self.present_value(&change));
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
             };
             if is_same || moves {
@@ -226,21 +226,21 @@ impl Probe<'_> {
         Err(Stop::Inconclusive(format!("{} could not be restored", change.what)))
     }
 
-    fn look(&mut self, change: &Change) -> Option<Vec<u8>> {
-        let exchange = self.insist(change.address.read().ok()?)?;
+    fn present_value(&mut self, change: &Change) -> Option<Vec<u8>> {
+        let exchange = self.send_anyway(change.address.read().ok()?)?;
         exchange.success().map(<[u8]>::to_vec)
     }
 
     /// Whether it was taken.
     fn write_back(&mut self, change: &mut Change) -> bool {
         let send = |probe: &mut Self, change: &Change| {
-            change.address.write(&change.was).ok().and_then(|write| probe.insist(write))
+            change.address.write(&change.was).ok().and_then(|write| probe.send_anyway(write))
         };
         let mut sent = send(self, change);
         if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::Refused(_))))
         {
             // On another connection the gate knows of no handle and of no list of objects.
-            self.ask_again(change);
+            self.request_again(change);
             sent = send(self, change);
         }
         change.refused = match sent.as_ref().map(|sent| &sent.outcome) {
@@ -251,12 +251,12 @@ impl Probe<'_> {
     }
 
     /// Asks for what tells the gate that the place is what a file names.
-    fn ask_again(&mut self, change: &mut Change) {
+    fn request_again(&mut self, change: &mut Change) {
         match (&change.address, change.name.clone()) {
             (ValueAddress::Handle { channel, .. }, Some(name)) => {
                 let (channel, name) = (*channel, name.as_cnc_str());
-                self.insist(HandleByName { channel, name: name.into() });
-                self.insist(DescribeByName { channel, name: name.into() });
+                self.send_anyway(HandleByName { channel, name: name.into() });
+                self.send_anyway(DescribeByName { channel, name: name.into() });
             }
             (ValueAddress::Object { .. }, _) => {
                 let allowed = self.target.client.gate().allowed();
@@ -264,12 +264,12 @@ impl Probe<'_> {
                 for entry in entries {
                     let Entry::Object { list, .. } = entry else { continue };
                     let list = list.list();
-                    let Some(count) = self.insist(CountObjects::new(list)) else { continue };
+                    let Some(count) = self.send_anyway(CountObjects::new(list)) else { continue };
                     let count = count.success();
                     let count = count.and_then(|data| ObjectCount::decode(data).ok());
                     for first in 1..=count.map_or(0, |count| count.0.min(OBJECTS_MAX)) {
                         if let Ok(one) = ReadDescriptors::new(list, first, 1) {
-                            self.insist(one);
+                            self.send_anyway(one);
                         }
                     }
                 }
@@ -279,7 +279,7 @@ impl Probe<'_> {
     }
 
     /// Sends a request, whatever ends the case or the run otherwise.
-    fn insist<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
+    fn send_anyway<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
         let request = RawCall::new(request).ok()?;
         self.target.frames = self.target.frames.saturating_add(1);
         Some(self.target.client.call(&request.call()))

@@ -11,7 +11,7 @@ pub use streaming::{StreamActor, play as play_stream, take};
 
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
-use crate::judge::{Body, Case, CaseSubject, Needs, Step, Stop};
+use crate::judge::{Body, Case, CaseSubject, Checks as _, Needs, Step, Stop};
 use crate::suite::kit::Probe;
 
 /// What a client or a service does, which the suite itself is here.
@@ -85,7 +85,7 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         }
     };
     let (kept, expected, found) = match done {
-        Ok(fault) => (fault == stated, show(stated), show(fault)),
+        Ok(fault) => (fault == stated, display(stated), display(fault)),
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
@@ -96,7 +96,7 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
     Ok(())
 }
 
-fn show(fault: Option<(&str, &str)>) -> String {
+fn display(fault: Option<(&str, &str)>) -> String {
     match fault {
         None => "every step as stated".to_owned(),
         Some((class, step)) => format!("{class} in the step {step}"),

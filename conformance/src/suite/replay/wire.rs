@@ -13,14 +13,14 @@ use ads_cnc_vectors::{Requirement, ServiceSequence, StreamAck, StreamStep, Strea
 use super::service::{ServiceActor, fault_class, script};
 use super::streaming::StreamActor;
 use super::{Done, Fault, differs, service, streaming};
-use crate::judge::{Step, Stop, assumed};
+use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, ServiceInterface};
 use crate::simulator::program::{
     Pace, ProgramConfig, Script, ServiceRequest, Start, StreamingProgram,
 };
 use crate::suite::kit::{
-    HELD_MAX, Probe, StreamWrite, heard, send, send_until_taken, service_channels,
+    HELD_MAX, Probe, StreamWrite, send, send_until_taken, service_channels, with_reply,
 };
 
 /// Replays a sequence of the Service Interface, and resets the interfaces before and after it.
@@ -68,7 +68,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
     fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>> {
         let channel = self.channel(channel)?;
         let request = ReadByName::new(channel, variable.name())?;
-        let exchange = heard(self.probe.send(request)?)?;
+        let exchange = with_reply(self.probe.send(request)?)?;
         let value = exchange.success();
         let mut value = value.unwrap_or_default().to_vec();
         if variable.var_type() == VariableType::STRING {
@@ -86,7 +86,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
     ) -> Done<Option<&'static str>> {
         let channel = self.channel(channel)?;
         let request = WriteByName::new(channel, variable.name(), value)?;
-        let exchange = heard(self.probe.send(request)?)?;
+        let exchange = with_reply(self.probe.send(request)?)?;
         let taken = exchange.success().is_some();
         // Which of the faults it is, an error number does not tell: the bytes do.
         let error = || ServiceInterface::new().write(variable, value).err();

@@ -10,7 +10,7 @@ use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 
 use crate::explain::class_name;
-use crate::judge::{Rule, Step, assumed};
+use crate::judge::{Checks as _, Rule, Step, assumed};
 use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {

@@ -6,7 +6,7 @@ use ads_cnc::address::{Class, ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ReadElement};
 use ads_cnc_vectors::Hex;
 
-use crate::judge::{Step, Stop, assumed};
+use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::suite::kit::{Instance, OBJECTS_MAX, OF_PLACES, Probe};
 
@@ -103,7 +103,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     let [(one, mine), (other, theirs)] = CHANNELS;
     let at = |probe: &mut Probe<'_>, channel: u8, number: u32| {
         let number = u64::from(number).to_le_bytes();
-        holding(probe, channel.into(), 1, |bytes| {
+        elements_with(probe, channel.into(), 1, |bytes| {
             number.starts_with(bytes) && number.iter().skip(bytes.len()).all(|&byte| byte == 0)
         })
     };
@@ -117,7 +117,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     cnc.exchange_axis(one, 1, theirs)?;
     let moved = (at(probe, one, theirs), numbers_of(probe, one, theirs));
     let blank = blank_at(probe, other.into(), 1, &before);
-    restore(&cnc)?;
+    exchange_back(&cnc)?;
     let numbers: Vec<ClassElement> =
         moved.0?.into_iter().filter(|one| before.contains(one)).collect();
     let of_com: Vec<_> = moved.1?.into_iter().filter(|one| objects.contains(one)).collect();
@@ -155,7 +155,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
 }
 
 /// In the order in which they do not get into each other's way.
-fn restore(cnc: &Arc<Cnc>) -> Step {
+fn exchange_back(cnc: &Arc<Cnc>) -> Step {
     for (channel, axis) in CHANNELS {
         cnc.exchange_axis(channel, 1, axis)?;
     }
@@ -163,7 +163,7 @@ fn restore(cnc: &Arc<Cnc>) -> Step {
 }
 
 /// The elements at a place whose contents are such.
-fn holding(
+fn elements_with(
     probe: &mut Probe<'_>,
     channel: u32,
     place: u32,

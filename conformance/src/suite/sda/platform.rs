@@ -3,7 +3,7 @@
 use ads_cnc::address::Class;
 use ads_cnc::operation::ReadElement;
 
-use crate::judge::{Step, Stop};
+use crate::judge::{Checks as _, Step, Stop};
 use crate::suite::kit::{Probe, Steady};
 
 pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {

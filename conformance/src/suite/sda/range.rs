@@ -7,7 +7,7 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::Hex;
 
 use crate::explain::class_name;
-use crate::judge::{Rule, Step, applicable, assumed};
+use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
 
 /// Asks for what has to be there. Another task may serve a class: who refuses to say is not judged

@@ -6,8 +6,8 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, ONE, WIDE, get, put, within, within_at};
-use crate::judge::Step;
+use super::{NONE, ONE, WIDE, read_variable, within, within_at, write_variable};
+use crate::judge::{Checks as _, Step};
 use crate::suite::kit::{Probe, service_channels};
 use crate::values::until_nul;
 
@@ -31,15 +31,15 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
                 let value: Vec<u8> = letters.take(len).chain([0]).collect();
                 let name = variable.name();
                 let expected = || format!("{len} characters of {name} by its handle");
-                put(probe, channel, variable, &value)?;
+                write_variable(probe, channel, variable, &value)?;
                 let read = ReadByHandle::new(channel, handle, U32List::EMPTY);
                 let read = probe.try_ask(read)?.unwrap_or_default();
                 let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, expected, || Hex(read));
-                put(probe, channel, variable, b"\0")?;
+                write_variable(probe, channel, variable, b"\0")?;
                 let write = WriteByHandle::new(channel, handle, U32List::EMPTY, &value);
                 probe.send(write)?;
-                let read = get(probe, channel, variable)?;
+                let read = read_variable(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, expected, || Hex(read));
             }
@@ -77,9 +77,9 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
                     (RequestState, &NONE),
                 ];
                 for (written, value) in others {
-                    put(probe, answered, written, value)?;
+                    write_variable(probe, answered, written, value)?;
                     for (variable, value) in held {
-                        let read = get(probe, asking, variable)?;
+                        let read = read_variable(probe, asking, variable)?;
                         let expected = || {
                             format!(
                                 "{} of {} in channel {}, whatever is written in channel {}",

@@ -11,9 +11,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Checks as _, Needs, Rule, Step, Stop, assumed};
 use crate::objects::ValueAddress;
-use crate::suite::kit::{Probe, WriteCheck, heard, service_channels};
+use crate::suite::kit::{Probe, WriteCheck, service_channels, with_reply};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 
@@ -33,7 +33,7 @@ pub(super) const CASES: &[Row] = &[
         "A text of any length is written and read by its handle as by its name"),
     case("service-channels-apart", &["SVC-1", "SVC-4"], Needs::Simulator, aliases::channels_apart,
         "What is answered in one channel changes nothing that is asked in another"),
-    case("service-asked-by-a-program", &["SVC-3", "SVC-4"], Needs::Simulator, asked,
+    case("service-asked-by-a-program", &["SVC-3", "SVC-4"], Needs::Simulator, request_states,
         "When a program writes REQUEST_STATE, the interface takes the last answer back"),
     case("service-asks-last", &["SVC-12"], Needs::Simulator, program::asks_last,
         "A program writes REQUEST_STATE when UUID and REQUEST are there, and not before"),
@@ -74,21 +74,25 @@ fn variables(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-fn get(probe: &mut Probe<'_>, channel: Channel, variable: ServiceVariable) -> Step<Vec<u8>> {
+fn read_variable(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: ServiceVariable,
+) -> Step<Vec<u8>> {
     let request = ReadByName::new(channel, variable.name())?;
-    let exchange = heard(probe.send(request)?)?;
+    let exchange = with_reply(probe.send(request)?)?;
     let value = exchange.success();
     Ok(value.unwrap_or_default().to_vec())
 }
 
-fn put(
+fn write_variable(
     probe: &mut Probe<'_>,
     channel: Channel,
     variable: ServiceVariable,
     value: &[u8],
 ) -> Step<bool> {
     let request = WriteByName::new(channel, variable.name(), value)?;
-    let exchange = heard(probe.send(request)?)?;
+    let exchange = with_reply(probe.send(request)?)?;
     Ok(exchange.success().is_some())
 }
 
@@ -106,10 +110,13 @@ fn response(probe: &mut Probe<'_>) -> Step {
         if !may(probe, channel)? {
             continue;
         }
-        if get(probe, channel, RequestState)? != NONE {
+        if read_variable(probe, channel, RequestState)? != NONE {
             return Err(Stop::inconclusive("a program is asking a service: it is left alone"));
         }
-        let before = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
+        let before = (
+            read_variable(probe, channel, Response)?,
+            read_variable(probe, channel, ResponseState)?,
+        );
         if before.0.is_empty() || before.1.is_empty() {
             return Err(Stop::inconclusive(
                 "the response could not be read, so it could not be restored",
@@ -119,7 +126,10 @@ fn response(probe: &mut Probe<'_>) -> Step {
         restoring(probe, (channel, ResponseState, &before.1), |probe| {
             restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
         })?;
-        let after = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
+        let after = (
+            read_variable(probe, channel, Response)?,
+            read_variable(probe, channel, ResponseState)?,
+        );
         let same = (until_nul(&after.0), &after.1) == (until_nul(&before.0), &before.1);
         probe.check("SVC-1", same, "the old response again", || format!("{after:02x?}"));
     }
@@ -138,7 +148,7 @@ fn restoring(
     let what = variable.name().to_string();
     let write_check = WriteCheck { what: &what, rules: &[], is_text, name: None };
     probe.changing(&write_check, &place, was, change, |probe| {
-        put(probe, channel, variable, was)?;
+        write_variable(probe, channel, variable, was)?;
         probe.is_as_before(&place, was, is_text)
     })
 }
@@ -146,23 +156,23 @@ fn restoring(
 /// As a service does, though nobody asked.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
-    let taken = put(probe, channel, Response, b"nobody asked\0")?;
+    let taken = write_variable(probe, channel, Response, b"nobody asked\0")?;
     probe.check("SVC-1", taken, "a response taken", "an error");
-    let read = get(probe, channel, Response)?;
+    let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"nobody asked";
     probe.check("SVC-1", same, "the response as written", || Hex(read));
     // Any number: it is between the program and the service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
-        let taken = put(probe, channel, ResponseState, &state)?;
+        let taken = write_variable(probe, channel, ResponseState, &state)?;
         probe.check("SVC-1", taken, "a response state taken", "an error");
-        let read = get(probe, channel, ResponseState)?;
+        let read = read_variable(probe, channel, ResponseState)?;
         probe.check("SVC-1", read == state, || Hex(state.to_vec()), || Hex(read));
     }
-    let read = get(probe, channel, RequestState)?;
+    let read = read_variable(probe, channel, RequestState)?;
     probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
     // Any write of it does, over ADS too: assumed.
-    put(probe, channel, RequestState, &NONE)?;
-    let read = get(probe, channel, ResponseState)?;
+    write_variable(probe, channel, RequestState, &NONE)?;
+    let read = read_variable(probe, channel, ResponseState)?;
     probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", || Hex(read));
     Ok(())
 }
@@ -199,7 +209,7 @@ fn within_at(
     done
 }
 
-fn asked(probe: &mut Probe<'_>) -> Step {
+fn request_states(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     within(probe, |probe, channel, cnc| {
         let write = |variable, value: &[u8]| -> Step {
@@ -209,18 +219,18 @@ fn asked(probe: &mut Probe<'_>) -> Step {
         };
         write(Request, b"1\0")?;
         write(RequestState, &ONE)?;
-        put(probe, channel, Response, b"one\0")?;
-        let read = get(probe, channel, RequestState)?;
+        write_variable(probe, channel, Response, b"one\0")?;
+        let read = read_variable(probe, channel, RequestState)?;
         let expected = "the request until it is answered";
         probe.check(assumed("SVC-4"), read == ONE, expected, || Hex(read));
-        put(probe, channel, ResponseState, &ONE)?;
+        write_variable(probe, channel, ResponseState, &ONE)?;
         // When that is, is assumed; that it is, is not.
-        let read = get(probe, channel, RequestState)?;
+        let read = read_variable(probe, channel, RequestState)?;
         probe.check(assumed("SVC-4"), read == NONE, "the request is over", || Hex(read));
         write(RequestState, &[2, 0, 0, 0])?;
-        let read = get(probe, channel, ResponseState)?;
+        let read = read_variable(probe, channel, ResponseState)?;
         probe.check("SVC-3", read == NONE, "the last response state taken back", || Hex(read));
-        let read = get(probe, channel, RequestState)?;
+        let read = read_variable(probe, channel, RequestState)?;
         probe.check("SVC-3", read == [2, 0, 0, 0], "the new request", || Hex(read));
         Ok(())
     })

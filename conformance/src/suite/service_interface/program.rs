@@ -7,8 +7,8 @@ use ads_cnc::address::Channel;
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, get, put, within};
-use crate::judge::{Step, Stop};
+use super::{NONE, read_variable, within, write_variable};
+use crate::judge::{Checks as _, Step, Stop};
 use crate::simulator::program::{Repeat, Script, ScriptConfig, ScriptState, ServiceOutcome};
 use crate::suite::kit::Probe;
 use crate::values::until_nul;
@@ -30,8 +30,9 @@ pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
             let stepped =
                 cnc.with_service(channel.number(), |service| script.step(Duration::ZERO, service));
             stepped?;
-            let state = get(probe, channel, RequestState)?;
-            let (uuid, request) = (get(probe, channel, Uuid)?, get(probe, channel, Request)?);
+            let state = read_variable(probe, channel, RequestState)?;
+            let (uuid, request) =
+                (read_variable(probe, channel, Uuid)?, read_variable(probe, channel, Request)?);
             let own = CncStr::from_bytes(until_nul(&uuid)).and_then(ServiceId::from_text);
             let same = until_nul(&request) == asked.text.as_bytes() && own == Ok(asked.uuid);
             let found =
@@ -80,7 +81,7 @@ pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
             || format!("{expected:?}"),
             || format!("{found:?}"),
         );
-        let read = get(probe, channel, ServiceVariable::RequestState)?;
+        let read = read_variable(probe, channel, ServiceVariable::RequestState)?;
         probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
         Ok(())
     })
@@ -92,7 +93,7 @@ const NEGATIVE: &str = "ERROR: cannot calc square root of negative number -3.000
 fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
     match host.step() {
         HostStep::Read(variable) => {
-            let value = get(probe, channel, variable)?;
+            let value = read_variable(probe, channel, variable)?;
             let read = host.read(&value);
             probe.check("SVC-6", read.is_ok(), "a value that fits", || Hex(value));
             if read.is_err() {
@@ -101,7 +102,7 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
         }
         HostStep::Write(variable, value) => {
             let value = value.to_vec();
-            let taken = put(probe, channel, variable, &value)?;
+            let taken = write_variable(probe, channel, variable, &value)?;
             probe.check("SVC-6", taken, "the answer taken", "an error");
             host.written();
         }

@@ -5,8 +5,8 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, WIDE, get, put, within};
-use crate::judge::Step;
+use super::{NONE, WIDE, read_variable, within, write_variable};
+use crate::judge::{Checks as _, Step};
 use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
@@ -16,15 +16,15 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
         for variable in [Request, Response] {
             let mut value = vec![b'x'; 127];
             value.push(0);
-            let taken = put(probe, channel, variable, &value)?;
+            let taken = write_variable(probe, channel, variable, &value)?;
             probe.check("SVC-1", taken, "127 characters and a NUL taken", "an error");
-            let read = get(probe, channel, variable)?;
+            let read = read_variable(probe, channel, variable)?;
             probe.check("SVC-1", read == value, "128 bytes as written", || Hex(read));
             let mut longer = vec![b'y'; 128];
             longer.push(0);
-            let taken = put(probe, channel, variable, &longer)?;
+            let taken = write_variable(probe, channel, variable, &longer)?;
             probe.check("SVC-1", !taken, "129 bytes refused", "taken");
-            let read = get(probe, channel, variable)?;
+            let read = read_variable(probe, channel, variable)?;
             probe.check("SVC-1", read == value, "what was there before", || Hex(read));
         }
         Ok(())
@@ -48,10 +48,10 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
             for len in [127, 0, 1, 20, 21, 32, 36, 63, 64, 80, 100, 126, 127] {
                 let mut value = characters(u8::try_from(len).unwrap_or_default(), len);
                 value.push(0);
-                let taken = put(probe, channel, variable, &value)?;
+                let taken = write_variable(probe, channel, variable, &value)?;
                 let what = format!("{len} characters of {}", variable.name());
                 probe.check("SVC-1", taken, || format!("{what} taken"), "an error");
-                let read = get(probe, channel, variable)?;
+                let read = read_variable(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, || format!("{what} as written"), || Hex(read));
             }
@@ -76,10 +76,10 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             (Response, b"the response\0".to_vec()),
             (ResponseState, WIDE.to_vec()),
         ] {
-            put(probe, channel, variable, &value)?;
+            write_variable(probe, channel, variable, &value)?;
             all.push((variable, value));
             for (one, written) in &all {
-                let read = get(probe, channel, *one)?;
+                let read = read_variable(probe, channel, *one)?;
                 let is_text = one.var_type() == VariableType::STRING;
                 let same = read == *written || is_text && until_nul(&read) == until_nul(written);
                 let rule = if *one == ResponseState { "SVC-3" } else { "SVC-1" };
@@ -89,16 +89,16 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
         }
         // Reading takes nothing back, nor does what is written besides.
         for value in [&b"another\0"[..], b"the request\0"] {
-            put(probe, channel, Request, value)?;
-            put(probe, channel, Uuid, &[UUID, b"\0"].concat())?;
-            let read = get(probe, channel, ResponseState)?;
+            write_variable(probe, channel, Request, value)?;
+            write_variable(probe, channel, Uuid, &[UUID, b"\0"].concat())?;
+            let read = read_variable(probe, channel, ResponseState)?;
             probe.check("SVC-3", read == WIDE, "the response state until the next", || Hex(read));
         }
         for (variable, _) in all {
             let name = HandleByName::new(channel, variable.name())?;
             let handle = probe.try_read::<Handle>(name)?;
             let Some(handle) = handle else { continue };
-            let by_name = get(probe, channel, variable)?;
+            let by_name = read_variable(probe, channel, variable)?;
             let request = ReadByHandle::new(channel, handle, U32List::EMPTY);
             let by_handle = probe.try_ask(request)?.unwrap_or_default();
             let same = until_nul(&by_handle) == until_nul(&by_name);
@@ -109,7 +109,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 let write =
                     WriteByHandle::new(channel, handle, U32List::EMPTY, &b"by handle\0"[..]);
                 probe.send(write)?;
-                let read = get(probe, channel, variable)?;
+                let read = read_variable(probe, channel, variable)?;
                 let same = until_nul(&read) == b"by handle";
                 probe.check("SVC-1", same, "what was written by handle", || Hex(read));
             }

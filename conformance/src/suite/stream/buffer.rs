@@ -7,7 +7,7 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
 use super::comment;
-use crate::judge::{Step, Stop, assumed};
+use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, ProgramConfig, Start, State, StreamingProgram};
 use crate::suite::kit::{HELD_MAX, Probe, StreamWrite, send, send_until_taken};
@@ -90,7 +90,7 @@ pub(super) fn expect<T: PartialEq + std::fmt::Debug>(
 }
 
 /// Sends what has to be taken.
-pub(super) fn taken(
+pub(super) fn write_accepted(
     probe: &mut Probe<'_>,
     rules: &[&'static str],
     channel: Channel,
@@ -116,7 +116,7 @@ pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
                 expect(probe, &["STM-2"], held, stage.held()?);
             }
             if held == 0 {
-                taken(probe, &["STM-2"], channel, &most)?;
+                write_accepted(probe, &["STM-2"], channel, &most)?;
             }
         }
         Ok(())
@@ -127,7 +127,7 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         let packets: Vec<Vec<u8>> = [992, 992, 992, 992, 126].map(numbered).into();
         for packet in &packets {
-            taken(probe, &["STM-3"], channel, packet)?;
+            write_accepted(probe, &["STM-3"], channel, packet)?;
         }
         expect(probe, &["STM-3"], HELD_MAX, stage.held()?);
         let more = b"N1\r\n";
@@ -143,7 +143,7 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
         stage.pace(Pace::Fast)?;
         stage.pace(Pace::Hold)?;
         expect(probe, &["STM-12"], 0, stage.held()?);
-        taken(probe, &["STM-6"], channel, more)?;
+        write_accepted(probe, &["STM-6"], channel, more)?;
         stage.pace(Pace::Fast)?;
         let mut all = packets.concat();
         all.extend(more);
@@ -160,7 +160,7 @@ pub(super) fn many(probe: &mut Probe<'_>) -> Step {
         let line = |number: usize| format!("N{number:05} (of many)  \r\n").into_bytes();
         let mut all = Vec::new();
         for number in 0..count {
-            let sent = taken(probe, &["STM-3"], channel, &line(number))?;
+            let sent = write_accepted(probe, &["STM-3"], channel, &line(number))?;
             if !sent.is_taken() {
                 return Ok(());
             }
@@ -172,11 +172,11 @@ pub(super) fn many(probe: &mut Probe<'_>) -> Step {
         let last = comment(left);
         let sent = send(probe, channel, &line(count))?;
         probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
-        taken(probe, &["STM-3"], channel, &last)?;
+        write_accepted(probe, &["STM-3"], channel, &last)?;
         expect(probe, &["STM-3"], HELD_MAX, stage.held()?);
         all.extend(last);
         stage.pace(Pace::Fast)?;
-        taken(probe, &["STM-6"], channel, &line(count))?;
+        write_accepted(probe, &["STM-6"], channel, &line(count))?;
         all.extend(line(count));
         expect(probe, &["STM-15"], all, stage.executed()?);
         Ok(())
@@ -212,7 +212,7 @@ fn numbered(len: usize) -> Vec<u8> {
 pub(super) fn dry(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Fast, Start::ByHand, |probe, channel, stage| {
         let (first, second) = (b"N10 X1\r\nN20 X2\r\n", b"N30 X3\r\n");
-        taken(probe, &["STM-14"], channel, first)?;
+        write_accepted(probe, &["STM-14"], channel, first)?;
         expect(probe, &["STM-14"], first.len(), stage.held()?);
         expect(probe, &["STM-14"], Vec::new(), stage.executed()?);
         stage.start(probe)?;

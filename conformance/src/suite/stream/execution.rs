@@ -2,8 +2,8 @@
 
 use ads_cnc::address::Channel;
 
-use super::buffer::{expect, set_up, set_up_at, taken};
-use crate::judge::{Step, Stop};
+use super::buffer::{expect, set_up, set_up_at, write_accepted};
+use crate::judge::{Checks as _, Step, Stop};
 use crate::simulator::program::{Pace, Start, State};
 use crate::suite::kit::Probe;
 
@@ -14,10 +14,10 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
         let number = channel.number();
         set_up_at(probe, channel, Pace::Fast, Start::Once, |probe, channel, stage| {
             let (one, two) = (format!("X{number}\r\n"), format!("Y{number}\r\n"));
-            taken(probe, &["STM-1"], channel, one.as_bytes())?;
+            write_accepted(probe, &["STM-1"], channel, one.as_bytes())?;
             expect(probe, &["STM-1"], one.as_bytes().to_vec(), stage.executed()?);
             // Without the bit of logical addressing, channels are counted by their ranks.
-            taken(probe, &["STM-1", "ADR-12"], rank, two.as_bytes())?;
+            write_accepted(probe, &["STM-1", "ADR-12"], rank, two.as_bytes())?;
             let both = [one, two].concat().into_bytes();
             expect(probe, &["STM-1", "ADR-12"], both, stage.executed()?);
             Ok(())
@@ -39,11 +39,11 @@ pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
     ];
     set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
         let all = lines.concat().into_bytes();
-        taken(probe, &["STM-4", "STM-7"], channel, &all)?;
+        write_accepted(probe, &["STM-4", "STM-7"], channel, &all)?;
         expect(probe, &["STM-4", "STM-7"], all.clone(), stage.executed()?);
         // And the same, a line in each packet.
         for line in &lines {
-            taken(probe, &["STM-7"], channel, line.as_bytes())?;
+            write_accepted(probe, &["STM-7"], channel, line.as_bytes())?;
         }
         expect(probe, &["STM-7"], all.repeat(2), stage.executed()?);
         let state = stage.state()?;
@@ -64,7 +64,7 @@ pub(super) fn at_once(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         let packets = ["X1\r\n", "X2\r\nX3\r\n", "X4\r\n"];
         for packet in packets {
-            taken(probe, &["STM-12"], channel, packet.as_bytes())?;
+            write_accepted(probe, &["STM-12"], channel, packet.as_bytes())?;
         }
         expect(probe, &["STM-12"], packets.concat().len(), stage.held()?);
         stage.pace(slow)?;
@@ -80,11 +80,11 @@ pub(super) fn behind_end(probe: &mut Probe<'_>) -> Step {
     for end in ["M30", "M2", "M17", "M29"] {
         set_up(probe, slow, Start::Once, |probe, channel, stage| {
             let ending = format!("X1\r\n{end}\r\nX2\r\n");
-            taken(probe, &["STM-10"], channel, ending.as_bytes())?;
+            write_accepted(probe, &["STM-10"], channel, ending.as_bytes())?;
             // The end was read, and is not run yet.
             expect(probe, &["STM-10"], 0, stage.held()?);
             let next = b"Y1\r\n";
-            taken(probe, &["STM-10"], channel, next)?;
+            write_accepted(probe, &["STM-10"], channel, next)?;
             stage.pace(Pace::Fast)?;
             let ended = matches!(stage.state()?, State::Ended(_));
             probe.require("STM-10", ended, || format!("{end} ends it"), "no end")?;

@@ -1,8 +1,8 @@
 //! Room: each channel has its own, and what is refused takes none of it.
 
-use super::buffer::{expect, set_up, set_up_at, taken};
+use super::buffer::{expect, set_up, set_up_at, write_accepted};
 use super::comment;
-use crate::judge::Step;
+use crate::judge::{Checks as _, Step};
 use crate::simulator::program::{Pace, Start};
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
@@ -17,11 +17,11 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
             set_up_at(probe, full, Pace::Hold, Start::Once, |probe, full, first| {
                 set_up_at(probe, other, Pace::Hold, Start::Once, |probe, other, second| {
                     for len in FILLING {
-                        taken(probe, &["STM-3"], full, &comment(len))?;
+                        write_accepted(probe, &["STM-3"], full, &comment(len))?;
                     }
                     expect(probe, &["STM-3"], (HELD_MAX, 0), (first.held()?, second.held()?));
                     for len in FILLING {
-                        taken(probe, &["STM-3"], other, &comment(len))?;
+                        write_accepted(probe, &["STM-3"], other, &comment(len))?;
                     }
                     expect(probe, &["STM-3"], HELD_MAX, second.held()?);
                     // What is run in one makes no room in the other.
@@ -43,7 +43,7 @@ pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
             let last = HELD_MAX.saturating_sub(4 * 700).saturating_sub(room);
             for len in [700, 700, 700, 700, last.min(992), last.saturating_sub(992)] {
                 if len > 0 {
-                    taken(probe, &["STM-3"], channel, &comment(len))?;
+                    write_accepted(probe, &["STM-3"], channel, &comment(len))?;
                     all.extend(comment(len));
                 }
             }
@@ -56,7 +56,7 @@ pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
             }
             stage.pace(Pace::Fast)?;
             expect(probe, &["STM-6"], all.clone(), stage.executed()?);
-            taken(probe, &["STM-6"], channel, &packet)?;
+            write_accepted(probe, &["STM-6"], channel, &packet)?;
             all.extend(packet);
             expect(probe, &["STM-6"], all, stage.executed()?);
             Ok(())
@@ -74,7 +74,7 @@ pub(super) fn lengths(probe: &mut Probe<'_>) -> Step {
                 0..=8 => b";\r\n".to_vec(),
                 _ => [b"X1\r\n".to_vec(), comment(len.saturating_sub(4))].concat(),
             };
-            taken(probe, &["STM-2", "STM-4"], channel, &packet)?;
+            write_accepted(probe, &["STM-2", "STM-4"], channel, &packet)?;
             all.extend(packet);
             expect(probe, &["STM-2", "STM-4"], all.clone(), stage.executed()?);
         }

@@ -13,7 +13,7 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
@@ -149,7 +149,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
     }
 }
 
-fn taken(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
+fn write_accepted(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, data)?;
     let expected = || format!("{} bytes of whole lines taken", data.len());
     probe.check(rules, taken.is_some(), expected, "refused while there is room");
@@ -159,20 +159,20 @@ fn taken(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]
 fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let lines = b"; comment\r\n(a second line)\r\n\r\n";
-    taken(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
+    write_accepted(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
     let rank = probe.ranks()?.into_iter().find(|(_, one)| *one == channel);
     let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
-        taken(probe, &["STM-1"], by_index, lines)?;
+        write_accepted(probe, &["STM-1"], by_index, lines)?;
     }
     Ok(())
 }
 
 fn longest(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
-    taken(probe, &["STM-2", "STM-20"], channel, &comment(STREAM_PACKET_MAX))?;
+    write_accepted(probe, &["STM-2", "STM-20"], channel, &comment(STREAM_PACKET_MAX))?;
     let many = comment(STREAM_PACKET_MAX / 8).repeat(8);
-    taken(probe, &["STM-2"], channel, &many)
+    write_accepted(probe, &["STM-2"], channel, &many)
 }
 
 fn refused_for_now(probe: &mut Probe<'_>) -> Step {

@@ -1,7 +1,7 @@
 //! Words that end streaming, and words that do not.
 
-use super::buffer::{expect, set_up, taken};
-use crate::judge::{Rule, Step};
+use super::buffer::{expect, set_up, write_accepted};
+use crate::judge::{Checks as _, Rule, Step};
 use crate::simulator::program::{Pace, Start, State};
 use crate::suite::kit::{Probe, send_until_taken};
 
@@ -49,7 +49,7 @@ pub(super) fn permitted_words(probe: &mut Probe<'_>) -> Step {
             "N40: X4\r\n",
         ];
         for packet in packets {
-            taken(probe, &["STM-8", "STM-19"], channel, packet.as_bytes())?;
+            write_accepted(probe, &["STM-8", "STM-19"], channel, packet.as_bytes())?;
             expect(probe, &["STM-8", "STM-19"], State::Dry, stage.state()?);
         }
         let rules: Vec<Rule> = vec!["STM-19".into()];
@@ -61,7 +61,7 @@ pub(super) fn permitted_words(probe: &mut Probe<'_>) -> Step {
 /// What is written, and whether it ends streaming.
 fn ends_streaming(probe: &mut Probe<'_>, rules: &[&'static str], text: &str, ends: bool) -> Step {
     set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
-        taken(probe, rules, channel, text.as_bytes())?;
+        write_accepted(probe, rules, channel, text.as_bytes())?;
         let state = stage.state()?;
         let kept = matches!(state, State::Aborted(_)) == ends && (ends || state == State::Dry);
         let expected = if ends { "the end of streaming" } else { "every line run" };
@@ -112,7 +112,7 @@ pub(super) fn ends(probe: &mut Probe<'_>) -> Step {
     ] {
         set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
             let text = format!("X1\r\n{line}\r\nX2\r\n");
-            taken(probe, &["STM-10"], channel, text.as_bytes())?;
+            write_accepted(probe, &["STM-10"], channel, text.as_bytes())?;
             let state = stage.state()?;
             let behind = stage.executed()?.windows(2).any(|two| two == b"X2");
             let kept = (matches!(state, State::Ended(_)), behind) == (ends, !ends);

@@ -49,11 +49,12 @@ impl Probe<'_> {
     }
 
     fn describe(&mut self, channel: Channel, kind: Kind<'_>) -> Step<Vec<Description>> {
-        let count: VariableCount = self.learn(CountVariables::new(channel, kind))?;
+        let count: VariableCount = self.read_unjudged(CountVariables::new(channel, kind))?;
         let indices = 0..count.0.min(VARIABLES_MAX);
         let mut all = Vec::new();
         for index in indices {
-            let variable: Description = self.learn(DescribeByIndex::new(channel, index, kind))?;
+            let variable: Description =
+                self.read_unjudged(DescribeByIndex::new(channel, index, kind))?;
             // One whose name leaves no room for its NUL cannot be asked for by name.
             if variable.name.text.as_bytes().len() < TEXT_MAX {
                 all.push(variable);
@@ -63,7 +64,7 @@ impl Probe<'_> {
     }
 
     /// Reads something that is judged elsewhere.
-    fn learn<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<T>
+    fn read_unjudged<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<T>
     where
         T: for<'b> Decode<'b>,
     {

@@ -3,7 +3,7 @@
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Level;
 
-use crate::judge::{Rule, Step, Stop, Verdict};
+use crate::judge::{Checks as _, Rule, Step, Stop, Verdict};
 use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
