@@ -21,7 +21,7 @@ use crate::simulator::{InProcess, Responder, Server};
 use crate::text::Moment;
 use crate::wire_service::{decode_reply, service_of};
 
-pub use inquiry::{Inquired, Inquiry, Said};
+pub use inquiry::{Inquired, Inquiry, InquiryReply};
 pub(crate) use judge::violations;
 pub use tap::Tap;
 pub use target::Target;
@@ -80,8 +80,8 @@ impl Client {
         Self::dialled(target, gate, Dial::Tcp)
     }
 
-    /// Connects to a CNC of this process without a socket. The CNC's clock, which must stand, runs
-    /// while an answer is awaited in vain.
+    /// Connects to a CNC of this process without a socket. The CNC's clock, which must be stopped,
+    /// runs while an answer is awaited in vain.
     ///
     /// # Errors
     /// If the gate is open wider than is safe for another machine.
@@ -168,7 +168,7 @@ impl Client {
         self.capture.take().map_or(Ok(()), Tap::finish)
     }
 
-    /// Sends frames in pieces of so many bytes from now on, or whole again.
+    /// Sends frames in pieces of this size from now on, or whole again.
     pub(crate) const fn set_piece(&mut self, piece: Option<usize>) {
         self.piece = piece;
     }
@@ -342,7 +342,8 @@ impl Client {
                 let header = frame.header();
                 if header.invoke_id == sent.invoke_id {
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
-                        let what = format!("{more} bytes behind the answer that nobody asked for");
+                        let what =
+                            format!("{more} bytes after the answer that no request asked for");
                         violations.push(Violation { requirement: "ADS-5", what });
                         self.disconnect();
                     }

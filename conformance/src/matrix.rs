@@ -1,4 +1,4 @@
-//! The traceability matrix: from each requirement to what stands behind it and what judges it.
+//! The traceability matrix: from each requirement to its sources and to what judges it.
 //!
 //! ```
 //! use ads_cnc_conformance::matrix::matrix;
@@ -28,7 +28,7 @@ use crate::suite;
 
 pub use sections::to_sections;
 
-/// A requirement with everything that leads from it.
+/// A requirement with its sources and all that judges it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct RequirementRow {
@@ -177,7 +177,7 @@ pub fn to_markdown(rows: &[RequirementRow]) -> String {
 mod tests {
     use super::*;
 
-    /// Nothing stands in the matrix without a reason, and nothing is left out of it.
+    /// Nothing is in the matrix without a reason, and nothing is left out of it.
     #[test]
     fn every_requirement_leads_somewhere() {
         let rows = matrix();

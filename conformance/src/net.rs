@@ -163,7 +163,7 @@ impl Wire {
         self.peer.send(permit.frame())
     }
 
-    /// As [`send`](Self::send), so many bytes at a time, one pause after the other.
+    /// As [`send`](Self::send), this many bytes at a time, one pause after the other.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,

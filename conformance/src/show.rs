@@ -27,9 +27,9 @@ fn show_tagged(one: &Tagged) -> String {
     if let Some(tail) = &one.tail {
         // What fills up a field would hide what follows it.
         if tail.len() > 4 && tail.iter().all(|&byte| byte == 0) {
-            text.push_str(&format!(" and behind its NUL {} × 00", tail.len()))
+            text.push_str(&format!(" and after its NUL {} × 00", tail.len()))
         } else {
-            text.push_str(&format!(" and behind its NUL {tail}"))
+            text.push_str(&format!(" and after its NUL {tail}"))
         }
     }
     if one.open {

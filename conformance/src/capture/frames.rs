@@ -65,7 +65,7 @@ impl Frames {
         while self.step(out) {}
     }
 
-    /// So many bytes are missing here: a frame that has begun stays unfinished.
+    /// Bytes are missing here: a frame that has begun stays unfinished.
     pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(FramePiece)) {
         let begun = self.bytes.len();
         if begun > 0 {
@@ -180,7 +180,7 @@ impl Frames {
         }
     }
 
-    /// Where the first so many bytes were captured.
+    /// Where the first bytes, as many as these, were captured.
     fn span(&self, length: usize) -> Option<Span> {
         let inside = self.marks.iter().take_while(|(place, _)| *place < length);
         let first = self.marks.front().map(|(_, mark)| *mark)?;

@@ -38,7 +38,7 @@ pub(super) enum PacketContent<'p> {
 
 pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     let bytes = packet.bytes;
-    let behind = |length: usize| bytes.get(length..).unwrap_or_default();
+    let after = |length: usize| bytes.get(length..).unwrap_or_default();
     let typed = |at: usize| match bytes.get(at..) {
         Some([high, low, ..]) => EtherType(u16::from_be_bytes([*high, *low])),
         _ => EtherType(0),
@@ -50,9 +50,9 @@ pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
             LaxSlicedPacket::from_ip(bytes).ok()
         }
         // The number of the address family is in the order of the machine; the version tells too.
-        Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(behind(4)).ok(),
-        Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), behind(16))),
-        Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), behind(20))),
+        Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(after(4)).ok(),
+        Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), after(16))),
+        Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), after(20))),
         Linktype(other) => return PacketContent::Link(other),
     };
     read.map_or(PacketContent::Unreadable, |read| of_ip(&read, packet.missing))

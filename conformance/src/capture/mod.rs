@@ -98,7 +98,7 @@ pub enum CapturePiece {
         /// How many; 0 if nobody can say.
         length: u64,
     },
-    /// So many bytes that are no frame, or only the beginning of one.
+    /// How many bytes are no frame, or only the beginning of one.
     Rest(usize),
 }
 

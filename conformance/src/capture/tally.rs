@@ -8,7 +8,7 @@ use super::file::FileEnd;
 /// Addresses that are told apart.
 const UNKNOWN_MAX: usize = 1000;
 
-/// Of those so many are shown.
+/// How many of those are shown.
 const SHOWN: usize = 8;
 
 /// What was in a capture.

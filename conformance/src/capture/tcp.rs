@@ -14,8 +14,8 @@ const SEGMENTS_MAX: usize = 4096;
 /// What may be between a segment and what is expected; more is another connection.
 const WINDOW: u32 = 0x4000_0000;
 
-/// Segments that may come behind a hole after the other side has acknowledged what is in it: whoever
-/// records on several processors writes them down out of order.
+/// Segments that may follow a hole although the other side has acknowledged what is in it: a capture
+/// made on several processors has them out of order.
 const PATIENCE: u32 = 64;
 
 /// Bytes that may have been captured before the SYN they follow.
@@ -44,7 +44,7 @@ pub(super) struct DirectedSegment<'a> {
     pub(super) sequence: u32,
     pub(super) syn: bool,
     pub(super) payload: &'a [u8],
-    /// Bytes behind the payload that were not captured.
+    /// Bytes after the payload that were not captured.
     pub(super) missing: usize,
     pub(super) mark: Mark,
 }
@@ -65,7 +65,7 @@ pub(super) struct Half {
     /// What came too early, by its place.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
-    /// How far the other side has acknowledged, and where it said so.
+    /// How far the other side has acknowledged, and the segment that did.
     acknowledged: u64,
     told: Option<Mark>,
     waiting: u32,
@@ -116,7 +116,7 @@ impl Half {
         })
     }
 
-    /// Its first byte has this number: the other side said so before any was captured.
+    /// Its first byte has this number: the other side acknowledged it before any was captured.
     pub(super) fn begin_at(&mut self, sequence: u32) {
         self.next.get_or_insert(sequence);
     }
@@ -278,7 +278,7 @@ impl Half {
         }
     }
 
-    /// Goes on behind the hole.
+    /// Goes on after the hole.
     fn leap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         let from = Bound::Included(self.place);
         let first = self.ahead.range((from, Bound::Unbounded)).next();

@@ -8,7 +8,7 @@ use std::time::Duration;
 pub struct Time(Duration);
 
 impl Time {
-    /// Seconds and a part of one in so many units each.
+    /// Seconds and a part of one, in these units a second.
     pub(super) fn new(seconds: u64, units: u32, resolution: u64) -> Self {
         Self(Duration::from_secs(seconds).saturating_add(part(units.into(), resolution)))
     }

@@ -162,7 +162,7 @@ fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     block
 }
 
-/// Section header: order of bytes, version 1.0, length not said, and who wrote it.
+/// Section header: order of bytes, version 1.0, length not given, and who wrote it.
 fn section() -> Vec<u8> {
     const USER_APPLICATION: u16 = 4;
     let name = concat!("ads-cnc ", env!("CARGO_PKG_VERSION"));

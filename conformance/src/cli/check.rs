@@ -13,7 +13,7 @@ use crate::judge::{Case, Exit, Selection};
 use crate::report::{self, About, Report, TargetReport};
 use crate::text::Moment;
 
-/// Under which these options stand in the help.
+/// The heading of these options in the help.
 const TRAFFIC: &str = "Traffic";
 
 /// Judge captured traffic by the same requirements: what clients sent and what CNCs answered.

@@ -108,7 +108,7 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
     Ok(())
 }
 
-/// What is said of an action; it dies and hangs in truth here.
+/// The answer to an action; here the client really dies or hangs.
 fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io::Result<String> {
     match clients::answer(flaw, place, action) {
         ClientReaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),

@@ -44,7 +44,7 @@ pub(super) struct Explain {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["frame", "group"])]
     stream: Option<String>,
 
-    /// The bytes are AMS/TCP frames, one behind the other
+    /// The bytes are AMS/TCP frames, one after the other
     #[arg(long)]
     frame: bool,
 
@@ -223,7 +223,7 @@ impl From<ServiceName> for Service {
     }
 }
 
-/// What can be said of bytes.
+/// The explanation of bytes.
 const SAY: &str = "\
 say what they are:
   --stream NAME                    a stream; --list shows all

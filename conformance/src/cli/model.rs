@@ -7,7 +7,7 @@ use crate::edition::{CncVersion, Edition};
 use crate::session::{Session, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
 
-/// Under which these options stand in the help.
+/// The heading of these options in the help.
 const MODEL: &str = "Simulated CNC";
 
 /// Options that choose the data model.

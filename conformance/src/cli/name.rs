@@ -74,7 +74,7 @@ impl NameArgs {
                      4.1). {browse}"
                 )
             }
-            // With the axis behind it the name would have a part more.
+            // With the axis after it the name would have a part more.
             _ if name.starts_with("V.A.")
                 && name.split('.').count() == 3
                 && self.axis.is_none() =>

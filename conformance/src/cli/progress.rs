@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 /// How often the line of a terminal changes.
 pub(super) const EVERY: Duration = Duration::from_millis(100);
-/// So that it never wraps, which would leave lines behind.
+/// So that it never wraps, which would leave old lines.
 pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, written over and over where that is a terminal.

@@ -10,7 +10,7 @@ use super::complain;
 use crate::judge::{Exit, Waivers};
 use crate::report::{self, Report};
 
-/// Under which these options stand in the help.
+/// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
 
 /// Forms that are made from the JSON.

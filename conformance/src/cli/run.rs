@@ -23,7 +23,7 @@ use crate::text::Moment;
 
 mod target;
 
-/// Under which these options stand in the help.
+/// The heading of these options in the help.
 const SELECTION: &str = "Selection";
 
 /// Runs the conformance suite against the simulated CNC, against a device, or against a client.

@@ -13,7 +13,7 @@ use crate::judge::{Case, CaseOutcome, Plan};
 use crate::process::interrupt::Interrupt;
 use crate::report::TargetReport;
 
-/// Under which these options stand in the help.
+/// The heading of these options in the help.
 const CLIENT: &str = "Client under test";
 
 /// A client instead of a target.

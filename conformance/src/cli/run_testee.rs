@@ -1,4 +1,4 @@
-//! `ads-cnc run --testee`: a codec behind a pipe.
+//! `ads-cnc run --testee`: a codec that is asked over pipes.
 
 use std::io::{self, Write};
 use std::time::Duration;

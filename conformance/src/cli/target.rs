@@ -21,7 +21,7 @@ use crate::judge::Exit;
 use crate::session::{Session, TIMEOUT, Trouble};
 use crate::simulator::{Cnc, NET_ID};
 
-/// Under which these options stand in the help.
+/// The heading of these options in the help.
 const TARGET: &str = "Target";
 
 /// For the end of a tool's help, as `after_long_help`.

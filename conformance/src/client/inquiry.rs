@@ -1,4 +1,4 @@
-//! What a device says of itself: ReadDeviceInfo and ReadState, through the gate.
+//! What a device reports about itself: ReadDeviceInfo and ReadState, through the gate.
 
 use std::fmt;
 
@@ -42,9 +42,9 @@ impl Inquiry for DeviceStateReply {
     }
 }
 
-/// What came back.
+/// The reply to an inquiry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Said<R> {
+pub enum InquiryReply<R> {
     /// A success.
     Reply(R),
     /// The device refuses.
@@ -62,8 +62,8 @@ pub struct Inquired<R> {
     pub sent: Vec<u8>,
     /// The whole frame received, or as much as came.
     pub received: Vec<u8>,
-    /// What was said, or why nothing.
-    pub outcome: Result<Said<R>, ExchangeError>,
+    /// The reply, or the reason why there is none.
+    pub outcome: Result<InquiryReply<R>, ExchangeError>,
     /// What is wrong with the frame itself.
     pub violations: Vec<Violation>,
 }
@@ -72,9 +72,9 @@ impl<R: Inquiry> Inquired<R> {
     /// What came of it, in a few words.
     pub fn result(&self) -> String {
         match &self.outcome {
-            Ok(Said::Reply(_)) => "success".to_owned(),
-            Ok(Said::Refused(error)) => format!("ADS error {error:#x}"),
-            Ok(Said::Ams(error)) => format!("AMS error {error:#x}"),
+            Ok(InquiryReply::Reply(_)) => "success".to_owned(),
+            Ok(InquiryReply::Refused(error)) => format!("ADS error {error:#x}"),
+            Ok(InquiryReply::Ams(error)) => format!("AMS error {error:#x}"),
             Err(fault) => fault.to_string(),
         }
     }
@@ -87,7 +87,7 @@ impl<R: Inquiry> fmt::Display for Inquired<R> {
 }
 
 impl Client {
-    /// Asks a device what it says of itself.
+    /// Sends an inquiry to a device.
     pub fn inquire<R: Inquiry>(&mut self, port: AmsPort) -> Inquired<R> {
         let (sent, received, violations) = (Vec::new(), Vec::new(), Vec::new());
         let mut inquired =
@@ -99,41 +99,44 @@ impl Client {
     fn exchange_inquiry<R: Inquiry>(
         &mut self,
         inquired: &mut Inquired<R>,
-    ) -> Result<Said<R>, ExchangeError> {
+    ) -> Result<InquiryReply<R>, ExchangeError> {
         let header = self.next_header(inquired.port, R::COMMAND);
         let bytes = super::whole(header, &[])?;
         let Inquired { received, violations: broken, .. } = inquired;
         let came = self.deliver(&bytes, header, received, broken)?;
         inquired.sent = bytes;
-        let said = came.and_then(|got| {
+        let reply = came.and_then(|got| {
             inquired.violations.extend(violations(&header, &got));
             decode_reply(&got, &inquired.received)
         });
-        if let Err(fault) = &said {
+        if let Err(fault) = &reply {
             if let ExchangeError::Malformed(error) = fault {
-                // Of the headers, or of what is behind them.
+                // Of the headers, or of what is after them.
                 let own = error.field().stream() == Some(R::STREAM);
                 let requirement = if own { R::CLAUSE } else { "ADS-5" };
                 inquired.violations.push(Violation { requirement, what: error.to_string() });
             }
             self.disconnect();
         }
-        said
+        reply
     }
 }
 
-/// What the one frame that was received says.
-fn decode_reply<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, ExchangeError> {
+/// Decodes the one frame that was received.
+fn decode_reply<R: Inquiry>(
+    header: &AmsHeader,
+    received: &[u8],
+) -> Result<InquiryReply<R>, ExchangeError> {
     let data = received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if !header.error.is_ok() {
-        return Ok(Said::Ams(header.error));
+        return Ok(InquiryReply::Ams(header.error));
     }
     match R::decode(data) {
-        Ok(reply) if reply.result().is_ok() => Ok(Said::Reply(reply)),
-        Ok(reply) => Ok(Said::Refused(reply.result())),
-        // It may end behind a result that is not 0 (ADS-6).
+        Ok(reply) if reply.result().is_ok() => Ok(InquiryReply::Reply(reply)),
+        Ok(reply) => Ok(InquiryReply::Refused(reply.result())),
+        // It may end after a result that is not 0 (ADS-6).
         Err(error) => match WriteReply::decode(data) {
-            Ok(short) if !short.result.is_ok() => Ok(Said::Refused(short.result)),
+            Ok(short) if !short.result.is_ok() => Ok(InquiryReply::Refused(short.result)),
             _ => Err(ExchangeError::Malformed(error)),
         },
     }

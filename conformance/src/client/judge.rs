@@ -37,7 +37,7 @@ impl Client {
                 if let ExchangeError::Malformed(error) = fault {
                     if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
-                        // Its numbers do not stand where they stand with 4 bytes each.
+                        // Its numbers are not at the offsets they have with 4 bytes each.
                         add("ADS-4", error.to_string());
                     } else {
                         add("ADS-5", error.to_string());

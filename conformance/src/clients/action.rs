@@ -7,7 +7,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionWord {
     pub name: &'static str,
-    /// What stands behind it. The last may contain blanks.
+    /// Its arguments. The last may contain blanks.
     pub arguments: &'static [&'static str],
     /// What the client does, and what its result is.
     pub gives: &'static str,
@@ -54,11 +54,11 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
 };
 
-/// A word and what stands behind it.
+/// A word and its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Action {
     pub action: String,
-    /// What stands behind it.
+    /// Its arguments.
     pub args: Vec<String>,
 }
 

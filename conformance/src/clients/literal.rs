@@ -1,4 +1,4 @@
-//! Frames that no codec has had in its hands: printed bytes behind headers put together by hand.
+//! Frames that no codec has had in its hands: printed bytes after headers put together by hand.
 //! A mistake that client and CNC share through one codec shows here.
 
 /// One printed example: what has to be sent, and what comes back.
@@ -37,30 +37,30 @@ impl Literal {
     }
 
     /// The service's part of the request but for how much is to be read, which is the client's
-    /// affair: in front of it and behind it.
+    /// affair: in front of it and after it.
     fn request(&self) -> (Vec<u8>, Vec<u8>) {
         let mut front = self.group.to_le_bytes().to_vec();
         front.extend(self.offset.to_le_bytes());
-        let mut behind = Vec::new();
+        let mut after = Vec::new();
         if self.command != 2 {
             let length = u32::try_from(self.data.len()).unwrap_or(u32::MAX);
-            behind.extend(length.to_le_bytes());
-            behind.extend(&self.data);
+            after.extend(length.to_le_bytes());
+            after.extend(&self.data);
         }
-        (front, behind)
+        (front, after)
     }
 
     /// Whether this is the frame, byte for byte, but for whose it is, its number and how much is
     /// to be read.
     fn is(&self, frame: &[u8]) -> bool {
-        let (front, behind) = self.request();
+        let (front, after) = self.request();
         let between = if self.command == 3 { 0_usize } else { 4 };
-        let len = front.len().saturating_add(between).saturating_add(behind.len());
+        let len = front.len().saturating_add(between).saturating_add(after.len());
         let at = |start: usize, bytes: &[u8]| {
             frame.get(start..start.saturating_add(bytes.len())) == Some(bytes)
         };
         let word = |number: usize| u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes();
-        let behind_at = frame.len().saturating_sub(behind.len());
+        let after_at = frame.len().saturating_sub(after.len());
         frame.len() == HEADERS.saturating_add(len)
             && at(0, &[0, 0])
             && at(2, &word(len.saturating_add(32)))
@@ -69,7 +69,7 @@ impl Literal {
             && at(26, &word(len))
             && at(30, &[0; 4])
             && at(HEADERS, &front)
-            && at(behind_at, &behind)
+            && at(after_at, &after)
     }
 
     /// The whole reply to the frame, if it is the printed one.

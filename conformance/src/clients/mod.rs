@@ -45,7 +45,7 @@ pub trait Actor {
     /// Lets it end.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// The lines it has said beyond its answers since this was asked last.
+    /// The lines it has sent beyond its answers since the last call.
     fn unasked(&mut self) -> Vec<String> {
         Vec::new()
     }

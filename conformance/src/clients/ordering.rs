@@ -190,7 +190,7 @@ fn host(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
     if let Some(cleared) =
         all.iter().position(|one| one.variable == RequestState && one.value.is_some())
     {
-        // Behind RESPONSE_STATE it would take the answer away again (SVC-3).
+        // After RESPONSE_STATE it would take the answer away again (SVC-3).
         let kept = state.is_none_or(|state| cleared < state);
         let expected = "REQUEST_STATE written before RESPONSE_STATE, if at all";
         findings.check(
@@ -198,7 +198,7 @@ fn host(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
             kept,
             at(Some(cleared)).map(|one| one.turn),
             expected,
-            "behind it",
+            "after it",
         );
     }
 }
@@ -214,10 +214,10 @@ fn caller(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
         let expected = format!("{variable:?} written before REQUEST_STATE");
         findings.check("SVC-12", kept, turn, expected, "not before it");
     }
-    let behind = all.get(asked.unwrap_or(all.len())..).unwrap_or_default();
+    let after = all.get(asked.unwrap_or(all.len())..).unwrap_or_default();
     let read =
-        |variable| behind.iter().position(|one| one.variable == variable && one.value.is_none());
-    let looked = behind
+        |variable| after.iter().position(|one| one.variable == variable && one.value.is_none());
+    let looked = after
         .iter()
         .position(|one| one.variable == ResponseState && one.value.is_none() && saw(one.turn));
     let kept = match (looked, read(Response)) {
@@ -225,7 +225,7 @@ fn caller(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
         _ => false,
     };
     let expected = "RESPONSE read when RESPONSE_STATE is not 0, and not before";
-    let turn = read(Response).and_then(|at| behind.get(at)).map(|one| one.turn).or(turn);
+    let turn = read(Response).and_then(|at| after.get(at)).map(|one| one.turn).or(turn);
     findings.check("SVC-6", kept, turn, expected, "otherwise");
 }
 

@@ -17,7 +17,7 @@ const HELLO: &str = "hello";
 pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
-    /// What it has said without being asked.
+    /// The lines it has sent without a request.
     unasked: Vec<String>,
 }
 
@@ -103,7 +103,7 @@ impl Actor for ClientProcess {
     }
 
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
-        // Of one that has said too much, what comes next cannot be told from an answer.
+        // Once it has sent too many lines, the next one cannot be told from an answer.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;
             self.unasked.push(unasked);

@@ -113,7 +113,7 @@ fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Finding
         findings.check(ask.place, false, turn, &named, format!("command {}", one.command));
         return;
     }
-    // Which of SDA and GEO serves a class is not said but of the decoder.
+    // Which of SDA and GEO serves a class is specified of the decoder alone.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     findings.check("GEN-4", port, turn, format!("port {}", ask.port), one.port);

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// Whether a result is the expected one. An array of one is its element, nested arrays are one,
-/// a number may be a text, and of an object everything that is said has to be right.
+/// a number may be a text, and of an object every field that is given has to be right.
 pub(super) fn same(expected: &Value, found: &Value) -> bool {
     match (expected, found) {
         (Value::Object(expected), Value::Object(found)) => {

@@ -91,7 +91,7 @@ const fn ask(command: u16, port: u16, group: u32, offset: u32, data: Vec<u8>, le
     }
 }
 
-/// A Read of at least so many bytes.
+/// A Read of at least this many bytes.
 pub(super) const fn read(port: u16, group: u32, offset: u32, least: u32) -> Ask {
     ask(2, port, group, offset, Vec::new(), least)
 }
@@ -146,7 +146,7 @@ pub struct Scenario {
     pub id: String,
     /// What is tried, in a sentence.
     pub title: String,
-    /// What the client is told; a program to stream is put behind it.
+    /// What the client is told; a program to stream is put after it.
     pub(super) action: String,
     pub(super) asks: Vec<Ask>,
     pub(super) expect: Expect,
@@ -254,7 +254,7 @@ impl Scenario {
         }
     }
 
-    /// What the client is told, with the file of the program behind it.
+    /// What the client is told, with the file of the program after it.
     pub(super) fn action_with(&self, file: Option<&str>) -> Option<Action> {
         match file {
             Some(file) => Action::parse(&format!("{} {file}", self.action)),

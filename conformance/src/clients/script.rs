@@ -18,7 +18,7 @@ const LOOKS: usize = 2;
 /// What the CNC of a scenario answers.
 #[derive(Debug)]
 pub(super) struct ScenarioScript {
-    /// The CNC behind it.
+    /// The CNC that answers.
     pub(super) cnc: Cnc,
     /// What is done to the replies of a function.
     pub(super) tamper: Option<(Function, Tamper)>,

@@ -14,13 +14,13 @@ use crate::wire_service::{decode_reply, encode_reply, service_of};
 pub(super) enum Tamper {
     /// One byte at a time.
     Bytewise,
-    /// In two pieces, the first of so many bytes, with some time between them.
+    /// In two pieces, the first of this size, with some time between them.
     Pieces(usize),
-    /// Behind a reply to another invoke ID with other data, in one piece with it.
+    /// After a reply to another invoke ID with other data, in one piece with it.
     Foreign,
     /// The same reply is there twice, in one piece.
     Twice,
-    /// Behind the reply to the request before, in one piece with it.
+    /// After the reply to the request before, in one piece with it.
     Late,
     /// Only to another invoke ID; the connection is closed some time later.
     OtherInvokeId,
@@ -31,25 +31,25 @@ pub(super) enum Tamper {
     OtherCommand,
     /// Marked as a request.
     Request,
-    /// An error in the AMS header and nothing behind it.
+    /// An error in the AMS header and nothing after it.
     AmsError,
-    /// A result that is an error, and nothing behind it.
+    /// A result that is an error, and nothing after it.
     BareResult,
     /// A result that is an error, length 0.
     EmptyResult,
     /// A result that is an error, before the data of a success.
     ResultWithData,
-    /// Nothing, and the connection is closed behind so many bytes of it.
+    /// Nothing, and the connection is closed after this many bytes of it.
     CutAt(usize),
     /// All but its last byte, and the connection is closed.
     CutEnd,
     /// Nothing ever.
     Silence,
-    /// So many bytes more of data, with all lengths right.
+    /// This many bytes more of data, with all lengths right.
     More(usize),
-    /// So many bytes less of data, with all lengths right.
+    /// This many bytes less of data, with all lengths right.
     Less(usize),
-    /// Just so many bytes of data.
+    /// Just this many bytes of data.
     Only(usize),
     /// The name at the end padded with NULs to its 256 bytes; its start is at this offset.
     Padded(usize),
@@ -57,7 +57,7 @@ pub(super) enum Tamper {
     Open,
     /// Other bytes in the data, from this offset on.
     Patch(usize, [u8; 4]),
-    /// Not more than so many descriptors.
+    /// At most this many descriptors.
     Descriptors(usize),
 }
 

@@ -119,7 +119,7 @@ impl std::fmt::Display for Beyond {
     }
 }
 
-/// A listener with a scenario behind it, one after the other.
+/// A listener that plays one scenario after the other.
 #[derive(Debug)]
 pub struct TestServer {
     acceptor: net::Acceptor,

@@ -37,7 +37,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         ("ams_tcp_header", Value::Record(collect(vec![("reserved", uns16(0))]))),
         ("ams_header", Value::Record(ams_header)),
     ]);
-    // What is behind the frame is too much for its service.
+    // What is after the frame is too much for its service.
     let rest = bytes.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if let Some((name, value)) = service(context, &header, rest)? {
         fields.insert(name, value);
@@ -63,7 +63,7 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
     parts().err().unwrap_or_else(rest)
 }
 
-/// The name and fields of the stream behind the header, if there has to be one.
+/// The name and fields of the stream after the header, if there has to be one.
 fn service(
     context: &Context,
     header: &AmsHeader,

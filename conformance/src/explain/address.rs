@@ -289,7 +289,7 @@ pub fn describe(group: IndexGroup) -> String {
     }
 }
 
-/// Behind the name of a group that is by index.
+/// After the name of a group that is by index.
 const BY_INDEX: &str = "; by index, which moves when a channel is deactivated (ADR-11)";
 
 fn channel(addressing: Addressing, instance: u8) -> String {

@@ -25,7 +25,7 @@ pub(crate) const fn class_name(class: Class) -> &'static str {
     }
 }
 
-/// The task behind a port.
+/// The task of a port.
 pub(super) fn port(number: u16) -> Option<String> {
     Task::from_port(AmsPort(number)).map(|found| format!("{} task", task(found)))
 }
@@ -101,7 +101,7 @@ pub(super) fn text_of(text: TextRef<'_>) -> String {
         Some(tail) if tail.iter().all(|&byte| byte == 0) => {
             format!("{shown} and {} NULs", tail.len().saturating_add(1))
         }
-        Some(tail) => format!("{shown} NUL, behind it {}", quoted(tail)),
+        Some(tail) => format!("{shown} NUL, after it {}", quoted(tail)),
     }
 }
 
@@ -124,7 +124,7 @@ mod tests {
             (b"V.E", "\"V.E\" without NUL"),
             (b"V.E\0\0\0", "\"V.E\" and 3 NULs"),
             (b"\0", "\"\" NUL"),
-            (b"L\xE4nge\0x", "\"Länge\" NUL, behind it \"x\""),
+            (b"L\xE4nge\0x", "\"Länge\" NUL, after it \"x\""),
             (b"\x1B[2J\x90\0", "\"\\u{1b}[2J\\u{90}\" NUL"),
         ] {
             assert_eq!(text(bytes), shown);

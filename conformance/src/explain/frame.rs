@@ -29,7 +29,7 @@ pub fn looks_like_frame(bytes: &[u8]) -> bool {
     }
 }
 
-/// Frames, one behind the other.
+/// Frames, one after the other.
 pub(super) fn of_frames(
     place: Option<&ServiceAddress>,
     bytes: &[u8],
@@ -77,7 +77,7 @@ impl FrameExplainer<'_> {
             return None;
         }
         let header = AmsHeader::decode(ams).ok()?;
-        let behind = at.saturating_add(FrameRef::HEADERS_LEN);
+        let after = at.saturating_add(FrameRef::HEADERS_LEN);
         let (data, len) = match split {
             Ok(Some((frame, len))) => (frame.data(), Some(len)),
             _ => (data, None),
@@ -85,7 +85,7 @@ impl FrameExplainer<'_> {
         if len.is_none() {
             self.cut(&header, data.len());
         }
-        self.service(&header, behind, data);
+        self.service(&header, after, data);
         len
     }
 
@@ -104,7 +104,7 @@ impl FrameExplainer<'_> {
         if !rest.is_empty() {
             let at = part.at.saturating_add(part.length);
             self.parts.push(ExplainedStream::opaque(
-                "Behind the fault, not read".to_owned(),
+                "After the fault, not read".to_owned(),
                 at,
                 rest,
             ));
@@ -123,7 +123,7 @@ impl FrameExplainer<'_> {
             expected: Some(expected),
             found: Some(found),
             text: format!(
-                "the frame is truncated behind the header, {expected} bytes expected, {found} there"
+                "the frame is truncated after the header, {expected} bytes expected, {found} there"
             ),
         });
     }
@@ -174,8 +174,8 @@ impl FrameExplainer<'_> {
         if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
             return;
         }
-        let (behind, data) = inside.unwrap_or((data.len(), &[]));
-        let mut part = address::of_data(&place, at.saturating_add(behind), data, self.values);
+        let (after, data) = inside.unwrap_or((data.len(), &[]));
+        let mut part = address::of_data(&place, at.saturating_add(after), data, self.values);
         if !reply && !faulty && part.faults.is_empty() {
             part.notes.extend(refused(&place, header.target.port, (service, length), data));
         }
@@ -197,7 +197,7 @@ impl FrameExplainer<'_> {
         Some(ServiceAddress { port, service, group, offset, reply: false })
     }
 
-    /// Where an answer comes from: by its request, or as was said.
+    /// Where an answer comes from: by its request, or as the caller gave it.
     fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<ServiceAddress> {
         let key = (header.target, header.source, header.invoke_id);
         let asked = self.asked.get(&key).filter(|(command, ..)| *command == header.command);
@@ -243,7 +243,7 @@ fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
 /// The number in a field, as far as the stream can be read.
 fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     let mut number = None;
-    // A fault behind the field does not matter here.
+    // A fault after the field does not matter here.
     let _fault = stream.walk(bytes, |segment| {
         if segment.field.name() == field {
             number = segment.bytes.first_chunk().map(|le| u32::from_le_bytes(*le));

@@ -30,7 +30,7 @@ pub enum ExplainSubject {
     Place(ServiceAddress),
     /// There are none: what is at this place.
     Address(ServiceAddress),
-    /// AMS/TCP frames, one behind the other. The place is that of replies whose request is not
+    /// AMS/TCP frames, one after the other. The place is that of replies whose request is not
     /// among them.
     Frames(Option<ServiceAddress>),
 }
@@ -89,7 +89,7 @@ pub struct ExplainedStream {
     pub stream: Option<&'static str>,
     /// The requirement that defines it.
     pub clause: Option<&'static str>,
-    /// Where that stands: document, edition, section.
+    /// Its sources: document, edition, section.
     pub sources: Vec<String>,
     /// Where the stream begins in the bytes given.
     pub at: usize,
@@ -192,7 +192,7 @@ pub struct FunctionReport {
     pub effect: String,
     /// The requirement that defines it.
     pub clause: &'static str,
-    /// Where it stands.
+    /// Its sources.
     pub section: String,
     /// The stream that goes in.
     pub request: Option<&'static str>,
@@ -311,7 +311,7 @@ pub(super) fn size(number: u32) -> usize {
     usize::try_from(number).unwrap_or(usize::MAX)
 }
 
-/// Where a requirement stands.
+/// The sources of a requirement.
 pub(crate) fn sources(clause: &str) -> Vec<String> {
     let Some(requirement) = requirement(clause) else { return Vec::new() };
     // One entry for each document, with all its sections.

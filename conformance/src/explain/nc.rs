@@ -91,10 +91,9 @@ fn lines(data: &[u8]) -> Vec<Line<'_>> {
             Some([_, ..]) => 1,
             _ => 0,
         };
-        let (bytes, behind) =
-            rest.split_at_checked(text.saturating_add(end)).unwrap_or((rest, &[]));
+        let (bytes, after) = rest.split_at_checked(text.saturating_add(end)).unwrap_or((rest, &[]));
         lines.push(Line { at, bytes });
-        (at, rest) = (at.saturating_add(bytes.len()), behind);
+        (at, rest) = (at.saturating_add(bytes.len()), after);
     }
     lines
 }

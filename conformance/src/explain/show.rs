@@ -175,7 +175,7 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
     Ok(())
 }
 
-/// Hex in lines of so many bytes.
+/// Hex in lines of this many bytes.
 fn chunks(hex: &str) -> impl Iterator<Item = &str> {
     let width = LINE * 3;
     let mut rest = hex;
@@ -183,8 +183,8 @@ fn chunks(hex: &str) -> impl Iterator<Item = &str> {
         if rest.is_empty() {
             return None;
         }
-        let (line, behind) = rest.split_at_checked(width).unwrap_or((rest, ""));
-        rest = behind;
+        let (line, after) = rest.split_at_checked(width).unwrap_or((rest, ""));
+        rest = after;
         Some(line.trim_end())
     })
 }

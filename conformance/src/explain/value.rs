@@ -148,7 +148,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
             }
             let (mut rest, mut at) = (all, row.offset);
             for (item, element) in (0..).zip(elements) {
-                let (bytes, behind) = rest.split_at_checked(element.len).unwrap_or((rest, &[]));
+                let (bytes, after) = rest.split_at_checked(element.len).unwrap_or((rest, &[]));
                 let field = format!("{}{}", row.field, element.place);
                 part.rows.push(ExplainedField {
                     item,
@@ -157,7 +157,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
                     clause: row.clause,
                     ..ExplainedField::new(at, bytes, &field, element.value)
                 });
-                (rest, at) = (behind, at.saturating_add(element.len));
+                (rest, at) = (after, at.saturating_add(element.len));
             }
         }
         Err(error) => {

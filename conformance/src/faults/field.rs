@@ -33,7 +33,7 @@ pub enum FieldChange {
     FlipLow,
     /// Every bit is inverted.
     Invert,
-    /// The bytes stand in reverse order.
+    /// The bytes are in reverse order.
     SwapBytes,
     /// Every byte is 0.
     Zero,

@@ -101,12 +101,12 @@ pub const fn without() -> &'static [(&'static str, &'static str)] {
 
 impl From<FieldDefect> for Seed {
     fn from(defect: FieldDefect) -> Self {
-        // The field's own clause, and the one that says where in the stream it stands.
+        // The field's own clause, and the one of its offset in the stream.
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
         requirements.dedup();
-        // An error number of 0 is none, and that is all that is said of them.
+        // An error number of 0 is none, and nothing else is specified of them.
         if defect.field.name() == "result" && defect.change == FieldChange::Zero {
             requirements.push("ADS-7");
         }

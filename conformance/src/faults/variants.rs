@@ -44,7 +44,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
     }
 }
 
-/// The text at the end of a reply, from a place on, padded with NULs to so many bytes.
+/// The text at the end of a reply, from a place on, padded with NULs to a length.
 fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);

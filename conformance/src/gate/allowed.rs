@@ -101,7 +101,7 @@ pub enum Entry {
         channel: Channel,
         /// Which axis, over the axis interface.
         axis: Option<ChannelAxis>,
-        /// The name. Without an index it stands for the elements too.
+        /// The name. Without an index it includes the elements.
         name: CncString,
     },
     /// The content at an address: of a COM object or of an element.

@@ -99,7 +99,7 @@ impl Gate {
         Self { simulated: Some(simulated), ..Self::default() }
     }
 
-    /// The only address that it may stand in front of, if there is but one.
+    /// The only address that it allows, if there is but one.
     pub const fn simulated(&self) -> Option<SocketAddr> {
         self.simulated
     }

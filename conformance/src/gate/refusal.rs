@@ -30,7 +30,7 @@ pub enum Reason {
     NoRequest(StateFlags),
     /// No task has this port.
     NoTask(AmsPort),
-    /// Data behind a command that has none.
+    /// Data after a command that has none.
     Data(Command),
     /// A command that nothing here sends.
     Never(Command),

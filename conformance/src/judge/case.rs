@@ -27,7 +27,7 @@ pub struct Case {
 pub enum CaseSubject {
     /// This project's codec.
     Codec,
-    /// A codec behind a pipe.
+    /// A codec that is asked over pipes.
     Testee,
     Target,
     /// What asks a CNC.

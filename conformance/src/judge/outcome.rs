@@ -99,7 +99,7 @@ fn of_requirement(
     RequirementVerdict { requirement, verdict, judgements: failed.cloned().collect() }
 }
 
-/// The verdict that stands for several.
+/// The verdict of several together.
 pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
     verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
 }

@@ -185,11 +185,11 @@ pub(crate) fn names(word: &str, requirement: &str) -> bool {
     word.eq_ignore_ascii_case(requirement) || word.eq_ignore_ascii_case(area)
 }
 
-/// Whether an edition has one of these places; what stands in neither is not of the editions.
+/// Whether an edition has one of these places; what is in neither is not of the editions.
 fn has(edition: Edition, sources: &[Source]) -> bool {
-    let stands =
+    let has_source =
         |edition: Edition| sources.iter().any(|source| source.document == edition.document());
-    stands(edition) || !Edition::ALL.into_iter().any(stands)
+    has_source(edition) || !Edition::ALL.into_iter().any(has_source)
 }
 
 /// Why a case is not judged by an edition: only the other one prints it, or requires it.

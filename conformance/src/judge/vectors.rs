@@ -52,7 +52,7 @@ pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
     missing
 }
 
-/// A case that stands for a vector.
+/// The case of a vector.
 pub(crate) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -> Case {
     Case {
         id: format!("{prefix}-{}", vector.id),

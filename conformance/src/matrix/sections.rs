@@ -17,10 +17,10 @@ const HEAD: &str = "| section | requirements | functions | types | vectors | cas
 ///
 /// Both editions of the manual on ADS access share one, as their sections have the same numbers.
 pub fn to_sections(rows: &[RequirementRow]) -> String {
-    let mut text = String::from("# What stands for which section of the manuals\n\n");
+    let mut text = String::from("# What covers which section of the manuals\n\n");
     text += "Made by `ads-cnc requirements --format sections`, from the catalogue, the vectors, the \
-             codec's tables and the\nsuite's cases. A vector or case stands in every row that it bears \
-             on. Vectors include the sequences; those refused\nare behind the `+`. Sections that say \
+             codec's tables and the\nsuite's cases. A vector or case is in every row that it bears \
+             on. Vectors include the sequences; those refused\nare after the `+`. Sections that say \
              nothing about bytes or behaviour are left out.\n\n";
     text += &areas(rows);
     for document in documents().iter().filter(|document| document.document != "ads-de") {

@@ -127,7 +127,7 @@ fn described(
 }
 
 /// From the descriptions of its kind; none of a kind that has no indices. One of the axis interface
-/// is what the channel interface has with the name of any axis behind it (assumed).
+/// is what the channel interface has with the name of any axis after it (assumed).
 fn listed(
     session: &mut Session,
     channel: Channel,

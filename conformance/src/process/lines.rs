@@ -52,7 +52,7 @@ pub enum RecvError {
     Interrupted,
     /// It has closed its stdout.
     Closed,
-    /// What came is no line, and nothing behind it is read.
+    /// What came is no line, and nothing after it is read.
     Garbled(String),
     /// A line that is no text, or has too many values.
     NoText(String),
@@ -119,7 +119,7 @@ impl LineProcess {
         }
     }
 
-    /// What it has said without being asked, if that is here already.
+    /// A line it has sent without a request, if that is here already.
     pub fn unasked(&self) -> Option<String> {
         self.from.try_recv().ok().map(|line| show(&line))
     }
@@ -187,16 +187,16 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// ```
 /// use ads_cnc_conformance::process::read_line;
 ///
-/// let mut said = &b"{}\r\nthe last"[..];
-/// assert_eq!(read_line(&mut said, 8), Some(Ok(b"{}".to_vec())));
-/// assert_eq!(read_line(&mut said, 8), Some(Ok(b"the last".to_vec())));
-/// assert_eq!(read_line(&mut said, 8), None);
+/// let mut output = &b"{}\r\nthe last"[..];
+/// assert_eq!(read_line(&mut output, 8), Some(Ok(b"{}".to_vec())));
+/// assert_eq!(read_line(&mut output, 8), Some(Ok(b"the last".to_vec())));
+/// assert_eq!(read_line(&mut output, 8), None);
 /// assert!(read_line(&mut &b"too long\r\n"[..], 7).unwrap().is_err());
 /// ```
 ///
 /// # Errors
-/// What is said of a line with more bytes than `most`, its end not counted; no more of it is kept,
-/// and nothing behind it can be read as a line.
+/// The error for a line with more bytes than `most`, its end not counted; no more of it is kept,
+/// and nothing after it can be read as a line.
 pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>, String>> {
     let limit = u64::try_from(most).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();
@@ -219,7 +219,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
 /// A line of JSON as text.
 ///
 /// # Errors
-/// What is said of one that has too many values, or is not UTF-8.
+/// The error for one that has too many values, or is not UTF-8.
 pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
         return Err(RecvError::NoText(format!("a line with more than {VALUES_MAX} values")));

@@ -77,7 +77,7 @@ impl Subprocess {
         Ok(())
     }
 
-    /// Says a line, if it runs.
+    /// Sends a line, if it runs.
     pub fn send(&self, line: Vec<u8>) {
         if let Some(running) = &self.running {
             running.send(line);
@@ -113,13 +113,13 @@ impl Subprocess {
         }
     }
 
-    /// Closes its stdin and waits for its end: how it ended, if it did, and the first it said
-    /// until then.
+    /// Closes its stdin and waits for its end: how it ended, if it did, and the first line it
+    /// sent until then.
     pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
-    /// Tells one that runs to end; the first it said until then.
+    /// Tells one that runs to end; the first line it sent until then.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

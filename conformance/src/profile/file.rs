@@ -132,7 +132,7 @@ impl From<ProfileFile> for Profile {
     }
 }
 
-/// Reads a value and checks it: what is wrong is said with its line.
+/// Reads a value and checks it: an error names its line.
 fn checked<'de, D, T, U>(
     value: D,
     check: impl FnOnce(T) -> Result<U, String>,

@@ -258,7 +258,7 @@ fn text(requirement: &Requirement, level: Option<Level>) -> String {
     }
 }
 
-/// Where a requirement stands; an assumed part of it stands nowhere.
+/// The sources of a requirement; an assumed part has none.
 fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
     if level == Some(Level::Info) { Vec::new() } else { explain::sources(&requirement.id) }
 }

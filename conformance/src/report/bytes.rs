@@ -95,7 +95,7 @@ impl BytesReport {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ShownField<'r> {
     Field(&'r FieldReport),
-    /// So many items of the field above.
+    /// How many items of the field above are left out.
     More(usize),
 }
 

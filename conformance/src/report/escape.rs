@@ -87,8 +87,8 @@ fn escape_target(target: &mut TargetReport) {
         target;
     all([name]);
     all([version, language, command, address, net_id, file].into_iter().flatten());
-    if let Some(said) = stderr {
-        *said = escape_lines(said);
+    if let Some(text) = stderr {
+        *text = escape_lines(text);
     }
     if let Some(DeviceReport { name, version, state }) = device {
         all([name, version].into_iter().chain(state));

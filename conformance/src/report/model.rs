@@ -90,7 +90,7 @@ pub struct ProfileReport {
     pub claims: BTreeMap<String, Value>,
 }
 
-/// What is said of one who was judged.
+/// The target, testee or client that was judged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectReport {
@@ -161,7 +161,7 @@ pub struct FailureReport {
     pub level: Option<Level>,
     /// What it says, or the parts of that level.
     pub clause: String,
-    /// Where it stands: document, edition, section.
+    /// Its sources: document, edition, section.
     pub sources: Vec<String>,
     pub verdict: Verdict,
     /// Whether it is put up with.
@@ -171,12 +171,12 @@ pub struct FailureReport {
     pub found: String,
     /// Checks with the same verdict that are not shown.
     pub more: usize,
-    /// The bytes behind it.
+    /// The bytes it is based on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceReport>,
 }
 
-/// The bytes behind a check.
+/// The bytes that a check is based on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvidenceReport {
@@ -227,7 +227,7 @@ impl Report {
 }
 
 impl CaseReport {
-    /// The failures, those with the same bytes together: one check may stand for several
+    /// The failures, those with the same bytes together: one check may represent several
     /// requirements.
     pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
         let mut findings: Vec<Vec<&FailureReport>> = Vec::new();

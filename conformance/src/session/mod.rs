@@ -15,7 +15,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, address::Channel};
 
-use crate::client::{Client, Inquiry, Said, Tap, Target};
+use crate::client::{Client, Inquiry, InquiryReply, Tap, Target};
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, ExchangeError};
 use crate::gate::Gate;
@@ -93,7 +93,7 @@ impl Session {
         Ok(Self::over(client, Some(server)))
     }
 
-    /// Connects to a CNC of this process without a socket. Its clock must stand.
+    /// Connects to a CNC of this process without a socket. Its clock must be stopped.
     ///
     /// # Errors
     /// If the gate is open wider than is safe for another machine.
@@ -281,12 +281,14 @@ impl Session {
             let _unread = writeln!(io::stdout(), "would be sent\n  {} ({})", inquired, R::CLAUSE);
         }
         match inquired.outcome {
-            Ok(said) => {
+            Ok(reply) => {
                 self.answered = true;
-                match said {
-                    Said::Reply(reply) => Ok(reply),
-                    Said::Refused(error) => Err(Trouble::Device { command: R::NAME, error }),
-                    Said::Ams(error) => {
+                match reply {
+                    InquiryReply::Reply(reply) => Ok(reply),
+                    InquiryReply::Refused(error) => {
+                        Err(Trouble::Device { command: R::NAME, error })
+                    }
+                    InquiryReply::Ams(error) => {
                         Err(Trouble::ams(self.client.target(), inquired.port, error))
                     }
                 }

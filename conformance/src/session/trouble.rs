@@ -24,7 +24,7 @@ pub enum Trouble {
     Internal(String),
     /// The gate did not let it through.
     Refused(Box<Refusal>),
-    /// The gate stands wider open than this target may be met with.
+    /// The gate allows more than this target may be sent.
     Unsafe(String),
     /// A dry run: an answer would be needed to go on.
     NotSent,

@@ -3,10 +3,11 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Time since a CNC was switched on: the machine's clock, unless it stands, and what was let pass.
+/// Time since a CNC was switched on: the machine's clock, unless it is stopped, and what was let
+/// pass.
 #[derive(Debug)]
 pub(super) struct Clock {
-    /// None if it stands.
+    /// None if it is stopped.
     since: Option<Instant>,
     /// Nanoseconds that were let pass.
     passed: AtomicU64,
@@ -18,7 +19,7 @@ impl Clock {
         Self { since: Some(Instant::now()), passed: AtomicU64::new(0) }
     }
 
-    /// Stands at the beginning.
+    /// Stopped at 0.
     pub(super) const fn standing() -> Self {
         Self { since: None, passed: AtomicU64::new(0) }
     }

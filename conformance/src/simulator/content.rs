@@ -90,7 +90,7 @@ pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(),
     if fits { Ok(()) } else { Err(AdsError::INVALID_SIZE) }
 }
 
-/// The bytes, and zeros behind them.
+/// The bytes, and zeros after them.
 pub(super) fn copy_padded(place: &mut [u8], bytes: &[u8]) {
     let bytes = bytes.iter().copied().chain(std::iter::repeat(0));
     place.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = new);

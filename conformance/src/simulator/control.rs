@@ -65,7 +65,7 @@ impl Cnc {
         axis().unwrap_or_default()
     }
 
-    /// Activates or deactivates a channel: the ranks of those behind it change (ADR-11).
+    /// Activates or deactivates a channel: the ranks of those after it change (ADR-11).
     ///
     /// # Errors
     /// [`ControlError::Channel`]

@@ -11,7 +11,7 @@ use ads_cnc::{Encode, Error};
 use super::{ReplyData, to_len, to_u32};
 use crate::wire_service::service_of;
 
-/// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
+/// The most bytes after the AMS header of a frame that is taken or sent: more ends a connection,
 /// and is refused as the answer to a request.
 pub const DATA_MAX: u32 = 0x1_0000;
 
@@ -40,9 +40,9 @@ pub(crate) fn respond(
         return;
     }
     let start = answers.len();
-    // The headers come when the length of what they stand before is known.
+    // The headers are written once the length of the data after them is known.
     answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
-    let behind = answers.len();
+    let after = answers.len();
     let error = if header.target.net_id != net_id {
         Ok(AdsError::TARGET_MACHINE_NOT_FOUND)
     } else if Task::from_port(header.target.port).is_none() {
@@ -50,7 +50,7 @@ pub(crate) fn respond(
     } else {
         serve(cnc, frame, answers).map(|()| AdsError::NO_ERROR)
     };
-    let data_length = to_u32(answers.len().saturating_sub(behind));
+    let data_length = to_u32(answers.len().saturating_sub(after));
     let done = error.and_then(|error| {
         let answer = AmsHeader { error, data_length, ..header.response() };
         write_headers(answer, answers, start)

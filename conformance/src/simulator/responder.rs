@@ -34,7 +34,7 @@ pub trait Responder: fmt::Debug + Send + Sync {
         usize::MAX
     }
 
-    /// Lets time pass, on a clock that stands.
+    /// Lets time pass, on a stopped clock.
     fn pass(&self, time: Duration);
 }
 

@@ -5,7 +5,7 @@ use ads_cnc::operation::Task;
 
 use super::kit::Probe;
 use super::{Row, case};
-use crate::client::{Inquired, Inquiry, Said};
+use crate::client::{Inquired, Inquiry, InquiryReply};
 use crate::judge::{Checks as _, Evidence, Needs, Step};
 use crate::simulator;
 use crate::values::until_nul;
@@ -80,7 +80,7 @@ fn each<R: Inquiry>(
         let inquired = probe.inquire::<R>(task)?;
         let (expected, found) = (format!("a {}", R::STREAM.layout().name), inquired.result());
         match inquired.outcome {
-            Ok(Said::Reply(reply)) => {
+            Ok(InquiryReply::Reply(reply)) => {
                 probe.pass(R::CLAUSE);
                 then(probe, reply)?;
             }

@@ -81,7 +81,7 @@ impl Steps<'_> {
     fn note(&mut self, what: impl Into<String>, fault: Option<String>) {
         let (sent, received) = self.process.last();
         let [sent, received, fault] =
-            [sent, received, fault].map(|said| said.map(|said| escape(&said)));
+            [sent, received, fault].map(|text| text.map(|text| escape(&text)));
         self.findings.push(Finding { what: what.into(), sent, received, fault });
     }
 

@@ -151,11 +151,11 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     }
 }
 
-/// What follows a text. Who says nothing of it has not said anything wrong.
+/// Compares what follows a text. A testee that does not tell it is not wrong.
 fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);
-    let said = open || tail.is_some();
+    let is_told = open || tail.is_some();
     let meant_tail = meant.tail.as_deref().unwrap_or_default();
     let given_tail = match &tail {
         None => &[],
@@ -167,10 +167,10 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     }
     let expected = match (meant.open, meant_tail) {
         (true, _) => "no NUL".to_owned(),
-        (false, []) => "one NUL behind it".to_owned(),
-        (false, tail) => format!("{} behind its NUL", compact::show(tail)),
+        (false, []) => "one NUL after it".to_owned(),
+        (false, tail) => format!("{} after its NUL", compact::show(tail)),
     };
-    if said {
+    if is_told {
         other(place, format_args!("{expected} is expected"))
     } else {
         Some(Difference::Untold(format!("{place}: {expected}, which is not told")))

@@ -131,7 +131,7 @@ pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     }
 }
 
-/// The bytes that a value may be encoded to: as they stand, or as a careful writer puts them.
+/// The bytes that a value may be encoded to: as they are, or as a careful writer encodes them.
 pub(super) fn forms(vector: &Vector, accept: &Accept) -> Vec<Vec<u8>> {
     let canonical = accept.canonical.as_ref().map(|hex| hex.to_vec());
     std::iter::once(vector.bytes()).chain(canonical).collect()

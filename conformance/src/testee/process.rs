@@ -95,7 +95,7 @@ impl Testee for TesteeProcess {
 
     fn bye(&mut self) -> Result<(), String> {
         match self.process.bye(serde_json::to_vec(&TesteeCommand::Bye).unwrap_or_default()) {
-            (_, Some(unasked)) => Err(format!("it said {unasked}, which nobody asked for")),
+            (_, Some(unasked)) => Err(format!("it sent {unasked}, which no request asked for")),
             (end, None) => end,
         }
     }
@@ -126,7 +126,7 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
 }
 
 /// What the line is that came for the case of this number; and whether the next line may answer the
-/// next case. After the answer to another case it cannot be told from what was said too late.
+/// next case. After the answer to another case it cannot be told from a late answer.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

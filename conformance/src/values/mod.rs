@@ -17,7 +17,7 @@ use std::fmt;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
-/// The text of a STRING: what stands before the first NUL, or all.
+/// The text of a STRING: what is before the first NUL, or all.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
@@ -46,7 +46,7 @@ pub struct Type {
     pub data_type: Option<DataType>,
     /// Elements in each dimension; none for a single element.
     pub dimensions: Vec<u32>,
-    /// Bytes of the whole, if that is said anywhere.
+    /// Bytes of the whole, if that is known.
     pub size: Option<u32>,
 }
 
@@ -86,7 +86,7 @@ impl Type {
         Self { name, data_type: Some(data_type), dimensions: Vec::new(), size: None }
     }
 
-    /// As many elements as so many bytes have room for, if no dimension says it.
+    /// As many elements as these bytes have room for, if there is no dimension.
     #[must_use]
     pub fn fitted(mut self, len: u32) -> Self {
         let each = self.data_type.and_then(DataType::size);

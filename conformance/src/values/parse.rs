@@ -163,38 +163,38 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
 fn split(given: &str) -> Result<Vec<String>, Unfit> {
     let (mut all, mut rest) = (Vec::new(), given);
     loop {
-        let (text, behind) = match rest.trim_start().strip_prefix('"') {
+        let (text, after) = match rest.trim_start().strip_prefix('"') {
             Some(quoted) => quoted_text(quoted)?,
             None => match rest.split_once(',') {
-                Some((text, behind)) => (text.trim().to_owned(), Some(behind)),
+                Some((text, after)) => (text.trim().to_owned(), Some(after)),
                 None => (rest.trim().to_owned(), None),
             },
         };
         all.push(text);
-        match behind {
-            Some(behind) => rest = behind,
+        match after {
+            Some(after) => rest = after,
             None => return Ok(all),
         }
     }
 }
 
-/// A text up to its quote, and what is behind the comma.
+/// A text up to its quote, and what is after the comma.
 fn quoted_text(given: &str) -> Result<(String, Option<&str>), Unfit> {
     let (mut text, mut rest) = (String::new(), given);
     loop {
         let open = || Unfit("a text in quotes does not end".to_owned());
-        let (before, behind) = rest.split_once('"').ok_or_else(open)?;
+        let (before, after) = rest.split_once('"').ok_or_else(open)?;
         text.push_str(before);
-        if let Some(more) = behind.strip_prefix('"') {
+        if let Some(more) = after.strip_prefix('"') {
             text.push('"');
             rest = more;
             continue;
         }
-        let behind = behind.trim_start();
-        return match behind.strip_prefix(',') {
-            Some(behind) => Ok((text, Some(behind))),
-            None if behind.is_empty() => Ok((text, None)),
-            None => Err(Unfit(format!("behind a quote a comma is expected, not {behind}"))),
+        let after = after.trim_start();
+        return match after.strip_prefix(',') {
+            Some(after) => Ok((text, Some(after))),
+            None if after.is_empty() => Ok((text, None)),
+            None => Err(Unfit(format!("after a quote a comma is expected, not {after}"))),
         };
     }
 }

@@ -57,7 +57,7 @@ pub(crate) fn number(element: Element<'_>) -> String {
     }
 }
 
-/// An element as it is shown: a text in quotes, what is odd about it behind it.
+/// An element as it is shown: a text in quotes, what is odd about it after it.
 fn display(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.0 > 1 => format!("TRUE ({})", flag.0),
@@ -71,7 +71,7 @@ fn display(element: Element<'_>) -> String {
                 Some(tail) if tail.iter().any(|&byte| byte != 0) => {
                     let end = tail.iter().rposition(|&byte| byte != 0).unwrap_or(0);
                     let tail = tail.get(..=end).unwrap_or(tail);
-                    format!("{} and behind its end {}", quoted(&bytes), quoted(tail))
+                    format!("{} and after its end {}", quoted(&bytes), quoted(tail))
                 }
                 _ => quoted(&bytes),
             }
@@ -81,7 +81,7 @@ fn display(element: Element<'_>) -> String {
 }
 
 /// The value on as many lines as it takes: one without indices for a single element; of an array
-/// so many elements on each as fit, with the indices of the first.
+/// as many elements on each as fit, with the indices of the first.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -136,7 +136,7 @@ mod tests {
     fn texts_keep_what_is_odd_about_them() {
         let ty = Type::hinted(DataType::String);
         assert_eq!(lines(&ty, b"L\xE4nge\0\0").unwrap(), ["\"Länge\""]);
-        assert_eq!(lines(&ty, b"a\0b\0").unwrap(), ["\"a\" and behind its end \"b\""]);
+        assert_eq!(lines(&ty, b"a\0b\0").unwrap(), ["\"a\" and after its end \"b\""]);
         assert_eq!(plain(&ty, b"\x1B[2J\0").unwrap(), "\\u{1b}[2J");
         let two = Type { dimensions: vec![2], ..ty };
         assert_eq!(plain(&two, b"a,b\0c\0\0\0").unwrap(), "\"a,b\",c");

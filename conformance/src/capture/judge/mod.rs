@@ -52,7 +52,7 @@ struct CapturedFrame {
 struct Lost {
     /// Its beginning was not captured.
     joined: bool,
-    /// The last packet behind a gap.
+    /// The last packet after a gap.
     gap: Option<u64>,
     /// The first answers to nothing.
     unasked: Vec<CapturedFrame>,
@@ -70,7 +70,7 @@ struct ObservedCnc {
 }
 
 impl ObservedCnc {
-    /// Of one to which more may have been said before.
+    /// Of a CNC that may have been sent requests before the capture began.
     fn new(is_lost: bool) -> Self {
         Self {
             streams: streaming::Streams::new(is_lost),
@@ -94,7 +94,7 @@ pub(super) struct TrafficJudge {
     waiting_bytes: usize,
     early: Early,
     lost: BTreeMap<u64, Lost>,
-    /// The last packet behind a gap of any connection.
+    /// The last packet after a gap of any connection.
     gap: Option<u64>,
     /// Whether requests and answers of one went over several connections.
     is_crossed: bool,
@@ -119,7 +119,7 @@ struct Room {
 impl Room {
     const ALL: usize = 0x180_0000;
 
-    /// Whether there is room for one more, of so many bytes beside what each takes.
+    /// Whether there is room for one more of this size, beside what each takes.
     fn take(&mut self, bytes: usize) -> bool {
         let left = self.left.checked_sub(bytes.saturating_add(512));
         match left {

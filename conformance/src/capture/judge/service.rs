@@ -15,7 +15,7 @@ use crate::judge::{Checks as _, assumed};
 #[derive(Debug, Default)]
 pub(super) struct Services {
     known: BTreeMap<u32, ObservedInterface>,
-    /// Whether what was said before may not have been captured.
+    /// Whether requests before may not have been captured.
     is_lost: bool,
 }
 
@@ -139,7 +139,7 @@ impl ObservedInterface {
                 *self = Self { asked: true, ..Self::default() };
             }
             ServiceVariable::RequestState => {
-                let found = "REQUEST_STATE behind RESPONSE_STATE, which it resets";
+                let found = "REQUEST_STATE after RESPONSE_STATE, which it resets";
                 page.check(assumed("SVC-4"), !self.answered, "RESPONSE_STATE last", found);
                 self.reset = true;
             }

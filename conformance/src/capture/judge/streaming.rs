@@ -88,7 +88,7 @@ impl Bench<'_> {
                 page.check("STM-6", refused == data, expected, "other data");
             }
         }
-        // Within a comment that began in what was lost, anything may stand.
+        // Within a comment that began in what was lost, anything may follow.
         if accepted && !is_lost {
             let checker = stream.checker.get_or_insert_with(Checker::new);
             let mut ended = false;
@@ -100,7 +100,7 @@ impl Bench<'_> {
                             DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => {
                                 "STM-8"
                             }
-                            // Behind an end comes the next program, or what is left of it.
+                            // After an end comes the next program, or what is left of it.
                             _ => continue,
                         };
                         page.check(clause, false, "what a stream may have", || finding);

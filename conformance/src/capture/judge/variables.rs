@@ -53,7 +53,7 @@ impl Variables {
         Some(self.channels.entry(group).or_default())
     }
 
-    /// The name a handle stands for, as far as it was seen.
+    /// The name of a handle, if it was captured.
     pub(super) fn name_of(&self, group: u32, handle: u32) -> Option<&str> {
         self.channels.get(&group)?.handles.get(&handle).map(String::as_str)
     }

@@ -80,7 +80,7 @@ fn what_is_acknowledged_is_not_waited_for() {
     assert!(all.starts_with("___fghhhhh"), "{all}");
 }
 
-/// The last of it never came, and the other side has it, or there is a FIN behind it.
+/// The last of it never came, and the other side has it, or there is a FIN after it.
 #[test]
 fn what_is_missing_at_the_end_is_a_gap() {
     let begun = || {

@@ -139,7 +139,7 @@ impl CapturedOutput {
     }
 }
 
-/// Reads to the end, and keeps the front. A command whose stdout nobody reads would stand still.
+/// Reads to the end, and keeps the front. A command whose stdout is not read would block.
 fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     let mut chunk = [0; 4096];
     while let Ok(len @ 1..) = from.read(&mut chunk) {

@@ -190,7 +190,7 @@ impl ServiceArguments {
             served: None,
             answered: 0,
             failed_writes: 0,
-            said: String::new(),
+            last_warning: String::new(),
         };
         let answers = if self.once { Some(1) } else { self.answers };
         complain(format_args!(
@@ -220,7 +220,7 @@ struct Serving<'s> {
     answered: u64,
     failed_writes: u32,
     /// What was complained of last.
-    said: String,
+    last_warning: String,
 }
 
 impl Serving<'_> {
@@ -234,7 +234,7 @@ impl Serving<'_> {
             HostStep::Read(variable) => {
                 let value = session.call(&read(self.channel, variable)?)?;
                 if let Err(error) = self.host.read(value.bytes) {
-                    self.say_once(&error.to_string());
+                    self.warn_once(&error.to_string());
                     return Ok(true);
                 }
                 Ok(false)
@@ -310,11 +310,11 @@ impl Serving<'_> {
         }
     }
 
-    /// Complains, unless it was that already.
-    fn say_once(&mut self, what: &str) {
-        if self.said != what {
+    /// Prints a warning, unless it was the last one too.
+    fn warn_once(&mut self, what: &str) {
+        if self.last_warning != what {
             complain(format_args!("warning: no request: {what}"));
-            what.clone_into(&mut self.said);
+            what.clone_into(&mut self.last_warning);
         }
     }
 }

@@ -81,7 +81,7 @@ pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
     if let Some(reason) = ended.reason().filter(|_| response.is_empty()) {
         response = reason.into_bytes();
     }
-    // Without a NUL; the CNC has one behind it.
+    // Without a NUL; the CNC has one after it.
     let most = SERVICE_TEXT_MAX.saturating_sub(1);
     if response.len() > most {
         warnings.push(format!("the response is cut to {most} bytes"));

@@ -70,8 +70,8 @@ fn line_errors(bytes: &[u8]) -> impl Iterator<Item = (u32, LineError)> {
     let mut rest = bytes;
     let lines = std::iter::from_fn(move || {
         let end = rest.iter().position(|byte| matches!(byte, b'\r' | b'\n')).unwrap_or(rest.len());
-        let (line, behind) = rest.split_at_checked(end).filter(|_| !rest.is_empty())?;
-        rest = match behind {
+        let (line, after) = rest.split_at_checked(end).filter(|_| !rest.is_empty())?;
+        rest = match after {
             [b'\r', b'\n', rest @ ..] | [_, rest @ ..] => rest,
             [] => &[],
         };
@@ -96,9 +96,9 @@ mod tests {
     fn every_bad_line_is_named() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();
         let bytes = [&b"N1 (\xE4 \xF6)\r\n\nN3\n\0N4\rN5 \x80"[..], &long].concat();
-        let (said, ends) = output_of(&bytes);
+        let (output, ends) = output_of(&bytes);
         assert_eq!(
-            said,
+            output,
             "part.nc:1:5: error: ASCII character expected, byte 0xE4 found (STM-7)\n\
              part.nc:4:1: error: ASCII character expected, NUL found (STM-7)\n\
              part.nc:5:4: error: ASCII character expected, byte 0x80 found (STM-7)\n\
@@ -110,9 +110,10 @@ mod tests {
 
     #[test]
     fn findings_have_a_level() {
-        let (said, ends) = output_of(b"N10: G0 X0\nN20 $GOTO N10\nN30 $WHILE 1\nN40 M30\nN50 X1\n");
+        let (output, ends) =
+            output_of(b"N10: G0 X0\nN20 $GOTO N10\nN30 $WHILE 1\nN40 M30\nN50 X1\n");
         assert_eq!(
-            said,
+            output,
             "part.nc:2:5: error: $GOTO back to line 1 (STM-8)\n\
              part.nc:3:5: error: $WHILE in a stream (STM-8)\n\
              part.nc:5:1: warning: text after the M30 of line 4 (STM-10)\n"
@@ -122,8 +123,8 @@ mod tests {
 
     #[test]
     fn a_picture_is_not_shown_whole() {
-        let (said, _) = output_of(&b"\xFF\n".repeat(1000));
-        assert_eq!(said.lines().count(), SHOWN_MAX + 1);
-        assert!(said.ends_with("\n… and 900 more\n"), "{said}");
+        let (output, _) = output_of(&b"\xFF\n".repeat(1000));
+        assert_eq!(output.lines().count(), SHOWN_MAX + 1);
+        assert!(output.ends_with("\n… and 900 more\n"), "{output}");
     }
 }

@@ -126,10 +126,10 @@ impl Sending<'_> {
         summary.push_str(&refused);
         let mut next = sent.lines.saturating_add(1);
         if let SendEnd::Unknown(_) = end {
-            let behind = next.saturating_add(self.out);
-            let out = range(next, behind.saturating_sub(1));
+            let after = next.saturating_add(self.out);
+            let out = range(next, after.saturating_sub(1));
             let _infallible = write!(summary, "\n  not known whether it was taken: {out}");
-            next = behind;
+            next = after;
         }
         if next <= lines {
             let _infallible = write!(summary, "\n  not sent or not taken: {}", range(next, lines));

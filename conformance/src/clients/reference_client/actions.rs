@@ -22,7 +22,7 @@ use crate::values::{self, Type};
 /// The most descriptors that are asked for at once.
 const AT_ONCE: u32 = 64;
 
-/// What stands behind a word, one after the other.
+/// The arguments of a word, one after the other.
 struct Arguments<'a>(std::slice::Iter<'a, String>);
 
 impl<'a> Arguments<'a> {

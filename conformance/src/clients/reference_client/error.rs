@@ -7,8 +7,8 @@ use ads_cnc::ads::AdsError;
 pub(super) enum Fail {
     /// The CNC refuses.
     Refused(AdsError),
-    /// Something is wrong, here or there.
-    Said(String),
+    /// Something is wrong, here or in the CNC.
+    Error(String),
     /// It dies here.
     Dies,
     /// It waits for ever.
@@ -17,6 +17,6 @@ pub(super) enum Fail {
 
 impl<T: std::fmt::Display> From<T> for Fail {
     fn from(why: T) -> Self {
-        Self::Said(why.to_string())
+        Self::Error(why.to_string())
     }
 }

@@ -65,7 +65,7 @@ pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> Client
         Connection::connect(place, flaw).and_then(|mut wire| actions::act(&mut wire, action));
     match done {
         Ok(value) => ClientReaction::Answer(ActionResult::Result(value)),
-        Err(Fail::Said(why)) => ClientReaction::Answer(ActionResult::Error(why)),
+        Err(Fail::Error(why)) => ClientReaction::Answer(ActionResult::Error(why)),
         Err(Fail::Refused(error)) => ClientReaction::Answer(ActionResult::Error(format!(
             "the CNC refuses it, ADS error {error:#x}"
         ))),

@@ -94,18 +94,14 @@ fn ways(told: &ReactionScenario) -> Vec<Scenario> {
     vec![
         told.valid_reply("bytewise", "one byte at a time", Tamper::Bytewise),
         told.valid_reply("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
-        told.valid_reply(
-            "pieces-data",
-            "in two pieces, cut behind the headers",
-            Tamper::Pieces(39),
-        ),
-        // That a client goes on after a reply to nobody is not said; that it takes none is.
+        told.valid_reply("pieces-data", "in two pieces, cut after the headers", Tamper::Pieces(39)),
+        // A client must not take a reply to no request; whether it goes on is not specified.
         Scenario {
             expect: match (told.result)() {
                 Value::Null => Expect::DoneOrError,
                 result => Expect::ResultOrError(result),
             },
-            ..told.valid_reply("foreign", "behind a reply to another invoke ID", Tamper::Foreign)
+            ..told.valid_reply("foreign", "after a reply to another invoke ID", Tamper::Foreign)
         },
         told.valid_reply("twice", "twice in one piece", Tamper::Twice),
         told.invalid_reply("other-id", "to another invoke ID only", Tamper::OtherInvokeId, "ADS-5"),
@@ -165,7 +161,7 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
             .by("ADS-6"),
         told.invalid_reply(
             "bare-result",
-            "an error as result, and nothing behind it",
+            "an error as result, and nothing after it",
             Tamper::BareResult,
             "ADS-4",
         )
@@ -280,7 +276,7 @@ fn lists() -> Vec<Scenario> {
     let right = |scenario: Scenario| scenario.expect(Expect::Asked(super::objects::list));
     vec![
         right(list("bytewise", "one byte at a time", Tamper::Bytewise)).by("ADS-5"),
-        right(list("late", "behind the reply to the request before", Tamper::Late))
+        right(list("late", "after the reply to the request before", Tamper::Late))
             .by(assumed("ADS-5")),
         right(list("twice", "twice in one piece", Tamper::Twice)).by(assumed("ADS-5")),
         // It asks on, or says that it did not get them; it has not all of them.

@@ -210,7 +210,7 @@ fn by_name() -> Vec<Scenario> {
     ]
 }
 
-/// A text: its NUL behind it, or filled up, or nothing; nobody documents which.
+/// A text: its NUL after it, or filled up, or nothing; nobody documents which.
 fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let front = [name.as_bytes(), b"\0", bytes].concat();
     let with = |zeros: usize| {

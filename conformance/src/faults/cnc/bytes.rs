@@ -29,7 +29,7 @@ pub(in crate::faults) fn number(
     })
 }
 
-/// From behind the first NUL on.
+/// From after the first NUL on.
 pub(in crate::faults) fn after_nul(bytes: &[u8]) -> &[u8] {
     bytes.get(text(bytes).len().saturating_add(1)..).unwrap_or_default()
 }

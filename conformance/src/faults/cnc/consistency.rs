@@ -32,7 +32,7 @@ fn with_number(
     }
 }
 
-/// Instances of a class behind an axis are not found.
+/// Instances of a class after an axis are not found.
 fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
     if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
         cnc.answer(call).map(|_| vec![0; 8])

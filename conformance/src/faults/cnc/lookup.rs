@@ -58,7 +58,7 @@ pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     (name, indices)
 }
 
-/// The name with the indices of an element behind it, and a NUL.
+/// The name with the indices of an element after it, and a NUL.
 pub(super) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
     let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
     [name, indices.as_bytes(), &[0]].concat()

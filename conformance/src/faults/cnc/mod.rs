@@ -67,7 +67,7 @@ pub(crate) enum CncFault {
     Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
     /// After each frame that answers one: what is sent instead.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
-    /// Bytes leave in pieces of so many at most.
+    /// Bytes are sent in pieces of at most this size.
     Pieces(usize),
     /// In its NC programs.
     Program(Policy),

@@ -26,7 +26,7 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
     }
 }
 
-/// Elements of one byte behind the one that was written become 0.
+/// Elements of one byte after the one that was written become 0.
 fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let done = cnc.answer(call)?;
     let (name, indices) = indexed(text(call.data));

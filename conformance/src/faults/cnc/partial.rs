@@ -13,7 +13,7 @@ use super::{
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The REAL64 as it is when it has gone through a text of six digits behind the point.
+/// The REAL64 as it is when it has gone through a text of six digits after the point.
 fn six_digits(bytes: Vec<u8>) -> Vec<u8> {
     let Some(value) = bytes.first_chunk::<8>() else { return bytes };
     let digits = format!("{:.6}", f64::from_le_bytes(*value));

@@ -17,7 +17,7 @@ const COUNT: &[Function] = &[Function::CountDynamic];
 const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 
-/// So many handles are known at a time.
+/// How many handles are known at a time.
 const SLOTS: u32 = 16;
 
 /// Handles by name take turns in a table that is too short.

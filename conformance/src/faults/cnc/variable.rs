@@ -42,7 +42,7 @@ pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
     name
 }
 
-/// The answer cut behind the first element of the variable it is about.
+/// The answer cut after the first element of the variable it is about.
 pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
     cnc.answer(call).map(|mut bytes| {

@@ -3,7 +3,7 @@
 use super::nc::{lines, takes};
 use super::{CodecFault, CodecSeed, refused, row};
 
-/// Packets of at most so many bytes, of whole lines.
+/// Packets of at most this many bytes, of whole lines.
 fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
     let mut all: Vec<Vec<u8>> = Vec::new();
     let text = packets.concat();

@@ -45,7 +45,7 @@ struct RowView {
     more: usize,
     offset: usize,
     bytes: Vec<ByteView>,
-    /// Zeros behind the bytes that are not shown.
+    /// Zeros after the bytes that are not shown.
     zeros: usize,
     field: String,
     value: String,
@@ -81,7 +81,7 @@ pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
 fn evidence(evidence: &EvidenceReport) -> EvidenceView {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
         evidence;
-    // With the same fields, what was expected stands below what was received instead.
+    // With the same fields, what was expected is below what was received instead.
     let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
         let places = |bytes: &BytesReport| -> Vec<usize> {
             bytes.fields.iter().map(|field| field.offset).collect()

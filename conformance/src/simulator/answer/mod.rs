@@ -18,7 +18,7 @@ use super::program::Policy;
 use super::state::CncState;
 use super::{Model, ModelError, ReplyData, Responder, program, to_u32};
 
-/// The simulated CNC: a model, and its state behind one lock.
+/// The simulated CNC: a model, and its state under one lock.
 #[derive(Debug)]
 pub struct Cnc {
     model: Model,
@@ -54,7 +54,7 @@ impl Cnc {
         Model::default_model().map(Self::new)
     }
 
-    /// With a clock that stands: time passes by [`pass`](Self::pass) only. What happens in time,
+    /// With a stopped clock: time passes by [`pass`](Self::pass) only. What happens in time,
     /// a test then has under control.
     ///
     /// ```

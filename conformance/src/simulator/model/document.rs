@@ -1,4 +1,4 @@
-//! A model as it stands in the file. Each part has its place in the file, for errors.
+//! A model as it is in the file. Each part has its place in the file, for errors.
 
 use serde::Deserialize;
 use toml::{Spanned, Value};

@@ -43,7 +43,7 @@ pub(in crate::simulator) struct Initial {
 pub(super) enum InitialValues {
     /// One for all instances.
     Same(Vec<u8>),
-    /// One for each; zeros for those behind.
+    /// One for each; zeros for those after.
     Each(Vec<Vec<u8>>),
 }
 
@@ -78,7 +78,7 @@ impl Objects {
 /// The elements of each instance of a class.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Elements {
-    /// Name of an instance; `{}` in it stands for its number.
+    /// Name of an instance; `{}` in it is replaced by its number.
     pub(super) name: String,
     /// From element 1 on.
     pub(in crate::simulator) items: Vec<Item>,

@@ -1,6 +1,6 @@
 //! What the CNC has: its configuration, which no request changes.
 //!
-//! It is read from TOML; what can be said there, the default model says in its comments:
+//! It is read from TOML; the comments of the default model describe what it may contain:
 //! `ads-cnc serve --print-model` writes it out.
 
 mod build;
@@ -75,7 +75,7 @@ pub(super) struct ChannelModel {
     pub(super) script: Option<ScriptConfig>,
     /// Its objects and those of its places.
     pub(super) list: Descriptors,
-    /// Those, and behind them the platform's (COM-4).
+    /// Those, and after them the platform's (COM-4).
     pub(super) list_of_first: Descriptors,
 }
 

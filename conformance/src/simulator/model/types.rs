@@ -95,7 +95,7 @@ pub(super) fn code(name: &str) -> VariableType {
     codes.into_iter().find(|code| code.name() == Some(name)).unwrap_or(VariableType::STRING)
 }
 
-/// The bytes of one value of a type, or of an array of so many, of `size` bytes each.
+/// The bytes of one value of a type, or of an array of this many, of `size` bytes each.
 pub(super) fn bytes(
     scalar: ScalarType,
     size: usize,
@@ -115,7 +115,7 @@ pub(super) fn bytes(
     Ok(bytes)
 }
 
-/// Rows of an array of more dimensions may stand in arrays of their own.
+/// Rows of an array of more dimensions may be arrays of their own.
 fn flatten<'a>(value: &'a Value, into: &mut Vec<&'a Value>) {
     match value {
         Value::Array(values) => values.iter().for_each(|value| flatten(value, into)),
@@ -173,7 +173,7 @@ fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
     text.parse().map_err(|_| format!("{text} is no number"))
 }
 
-/// CP1252, NULs behind it. What stands behind a NUL comes along.
+/// CP1252, NULs after it. What follows a NUL is kept.
 fn string(text: &str, size: usize) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     for (place, part) in text.split('\0').enumerate() {

@@ -12,7 +12,7 @@ use crate::simulator::to_len;
 /// A variable, or that of every axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::simulator) struct Variable {
-    /// With its kind in front; without the axis's name behind.
+    /// With its kind in front; without the axis's name after.
     pub(in crate::simulator) name: CncString,
     /// None by name only. Of axes, place 0's: each place's is 0x10000 further.
     pub(in crate::simulator) handle: Option<Handle>,
@@ -75,7 +75,7 @@ impl Variables {
     }
 }
 
-/// What a handle stands for.
+/// The variable of a handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum At {
     /// A variable of the channel.

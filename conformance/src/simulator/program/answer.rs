@@ -38,7 +38,7 @@ pub(super) struct Answers {
 }
 
 impl Answers {
-    /// So many are kept.
+    /// How many are kept.
     pub(super) const KEPT: usize = 64;
 
     pub(super) fn push(&mut self, request: usize, at: Duration, outcome: ServiceOutcome) {

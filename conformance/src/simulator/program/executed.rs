@@ -25,7 +25,7 @@ pub struct Executed {
     /// The latest lines, whole.
     kept: Vec<u8>,
     kept_lines: u64,
-    /// So many bytes of them at least, if there are so many. Twice as many at most, and a line.
+    /// The bytes of the latest lines that are kept at least; twice as many and a line at most.
     room: usize,
 }
 

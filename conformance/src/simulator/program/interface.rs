@@ -41,7 +41,7 @@ impl StreamingInterface {
         Self { bytes: [0; STREAM_MAX], len: 0 }
     }
 
-    /// Takes all of a write or nothing of it (STM-15: behind what is there).
+    /// Takes all of a write or nothing of it (STM-15: after what is there).
     ///
     /// [`Ack::Rejected`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Busy`],
     /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is

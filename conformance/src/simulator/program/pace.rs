@@ -15,21 +15,21 @@ use std::time::Duration;
 pub enum Pace {
     /// As fast as it can: a line takes no time.
     Fast,
-    /// So many lines a second.
+    /// Lines a second.
     Lines(NonZeroU32),
-    /// So many bytes a second, line ends included.
+    /// Bytes a second, line ends included.
     Bytes(NonZeroU32),
     /// Not at all: nothing is read, nothing is run.
     Hold,
 }
 
 impl Pace {
-    /// So many lines a second; none for 0.
+    /// Lines a second; none for 0.
     pub fn lines_per_second(lines: u32) -> Option<Self> {
         NonZeroU32::new(lines).map(Self::Lines)
     }
 
-    /// So many bytes a second; none for 0.
+    /// Bytes a second; none for 0.
     pub fn bytes_per_second(bytes: u32) -> Option<Self> {
         NonZeroU32::new(bytes).map(Self::Bytes)
     }

@@ -57,7 +57,7 @@ pub enum Wait {
 pub enum Repeat {
     /// Over and over.
     Endless,
-    /// So many times all of them.
+    /// All of them, this often.
     Times(u32),
 }
 
@@ -94,7 +94,7 @@ pub struct ScriptError {
     pub error: CallError,
 }
 
-/// Where a script stands.
+/// The state of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScriptState {
     /// It writes this request, by its place from 0.
@@ -171,10 +171,10 @@ pub struct Script {
 }
 
 impl Script {
-    /// So many answers are kept.
+    /// How many answers are kept.
     pub const ANSWERS_KEPT: usize = Answers::KEPT;
 
-    /// So many steps are made up for at a time. Looking for a response in vain is not counted.
+    /// How many steps are made up for at a time. Looking for a response in vain is not counted.
     const STEPS: u32 = 100_000;
 
     /// A program that begins when it is first [advanced](Self::advance).
@@ -276,7 +276,7 @@ impl Script {
         self.present.as_ref().map(|(_, call)| call.step())
     }
 
-    /// Where it stands, as of the last time it was advanced.
+    /// Its state as of the last time it was advanced.
     pub fn state(&self) -> ScriptState {
         match (&self.present, self.next_step()) {
             (Some(_), _) if self.pausing => ScriptState::Pausing,
@@ -301,7 +301,7 @@ impl Script {
         self.answers.timed_out
     }
 
-    /// Takes the request behind this one.
+    /// Takes the request after this one.
     fn go_on(&mut self, at: usize, now: Duration) {
         let mut next = at.saturating_add(1);
         if next >= self.requests.len() {
@@ -314,12 +314,12 @@ impl Script {
         self.due = Some(now.saturating_add(self.pause.max(self.cycle)));
     }
 
-    /// The first of the cycles behind `due` that is not before `time`.
+    /// The first of the cycles after `due` that is not before `time`.
     fn cycle_at(&self, due: Duration, time: Duration) -> Duration {
         let cycle = self.cycle.as_nanos();
         let cycles = time.saturating_sub(due).as_nanos().div_ceil(cycle).max(1);
-        let behind = u64::try_from(cycles.saturating_mul(cycle)).unwrap_or(u64::MAX);
-        due.saturating_add(Duration::from_nanos(behind))
+        let after = u64::try_from(cycles.saturating_mul(cycle)).unwrap_or(u64::MAX);
+        due.saturating_add(Duration::from_nanos(after))
     }
 }
 

@@ -16,7 +16,7 @@ pub(crate) struct ProgramSegment {
 
 #[derive(Clone, Copy, Debug)]
 enum SegmentEnd {
-    /// Behind its line: what else was read with it is not run.
+    /// After its line: what else was read with it is not run.
     End { end: ProgramEnd, line: u32 },
     /// In place of its line.
     Fault(Diagnostic),

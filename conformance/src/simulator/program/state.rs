@@ -1,17 +1,17 @@
-//! Where a program stands.
+//! The state of a streaming program.
 
 use std::fmt;
 
 use ads_cnc::streaming::{Diagnostic, LineError, ProgramEnd};
 
-/// Where a streaming program stands.
+/// The state of a streaming program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
     /// Not started yet, or ended by an NC reset (STM-11, STM-14).
     Stopped,
     /// It has lines to run.
     Running,
-    /// It has run all there was. Motion stands still until more is written (STM-16).
+    /// It has run all there was. Motion stops until more is written (STM-16).
     Dry,
     /// The program came to its end, and streaming mode with it (STM-10).
     Ended(ProgramEnd),
@@ -33,7 +33,7 @@ pub struct Message {
 }
 
 impl Message {
-    /// A line without CR LF in what was read behind so many lines.
+    /// A line without CR LF in what was read after this many lines.
     pub(super) fn of_line_end(file: &str, number: u32, before: u32, error: &LineError) -> Self {
         Self {
             number: Some(number),

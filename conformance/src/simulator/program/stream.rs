@@ -21,7 +21,7 @@ pub struct ProgramConfig {
     pub start: Start,
     /// How fast lines are run; 1000 lines/s by default (assumed).
     pub pace: Pace,
-    /// So many bytes of the lines that were run can be read back, and not many more; 1 MiB by
+    /// How many bytes of the lines that were run can be read back at least; 1 MiB by
     /// default.
     pub kept: usize,
 }
@@ -52,13 +52,13 @@ impl Default for ProgramConfig {
 ///   (STM-3, STM-6).
 /// - The decoder, when it has run all lines it has, reads everything that is there at once
 ///   (STM-12), and runs it line by line. A line counts as run when its time at the [`Pace`] is
-///   over. Before the decoder was started, and behind an end or an error, nothing is read: writes
+///   over. Before the decoder was started, and after an end or an error, nothing is read: writes
 ///   fill the interface (assumed).
-/// - If there is nothing to read, motion stands still until the next write (STM-16).
+/// - If there is nothing to read, motion stops until the next write (STM-16).
 /// - A line without CR LF aborts when it is read; nothing of what was read with it is run
 ///   (assumed). A word of a loop and a jump back abort in place of their line; the lines above are
 ///   run (STM-8; the moment is assumed). See [`Checker`] for what those are.
-/// - Behind a program end, what was read with it is discarded; what is still in the interface
+/// - After a program end, what was read with it is discarded; what is still in the interface
 ///   stays for the next start (STM-10).
 /// - An NC reset ends streaming mode and empties the interface (STM-11).
 ///
@@ -187,7 +187,7 @@ impl StreamingProgram {
         self.run();
     }
 
-    /// Where it stands, as of the last access.
+    /// Its state as of the last access.
     pub fn state(&self) -> State {
         match &self.phase {
             ProgramPhase::Over(state) => state.clone(),
@@ -216,7 +216,7 @@ impl StreamingProgram {
         self.interface.len()
     }
 
-    /// How often a write was refused for now: so many times warning
+    /// How often a write was refused for now: as often as warning
     /// [11012](ads_cnc::streaming::BUSY_WARNING) was issued (STM-6).
     pub fn refusals(&self) -> u64 {
         self.refusals

@@ -77,8 +77,8 @@ impl Received {
         self.bytes.capacity().saturating_add(self.answers.capacity())
     }
 
-    /// So many bytes came into the room: all frames that are whole now are answered in their order,
-    /// several answers at a time. How many bytes the frames had that were whole.
+    /// Answers all frames that are whole after `count` more bytes, in their order and several at a
+    /// time; returns the bytes of these frames.
     ///
     /// # Errors
     /// A frame that does not hold together: what follows it cannot be found. And those of `send`.
@@ -177,7 +177,7 @@ struct Limit<'a> {
     set: Option<Option<Duration>>,
 }
 
-/// What a connection stands before.
+/// What a connection waits for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Awaited {
     /// Its first frame, or the rest of it.

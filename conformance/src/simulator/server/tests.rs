@@ -96,7 +96,7 @@ fn pipelined_requests_are_answered_in_their_order() {
     expect(&stream, &ids().flat_map(|id| with_id(ANSWER, id)).collect::<Vec<_>>());
 }
 
-/// However the network has put them together, what comes behind a request takes no answer away.
+/// However the network has put them together, what comes after a request takes no answer away.
 #[test]
 fn what_was_asked_before_a_malformed_frame_is_answered() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -292,11 +292,11 @@ fn a_frame_without_its_end_ends_its_connection() {
     thread::sleep(Duration::from_millis(1200));
     half.write_all(&COUNT[..50]).unwrap();
     // A part that comes along with a whole frame is one too.
-    let mut behind = client(&server);
-    behind.write_all(&[COUNT, &COUNT[..1]].concat()).unwrap();
-    expect(&behind, ANSWER);
+    let mut next = client(&server);
+    next.write_all(&[COUNT, &COUNT[..1]].concat()).unwrap();
+    expect(&next, ANSWER);
     ends(&half);
-    ends(&behind);
+    ends(&next);
 }
 
 /// Each byte gives no more time: the limit is for all of the frame.

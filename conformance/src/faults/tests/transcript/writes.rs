@@ -240,7 +240,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// What programs have run, and where they stand.
+    /// What programs have run, and their states.
     pub(super) fn record_programs(&mut self) {
         for channel in [1, 2] {
             let reply = self.cnc.with_program(channel, |program| {

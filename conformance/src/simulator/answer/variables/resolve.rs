@@ -11,14 +11,14 @@ use crate::edition::Feature;
 use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
 use crate::simulator::to_len;
 
-/// What a name on the channel interface stands for.
+/// What a name on the channel interface means.
 pub(super) enum Resolved {
     Variable(At),
     /// A V.P, V.L or V.S, in editions that have them here.
     Parameter,
 }
 
-/// A refusal of a name that stands for nothing.
+/// The rejection of a name without a meaning.
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
 impl AnsweringCnc<'_> {
@@ -102,7 +102,7 @@ impl AnsweringCnc<'_> {
         if found { Ok((Resolved::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
     }
 
-    /// The variable in front of the last dot, of the axis whose name is behind it.
+    /// The variable in front of the last dot, of the axis whose name is after it.
     pub(super) fn of_named_axis(
         &self,
         channel: usize,
@@ -150,7 +150,7 @@ impl AnsweringCnc<'_> {
         variable.ok_or(AdsError::INVALID_DATA)
     }
 
-    /// With the axis's name behind it, if it is one's.
+    /// With the axis's name after it, if it is one's.
     pub(super) fn name(&self, channel: usize, at: At) -> Result<CncString, AdsError> {
         let variable = self.variable(channel, at)?;
         let At::Place { place, .. } = at else { return Ok(variable.name.clone()) };

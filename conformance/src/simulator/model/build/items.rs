@@ -13,7 +13,7 @@ use super::super::{ModelError, class_place};
 use super::text;
 use crate::simulator::{CONTENT_MAX, to_len};
 
-/// Bytes of a STRING whose size is not said (VAR-25).
+/// Bytes of a STRING whose size is not given (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;
 
 /// Offsets from here on are those of axes.

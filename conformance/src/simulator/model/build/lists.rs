@@ -113,14 +113,14 @@ fn own(
     let group = content(ComTable::Channel, number);
     let mut list = Vec::new();
     for (place, (item, &element)) in objects.items.iter().zip(&objects.elements).enumerate() {
-        let said = rows.and_then(|rows| rows.get(place)?.id.as_ref());
-        let id = said.map_or_else(|| ids.next(), |id| *id.get_ref());
+        let given = rows.and_then(|rows| rows.get(place)?.id.as_ref());
+        let id = given.map_or_else(|| ids.next(), |id| *id.get_ref());
         list.push(descriptor(item, id, group, IndexOffset::new(element))?);
     }
     Ok(list)
 }
 
-/// Objects of a channel and, behind them, of its places.
+/// Objects of a channel and, after them, of its places.
 fn of_channel(
     channel: &ChannelModel,
     of_places: &Objects,

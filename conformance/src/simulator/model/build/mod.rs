@@ -116,8 +116,8 @@ fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelEr
 }
 
 /// A number and its unit.
-fn time(source: Source<'_>, said: &Spanned<String>) -> Result<Duration, ModelError> {
-    duration(said.get_ref()).map_err(|why| source.error(&said.span(), why))
+fn time(source: Source<'_>, given: &Spanned<String>) -> Result<Duration, ModelError> {
+    duration(given.get_ref()).map_err(|why| source.error(&given.span(), why))
 }
 
 /// Whether it encodes, whatever it is.

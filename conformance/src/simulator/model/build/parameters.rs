@@ -42,8 +42,8 @@ pub(super) fn of_channel(
 }
 
 fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
-    let time = |said: &Option<Spanned<String>>| {
-        said.as_ref().map(|said| super::time(source, said)).transpose()
+    let time = |given: &Option<Spanned<String>>| {
+        given.as_ref().map(|given| super::time(source, given)).transpose()
     };
     let (comes, goes, period) = (time(&row.comes)?, time(&row.goes)?, time(&row.period)?);
     let times = Times::new(comes.unwrap_or_default(), goes, period);

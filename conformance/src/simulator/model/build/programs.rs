@@ -13,7 +13,7 @@ use crate::simulator::program::{
 };
 use crate::text::some_time;
 
-/// The streaming program; one that starts again and again if nothing is said, as nobody can start
+/// The streaming program; one that starts again and again if nothing is given, as nobody can start
 /// it over ADS.
 pub(super) fn streaming(
     source: Source<'_>,
@@ -34,14 +34,14 @@ pub(super) fn streaming(
             }
         };
     }
-    if let Some(said) = &table.pace {
-        config.pace = pace(said.get_ref()).map_err(|why| source.error(&said.span(), why))?;
+    if let Some(given) = &table.pace {
+        config.pace = pace(given.get_ref()).map_err(|why| source.error(&given.span(), why))?;
     }
     Ok(config)
 }
 
-fn pace(said: &Value) -> Result<Pace, ParsePaceError> {
-    match said {
+fn pace(given: &Value) -> Result<Pace, ParsePaceError> {
+    match given {
         Value::Integer(lines) => lines.to_string().parse(),
         Value::String(text) => text.parse(),
         _ => Err(ParsePaceError),
@@ -64,11 +64,11 @@ pub(super) fn service(
         Some(times) => Repeat::Times(*times.get_ref()),
         None => Repeat::Endless,
     };
-    let pause = table.pause.as_ref().map(|said| super::time(source, said)).transpose()?;
+    let pause = table.pause.as_ref().map(|given| super::time(source, given)).transpose()?;
     let cycle = table
         .cycle
         .as_ref()
-        .map(|said| some_time(said.get_ref()).map_err(|why| source.error(&said.span(), why)));
+        .map(|given| some_time(given.get_ref()).map_err(|why| source.error(&given.span(), why)));
     Ok(ScriptConfig {
         requests: rows.iter().map(|row| request(source, row)).collect::<Result<_, _>>()?,
         repeat,

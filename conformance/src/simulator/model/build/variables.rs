@@ -20,7 +20,7 @@ use super::encodes;
 use super::items::DeclaredValue;
 use crate::simulator::{to_len, to_u32};
 
-/// Room for the axis's name behind that of its variable.
+/// Room for the axis's name after that of its variable.
 const AXIS_NAME_MAX: usize = 64;
 
 /// A variable and where it is declared.
@@ -78,7 +78,7 @@ fn description(variable: &Variable) -> DescriptionRef<'_> {
     }
 }
 
-/// What only V.E has; as the example prints it, if nothing is said.
+/// What only V.E has; as the example prints it, if nothing is given.
 fn extended(
     source: Source<'_>,
     row: &VariableRow,
@@ -86,27 +86,27 @@ fn extended(
 ) -> Result<Option<ExtendedDescription>, ModelError> {
     if !external {
         return match row.synchronisation.as_ref().or(row.validity.as_ref()) {
-            Some(said) => Err(source.error(&said.span(), "only V.E has an extended description")),
+            Some(given) => Err(source.error(&given.span(), "only V.E has an extended description")),
             None => Ok(None),
         };
     }
-    let unknown = |said: &Spanned<String>, names: &str| {
-        source.error(&said.span(), format!("{:?} is none of {names}", said.get_ref()))
+    let unknown = |given: &Spanned<String>, names: &str| {
+        source.error(&given.span(), format!("{:?} is none of {names}", given.get_ref()))
     };
     let synchronisation = match &row.synchronisation {
         None => Synchronisation::SYNCHRONIZED,
-        Some(said) => match said.get_ref().as_str() {
+        Some(given) => match given.get_ref().as_str() {
             "NO_SYNC" => Synchronisation::NO_SYNC,
             "SYNCHRONIZED" => Synchronisation::SYNCHRONIZED,
-            _ => return Err(unknown(said, "NO_SYNC and SYNCHRONIZED")),
+            _ => return Err(unknown(given, "NO_SYNC and SYNCHRONIZED")),
         },
     };
     let validity = match &row.validity {
         None => Validity::GLOBAL,
-        Some(said) => match said.get_ref().as_str() {
+        Some(given) => match given.get_ref().as_str() {
             "CHANNEL" => Validity::CHANNEL,
             "GLOBAL" => Validity::GLOBAL,
-            _ => return Err(unknown(said, "CHANNEL and GLOBAL")),
+            _ => return Err(unknown(given, "CHANNEL and GLOBAL")),
         },
     };
     Ok(Some(ExtendedDescription { synchronisation, validity }))

@@ -80,7 +80,7 @@ pub enum CallStep<'a> {
     },
     /// The service has answered.
     Done { state: u32, response: CncStr<'a> },
-    /// There was no response within the longest wait. The request stands until the next one.
+    /// There was no response within the longest wait. The request stays until the next one.
     TimedOut,
 }
 
