@@ -3,7 +3,6 @@
 use core::fmt;
 
 use crate::address::range;
-use crate::content::ContentRef;
 use crate::layout::{Field, Subject, typed_value, variable_path};
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
@@ -86,45 +85,6 @@ impl Error {
         found: u32,
     ) -> Self {
         Self { kind, field, offset, expected, found }
-    }
-
-    /// An error of content whose layout only the application knows, for its own
-    /// [`Decode`](crate::Decode) and [`Encode`](crate::Encode).
-    ///
-    /// ```
-    /// use ads_cnc::layout::Stream;
-    /// use ads_cnc::value::Reader;
-    /// use ads_cnc::{Decode, Error, ErrorKind};
-    ///
-    /// #[derive(Debug, PartialEq)]
-    /// enum Mode {
-    ///     Manual,
-    ///     Automatic,
-    /// }
-    ///
-    /// impl<'a> Decode<'a> for Mode {
-    ///     const STREAM: Stream = Stream::Content;
-    ///
-    ///     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-    ///         let mut input = Reader::new(bytes);
-    ///         let mode: u16 = input.read()?;
-    ///         input.finish()?;
-    ///         match mode {
-    ///             0 => Ok(Self::Manual),
-    ///             1 => Ok(Self::Automatic),
-    ///             other => Err(Error::of_content(ErrorKind::OutOfRange, 0, 1, other.into())),
-    ///         }
-    ///     }
-    /// }
-    ///
-    /// assert_eq!(Mode::decode(&[1, 0]), Ok(Mode::Automatic));
-    /// assert_eq!(
-    ///     Mode::decode(&[2, 0]).unwrap_err().to_string(),
-    ///     "content: content at offset 0: out of range, expected at most 1, found 2"
-    /// );
-    /// ```
-    pub const fn of_content(kind: ErrorKind, offset: u32, expected: u32, found: u32) -> Self {
-        Self::new(kind, Field::of::<ContentRef<'_>>("content"), offset, expected, found)
     }
 
     /// The same error in a stream that begins at this offset.

@@ -1,6 +1,5 @@
 //! The AMS/TCP header and the AMS header (ADS-5).
 
-use zerocopy::IntoBytes as _;
 use zerocopy::little_endian::U16;
 
 use super::{AdsError, AmsAddr, AmsNetId, AmsPort, Command, StateFlags};
@@ -161,6 +160,7 @@ impl AmsHeader {
     }
 
     /// The bytes of the stream.
+    #[inline(never)]
     pub fn to_bytes(&self) -> [u8; AMS_HEADER_LEN] {
         zerocopy::transmute!(self.layout())
     }
@@ -185,7 +185,7 @@ impl TryFrom<HeaderLayout> for AmsHeader {
     type Error = Error;
 
     fn try_from(layout: HeaderLayout) -> Result<Self, Error> {
-        Self::decode(layout.as_bytes())
+        Self::decode(zerocopy::IntoBytes::as_bytes(&layout))
     }
 }
 

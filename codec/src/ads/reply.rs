@@ -63,18 +63,17 @@ fn encode<'b>(
     data: Option<&[u8]>,
     buf: &'b mut [u8],
 ) -> Result<&'b [u8], Error> {
-    let Some(data) = data else {
-        // Only an error may have no data.
-        if result.is_ok() {
-            let [_, length_field, _] = fields(stream);
-            return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));
-        }
-        return Writer::run(stream, to_usize(LENGTH_AT), buf, |out| out.u32(result.0));
-    };
-    Writer::run(stream, encoded_len(Some(data)), buf, |out| {
+    // Only an error may have no data.
+    if data.is_none() && result.is_ok() {
+        let [_, length_field, _] = fields(stream);
+        return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));
+    }
+    Writer::run(stream, encoded_len(data), buf, |out| {
         out.u32(result.0);
-        out.u32(to_u32(data.len()));
-        out.put(data);
+        if let Some(data) = data {
+            out.u32(to_u32(data.len()));
+            out.put(data);
+        }
     })
 }
 

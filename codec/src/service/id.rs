@@ -6,7 +6,7 @@ use core::hash::{Hash, Hasher};
 use super::ServiceVariable;
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
-use crate::text::CncStr;
+use crate::text::{Chars, CncStr};
 
 /// The offsets of the hyphens in a UUID.
 const HYPHENS: [usize; 4] = [8, 13, 18, 23];
@@ -45,7 +45,7 @@ impl ServiceId {
     /// [`ErrorKind::Truncated`], [`ErrorKind::Trailing`]: not 36 characters;
     /// [`ErrorKind::Unexpected`]: neither a digit nor a hyphen, or one where the other has to be.
     pub fn new(text: &str) -> Result<Self, Error> {
-        Self::from_chars(text.chars())
+        Self::from_chars(Chars::of_str(text))
     }
 
     /// As [`new`](Self::new), from CP1252.
@@ -56,7 +56,7 @@ impl ServiceId {
         Self::from_chars(text.chars())
     }
 
-    fn from_chars(chars: impl Iterator<Item = char> + Clone) -> Result<Self, Error> {
+    fn from_chars(chars: Chars<'_>) -> Result<Self, Error> {
         let field = ServiceVariable::Uuid.field();
         let (len, given) = (to_u32(Self::LEN), to_u32(chars.clone().count()));
         if given < len {

@@ -178,6 +178,13 @@ fn put(text: &str, out: &mut [u8]) {
 #[derive(Clone, Debug)]
 pub struct Chars<'a>(CharSource<'a>);
 
+impl<'a> Chars<'a> {
+    /// The characters of a text that may not be CP1252.
+    pub(crate) fn of_str(text: &'a str) -> Self {
+        Self(CharSource::Str(text.chars()))
+    }
+}
+
 #[derive(Clone, Debug)]
 enum CharSource<'a> {
     Bytes(core::slice::Iter<'a, u8>),

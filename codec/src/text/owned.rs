@@ -40,6 +40,13 @@ impl CncString {
     }
 }
 
+impl CncStr<'_> {
+    /// Copies the text.
+    pub fn to_owned(&self) -> CncString {
+        (*self).into()
+    }
+}
+
 impl From<CncStr<'_>> for CncString {
     fn from(text: CncStr<'_>) -> Self {
         Self(text.to_bytes(0))

@@ -10,7 +10,7 @@
 //! | the same, if it is the described type | [`Elements::items`], `copy_to`, `to_vec` |
 //! | read elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
 //! | convert an element to a number, a `bool` or a text | `TryFrom<Element>` |
-//! | read a structure of the program's own | [`Reader`] |
+//! | read a structure of the program's own | [`Reader`], [`content_error`] |
 //! | encode a value | [`EncodeValue`], [`Shape::encode`] |
 //!
 //! Only vectors and strings allocate. Bytes are little-endian (GEN-1, assumed) and need not be
@@ -78,7 +78,7 @@ mod typed;
 pub use data_type::DataType;
 pub use element::{Element, ElementIter, Elements};
 pub use encode::EncodeValue;
-pub use reader::Reader;
+pub use reader::{Reader, content_error};
 pub(crate) use scalar::numbers;
 pub use scalar::{Boolean, Scalar};
 pub use shape::Shape;

@@ -5,7 +5,7 @@ use zerocopy::{FromBytes as _, FromZeros as _};
 use super::Scalar;
 use crate::bytes::{self, to_u32};
 use crate::content::ContentRef;
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 use crate::text::TextRef;
 
@@ -96,4 +96,43 @@ impl<'a> Reader<'a> {
     pub fn finish(self) -> Result<(), Error> {
         self.0.finish()
     }
+}
+
+/// An error of content whose layout only the application knows, for its own
+/// [`Decode`](crate::Decode) and [`Encode`](crate::Encode).
+///
+/// ```
+/// use ads_cnc::layout::Stream;
+/// use ads_cnc::value::{Reader, content_error};
+/// use ads_cnc::{Decode, Error, ErrorKind};
+///
+/// #[derive(Debug, PartialEq)]
+/// enum Mode {
+///     Manual,
+///     Automatic,
+/// }
+///
+/// impl<'a> Decode<'a> for Mode {
+///     const STREAM: Stream = Stream::Content;
+///
+///     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+///         let mut input = Reader::new(bytes);
+///         let mode: u16 = input.read()?;
+///         input.finish()?;
+///         match mode {
+///             0 => Ok(Self::Manual),
+///             1 => Ok(Self::Automatic),
+///             other => Err(content_error(ErrorKind::OutOfRange, 0, 1, other.into())),
+///         }
+///     }
+/// }
+///
+/// assert_eq!(Mode::decode(&[1, 0]), Ok(Mode::Automatic));
+/// assert_eq!(
+///     Mode::decode(&[2, 0]).unwrap_err().to_string(),
+///     "content: content at offset 0: out of range, expected at most 1, found 2"
+/// );
+/// ```
+pub const fn content_error(kind: ErrorKind, offset: u32, expected: u32, found: u32) -> Error {
+    Error::new(kind, CONTENT, offset, expected, found)
 }

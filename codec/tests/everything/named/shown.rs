@@ -35,6 +35,10 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
         }
     }
     show::<CncStr<'_>>(cnc(bytes));
+    show::<TextRef<'_>>(TextRef::from(cnc(bytes)));
+    show::<operation::Function>(any(operation::Function::ReadByName));
+    show::<operation::Task>(any(operation::Task::Com));
+    show::<value::Boolean>(value::Boolean(any(1)));
     show::<address::IndexGroup>(IndexGroup::new(any(1)));
     show::<address::IndexOffset>(IndexOffset::new(any(1)));
     show::<ads::AdsError>(ads::AdsError(any(1)));

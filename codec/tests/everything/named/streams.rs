@@ -42,6 +42,7 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     seen(sda::ElementCount::to_bytes(&sda::ElementCount(any(1))));
     seen(sda::ElementWriteFlag::to_bytes(&sda::ElementWriteFlag(any(1))));
     seen(dynamic::DynamicCount::to_bytes(&dynamic::DynamicCount(any(1))));
+    seen(dynamic::DynamicValue::to_bytes(dynamic::DynamicValue::from_bits(any(1))));
     seen(ads::ReadRequest::decode(bytes).map(|stream| ads::ReadRequest::to_bytes(&stream)));
     seen(ads::WriteReply::decode(bytes).map(|stream| ads::WriteReply::to_bytes(&stream)));
     seen(

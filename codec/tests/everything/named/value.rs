@@ -15,6 +15,7 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     }
     seen(value::DataType::by_name(cnc(bytes)));
     seen(value::Boolean::is_true(value::Boolean(any(1))));
+    seen(value::content_error(ErrorKind::OutOfRange, any(1), any(2), any(3)));
     seen(items::<f64>(bytes));
     seen(items::<value::Boolean>(bytes));
     seen(items::<bool>(bytes));
