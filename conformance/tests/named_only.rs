@@ -176,7 +176,7 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
         .with_writer(move || writer.clone())
         .finish();
     tracing::subscriber::with_default(log, || {
-        let cnc = Cnc::with_default_model().unwrap().with_standing_clock();
+        let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
         let cnc = Arc::new(Faulty::new(cnc, Some(seed)));
         let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
         let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();

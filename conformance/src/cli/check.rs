@@ -19,8 +19,8 @@ const TRAFFIC: &str = "Traffic";
 /// Judge captured traffic by the same requirements: what clients sent and what CNCs answered.
 ///
 /// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them. TCP
-/// connections are put together in both directions, requests are paired with their answers, and what
-/// is said in one exchange is held against the others. Frames to AMS ports other than 551 (GEO), 552
+/// connections are put together in both directions, requests are paired with their replies, and
+/// exchanges are compared with each other. Frames to AMS ports other than 551 (GEO), 552
 /// (SDA) and 553 (COM), and calls of addresses at which nothing is documented, are counted.
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES, after_long_help = AFTER)]

@@ -23,8 +23,8 @@ const INPUT_MAX: u64 = 0x100_0000;
 
 /// Explains bytes field by field: offset, bytes, field, value, clause, meaning.
 ///
-/// What the bytes are is said by --stream, by --group and --offset, or by --frame; without, they
-/// have to be AMS/TCP frames. Bytes that are cut or wrong are shown up to the fault.
+/// --stream, --group and --offset, or --frame tell what the bytes are; without, they have to be
+/// AMS/TCP frames. Bytes that are cut or wrong are shown up to the fault.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
@@ -100,7 +100,7 @@ Examples:
   xxd -p frames.bin | ads-cnc explain -
 
 With --group, the bytes are the data of the service, without its own header; without any, the
-address is explained. An empty argument (\"\") stands for no bytes.
+address is explained. An empty argument (\"\") means no bytes.
 
 Exit codes: 0 explained; 1 the bytes are faulty; 2 wrong usage; 3 nothing is known of them;
 70 internal error.";

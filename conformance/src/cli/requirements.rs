@@ -27,7 +27,7 @@ enum RequirementsFormat {
     Text,
     Markdown,
     Json,
-    /// From the sections of the manuals to what stands for each
+    /// From the sections of the manuals to what covers each
     Sections,
 }
 

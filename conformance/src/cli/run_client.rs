@@ -78,7 +78,7 @@ impl ClientArgs {
         let server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
         match &self.client {
             Some(command) => Ok(self.run_command(command, &server, plan, deadline)),
-            None => waited(&server, deadline, interrupt),
+            None => wait_for_client(&server, deadline, interrupt),
         }
     }
 
@@ -108,7 +108,7 @@ impl ClientArgs {
 }
 
 /// Serves who comes of itself.
-fn waited(
+fn wait_for_client(
     server: &TestServer,
     deadline: Deadline,
     interrupt: &Interrupt,

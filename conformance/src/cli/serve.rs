@@ -72,8 +72,8 @@ pub(super) struct Args {
     #[arg(long, conflicts_with_all = ["model", "edition", "cnc_version"])]
     print_model: bool,
 
-    /// How fast streamed NC lines are run in all channels, whatever the model says: so many lines a
-    /// second (1000 in the default model), `4000 bytes/s`, `fast` or `hold`.
+    /// How fast streamed NC lines are run in all channels, instead of the pace of the model: a number
+    /// of lines a second (1000 in the default model), `4000 bytes/s`, `fast` or `hold`.
     #[arg(long, value_name = "PACE")]
     pace: Option<Pace>,
 

@@ -50,7 +50,7 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "read-element" ["CLASS" "CHANNEL" "AXIS" "ELEMENT" "TYPE"] "its content";
     "write-element" ["CLASS" "CHANNEL" "AXIS" "ELEMENT" "TYPE" "VALUE"] "nothing";
     "stream" ["CHANNEL" "FILE"] "nothing: the NC program is written, to its end";
-    "serve-echo" ["CHANNEL" "UUID" "REQUESTS" "SECONDS"] "how many requests were answered: each by its own text, response state 1, until so many are or so long has passed";
+    "serve-echo" ["CHANNEL" "UUID" "REQUESTS" "SECONDS"] "how many requests were answered: each by its own text, response state 1, until this many are or this time has passed";
     "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
 };
 

@@ -217,7 +217,7 @@ impl Scenario {
         self
     }
 
-    /// What what the client says is judged by: what its first request is, unless it is said.
+    /// The rules for the client's answer: by default the requirement of its first request.
     pub(super) fn rules(&self) -> Vec<Rule> {
         match (self.rules.as_slice(), self.asks.first()) {
             ([], Some(ask)) => vec![ask.place.into()],

@@ -53,7 +53,7 @@ const fn meaning(exit: Exit) -> &'static str {
 
 fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
     let word = |value: &serde_json::Value| match value {
-        serde_json::Value::Null => "not said".to_owned(),
+        serde_json::Value::Null => "not given".to_owned(),
         serde_json::Value::String(text) => text.clone(),
         serde_json::Value::Array(items) => {
             let items: Vec<String> = items

@@ -20,7 +20,7 @@ impl Clock {
     }
 
     /// Stopped at 0.
-    pub(super) const fn standing() -> Self {
+    pub(super) const fn stopped() -> Self {
         Self { since: None, passed: AtomicU64::new(0) }
     }
 

@@ -13,7 +13,7 @@ pub(crate) struct Timed(pub(crate) Cnc);
 
 impl Timed {
     pub(crate) fn new(model: &str) -> Self {
-        Self(Cnc::new(Model::from_toml(model, "timed").unwrap()).with_standing_clock())
+        Self(Cnc::new(Model::from_toml(model, "timed").unwrap()).with_stopped_clock())
     }
 
     pub(crate) fn pass(&self, milliseconds: u64) {

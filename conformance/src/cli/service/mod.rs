@@ -54,7 +54,7 @@ pub(super) struct ServiceArguments {
     #[arg(long, value_name = "TIME", default_value = "50ms", value_parser = some_time)]
     poll: Duration,
 
-    /// End after so many answers
+    /// End after this many answers
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     answers: Option<u64>,
 

@@ -86,7 +86,7 @@ impl Connection {
                 return Ok(reply);
             }
             if begun.elapsed() > TIMEOUT {
-                return Err(self.waited());
+                return Err(self.timeout());
             }
             match self.stream.read(&mut chunk) {
                 Ok(0) if self.has(Flaw::CutFrame) => return self.cut(),
@@ -94,7 +94,7 @@ impl Connection {
                 Ok(count) => self.received.extend(chunk.iter().take(count)),
                 Err(error) => match error.kind() {
                     io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut => {
-                        return Err(self.waited());
+                        return Err(self.timeout());
                     }
                     _ => return Err(error.into()),
                 },
@@ -107,7 +107,7 @@ impl Connection {
         }
     }
 
-    fn waited(&self) -> Fail {
+    fn timeout(&self) -> Fail {
         if self.has(Flaw::Hangs) { Fail::Hangs } else { "no reply in time".into() }
     }
 

@@ -27,7 +27,7 @@ fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
 }
 
 /// RESPONSE_STATE as it was before a write that should have reset it.
-fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
+fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     let key = (instance(call), 0x5C, Vec::new());
     if now {
         let before = read(cnc, group(call), RESPONSE_STATE)?;
@@ -157,7 +157,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let key = (instance(call), 0x5D, Vec::new());
             let other = cnc.memory().get(&key).is_some();
             if other {
-                return stays(cnc, call, true);
+                return keep_response_state(cnc, call, true);
             }
             cnc.memory().store(key, Vec::new());
             cnc.answer(call)
@@ -176,7 +176,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             drop(memory);
             cnc.answer(call)
         } else {
-            stays(cnc, call, false)
+            keep_response_state(cnc, call, false)
         }),
     row("cnc.svc.response-runs-on", &["SVC-1", "SVC-5"],
         "a RESPONSE that is shorter than the one before runs on with the rest of that",

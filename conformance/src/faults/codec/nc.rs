@@ -41,7 +41,7 @@ fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> 
 }
 
 /// Takes what is refused for this.
-pub(super) fn takes(right: Right<'_>, question: &Question, op: &str, class: &str) -> Answer {
+pub(super) fn accepts(right: Right<'_>, question: &Question, op: &str, class: &str) -> Answer {
     match right(question) {
         Answer::Reject(Rejection { class: Some(found), .. })
             if question.op == op && found == class =>
@@ -122,7 +122,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 .collect()
         })),
     row("codec.nc.comment-block-open", &["STM-9"], "a comment that is never ended is not told",
-        CodecFault::Around(|right, question| takes(right, question, "check", "STM-9"))),
+        CodecFault::Around(|right, question| accepts(right, question, "check", "STM-9"))),
     row("codec.nc.end-m2", &["STM-10"], "M2 is overlooked",
         CodecFault::Text(|text| without(text, "M2", "M9"))),
     row("codec.nc.end-m30", &["STM-10"], "M30 is overlooked",

@@ -1,6 +1,6 @@
 //! NC text in packets (STM).
 
-use super::nc::{lines, takes};
+use super::nc::{accepts, lines};
 use super::{CodecFault, CodecSeed, refused, row};
 
 /// Packets of at most this many bytes, of whole lines.
@@ -112,11 +112,11 @@ pub(super) const ROWS: &[CodecSeed] = &[
             packed(&[text.collect()], 992)
         })),
     row("codec.nc.takes-cp1252", &["STM-7"], "characters beyond ASCII are written as they are",
-        CodecFault::Around(|right, question| takes(right, question, "packets", "not-ascii"))),
+        CodecFault::Around(|right, question| accepts(right, question, "packets", "not-ascii"))),
     row("codec.nc.takes-nul", &["STM-7"], "NULs in NC text are written as they are",
-        CodecFault::Around(|right, question| takes(right, question, "packets", "nul"))),
+        CodecFault::Around(|right, question| accepts(right, question, "packets", "nul"))),
     row("codec.nc.takes-long-lines", &["STM-20"], "lines of more than 990 characters are written as they are",
-        CodecFault::Around(|right, question| takes(right, question, "packets", "too-long"))),
+        CodecFault::Around(|right, question| accepts(right, question, "packets", "too-long"))),
     row("codec.nc.cuts-long-lines", &["STM-20"], "a line of 990 characters is refused",
         CodecFault::Around(|right, question| {
             let text = question.hex.as_deref().unwrap_or_default();

@@ -25,7 +25,7 @@ impl<'t> Transcript<'t> {
         let edition = seed.and_then(|seed| seed.edition);
         let settings = Settings { edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();
-        let faulty = Faulty::new(Cnc::new(model).with_standing_clock(), seed);
+        let faulty = Faulty::new(Cnc::new(model).with_stopped_clock(), seed);
         let cnc = Arc::clone(faulty.cnc());
         let mut transcript =
             Self { faulty, cnc, other, replies: Vec::new(), differs: false, count: 0 };

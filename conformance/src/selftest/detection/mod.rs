@@ -141,7 +141,7 @@ impl Device {
     fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
         let internal = |error| Trouble::Internal(format!("the model: {error}"));
         let model = Model::with_settings(self.model, "the model", self.settings);
-        let cnc = Cnc::new(model.map_err(internal)?).with_standing_clock();
+        let cnc = Cnc::new(model.map_err(internal)?).with_stopped_clock();
         Ok(Arc::new(Faulty::new(cnc, seed)))
     }
 
@@ -180,7 +180,7 @@ impl Device {
 /// What a file for `--allow-write` would name: each value that the CNC says can be written, with
 /// what it does not list.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
-    let cnc = Arc::new(cnc.with_standing_clock());
+    let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = session::Session::in_process(cnc, Gate::queries())?;
     let mut entries = Vec::new();
     for variables in [false, true] {

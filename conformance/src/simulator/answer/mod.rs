@@ -70,7 +70,7 @@ impl Cnc {
     /// number = 1
     /// parameters = [{ name = "V.L.feed", comes = "2s", goes = "5s" }]
     /// "#;
-    /// let cnc = Cnc::new(Model::from_toml(model, "an example")?).with_standing_clock();
+    /// let cnc = Cnc::new(Model::from_toml(model, "an example")?).with_stopped_clock();
     /// let count = Call {
     ///     port: AmsPort::SDA,
     ///     service: Service::Read,
@@ -85,8 +85,8 @@ impl Cnc {
     /// # Ok::<(), ads_cnc_conformance::simulator::ModelError>(())
     /// ```
     #[must_use]
-    pub fn with_standing_clock(mut self) -> Self {
-        self.clock = Clock::standing();
+    pub fn with_stopped_clock(mut self) -> Self {
+        self.clock = Clock::stopped();
         self
     }
 

@@ -9,7 +9,7 @@ pub struct HexError {
     pub line: usize,
     /// The column, from 1, in characters.
     pub column: usize,
-    /// The character that is no digit; none for a digit that stands alone.
+    /// The character that is no digit; none for a single digit.
     pub found: Option<char>,
 }
 
@@ -20,7 +20,7 @@ impl fmt::Display for HexError {
             Some(found) => write!(f, "line {line}, column {column}: {found:?} is no hex digit"),
             None => write!(
                 f,
-                "line {line}, column {column}: a byte has two hex digits, this one stands alone"
+                "line {line}, column {column}: a byte has two hex digits, this one has one"
             ),
         }
     }
@@ -86,8 +86,8 @@ mod tests {
     #[test]
     fn a_wrong_digit_is_named_by_its_place() {
         for (text, why) in [
-            ("02 0", "line 1, column 4: a byte has two hex digits, this one stands alone"),
-            ("02 0 03", "line 1, column 4: a byte has two hex digits, this one stands alone"),
+            ("02 0", "line 1, column 4: a byte has two hex digits, this one has one"),
+            ("02 0 03", "line 1, column 4: a byte has two hex digits, this one has one"),
             ("02\n0x0x", "line 2, column 4: 'x' is no hex digit"),
             ("020x00", "line 1, column 4: 'x' is no hex digit"),
             ("02 ä", "line 1, column 4: 'ä' is no hex digit"),

@@ -34,7 +34,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
 
 /// What a CNC of this model answers at three moments.
 fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
-    let cnc = Cnc::new(model).with_standing_clock();
+    let cnc = Cnc::new(model).with_stopped_clock();
     let mut said = Vec::new();
     for _ in 0..3 {
         said.extend(CALLS.iter().map(|sample| answer(&cnc, &sample.call, defect)));

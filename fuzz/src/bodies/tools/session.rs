@@ -29,7 +29,7 @@ pub(crate) const MODEL: &str = include_str!("small.toml");
 fn cnc() -> Cnc {
     static READ: OnceLock<Model> = OnceLock::new();
     let model = READ.get_or_init(|| Model::from_toml(MODEL, "a model").expect("a model"));
-    Cnc::new(model.clone()).with_standing_clock()
+    Cnc::new(model.clone()).with_stopped_clock()
 }
 
 /// A session: every good frame gets one answer, which the codec reads; a frame that does not hold
