@@ -25,7 +25,7 @@ fn steady_content<'r>(probe: &mut Probe<'_>, read: impl Into<Request<'r>>) -> St
 }
 
 /// Whether all that stood still both times is the same; none if nothing did.
-fn alike(before: &[Content], after: &[Content]) -> Option<bool> {
+fn are_same(before: &[Content], after: &[Content]) -> Option<bool> {
     let both = before.iter().zip(after).filter_map(|(one, other)| one.as_ref().zip(other.as_ref()));
     let same: Vec<bool> = both.map(|(one, other)| one == other).collect();
     let judged = before.is_empty() || !same.is_empty();
@@ -110,13 +110,13 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
     // In the order in which they do not get into each other's way.
     cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
     let (second, third, platform_after, handle_after) = after;
-    if let Some(moved) = alike(&before, &second?) {
+    if let Some(moved) = are_same(&before, &second?) {
         probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
     }
     let blank = third?.iter().flatten().flatten().all(|&byte| byte == 0);
     probe.check("ADR-13", blank, "nothing at place 3 any more", "values");
     let platform_after = platform_after?;
-    let same = alike(&of_platform, &platform_after);
+    let same = are_same(&of_platform, &platform_after);
     for (rule, same) in ["ADR-13", "SDA-13"].into_iter().filter_map(|rule| Some((rule, same?))) {
         probe.check(rule, same, "the platform's axes where they were", "others");
     }
@@ -126,7 +126,7 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         "the handle of the place, whichever axis is there",
     );
     probe.check("VAR-10", same, expected, "another");
-    match alike(&before, &places(probe, 3)?) {
+    match are_same(&before, &places(probe, 3)?) {
         Some(back) => probe.require("ADR-13", back, "axis 3 at place 3 again", "others"),
         None => Err(Stop::inconclusive("no axis stands still")),
     }
@@ -139,10 +139,10 @@ mod tests {
     #[test]
     fn only_what_stands_still_is_held_against_each_other() {
         let still = |byte: u8| Some(vec![byte]);
-        assert_eq!(alike(&[still(1), None], &[still(1), still(2)]), Some(true));
-        assert_eq!(alike(&[still(1), None], &[still(2), None]), Some(false));
-        assert_eq!(alike(&[still(1)], &[still(1), still(2)]), Some(false));
-        assert_eq!(alike(&[None, still(1)], &[still(1), None]), None);
-        assert_eq!(alike(&[], &[]), Some(true));
+        assert_eq!(are_same(&[still(1), None], &[still(1), still(2)]), Some(true));
+        assert_eq!(are_same(&[still(1), None], &[still(2), None]), Some(false));
+        assert_eq!(are_same(&[still(1)], &[still(1), still(2)]), Some(false));
+        assert_eq!(are_same(&[None, still(1)], &[still(1), None]), None);
+        assert_eq!(are_same(&[], &[]), Some(true));
     }
 }

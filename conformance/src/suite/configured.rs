@@ -34,7 +34,7 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
                 let expected = || format!("a description of {}", one.name);
                 probe.check("VAR-3", found.is_some(), expected, "none");
                 let Some((described, extended)) = found else { continue };
-                holds(probe, one, described);
+                compare_description(probe, one, described);
                 let shown = |extended: &ExtendedReply| format!("{extended:?} of {}", one.name);
                 let expected = ExtendedReply(one.extended);
                 let rule = if one.extended.is_some() { "VAR-15" } else { "VAR-16" };
@@ -71,7 +71,7 @@ fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Descr
     Ok(all)
 }
 
-fn holds(probe: &mut Probe<'_>, one: &Configured, found: &Description) {
+fn compare_description(probe: &mut Probe<'_>, one: &Configured, found: &Description) {
     let name = &one.name;
     let expected = || format!("{:?} of {name}", one.var_type);
     let same = found.var_type == one.var_type;

@@ -47,7 +47,7 @@ fn compare_with_whole<'r>(
     steady.judge(probe, rule.into(), name, compared, |probe, rules, (whole, read, evidence)| {
         let expected = part(&whole);
         let dimensions: &[u32] = if expected == whole { &variable.dimensions } else { &[] };
-        let values = typed(variable, dimensions);
+        let values = value_type(variable, dimensions);
         probe.set_evidence(evidence.map(|evidence| Evidence { values, ..*evidence }));
         let words = || format!("{} of the whole of {name}", spaced(&expected));
         probe.check_reply(rules, false, &expected, words, || Hex(read));
@@ -56,7 +56,7 @@ fn compare_with_whole<'r>(
 }
 
 /// How a report reads the value of a variable.
-fn typed(variable: &Description, dimensions: &[u32]) -> ValueFormat {
+fn value_type(variable: &Description, dimensions: &[u32]) -> ValueFormat {
     let ty = variable.var_type.name().and_then(|name| type_by_name(name).ok());
     ValueFormat { ty, dimensions: dimensions.to_vec() }
 }

@@ -84,7 +84,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
                 probe.check("VAR-3", unique, "another variable at each index", found);
                 all.push(variable);
             }
-            again(probe, channel, kind, &all)?;
+            descriptions_backwards(probe, channel, kind, &all)?;
         }
     }
     Ok(())
@@ -92,7 +92,12 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
 
 /// From the last index to the first there are the same variables. An axis may change its place
 /// meanwhile: what differs has to differ from two readings that agree.
-fn again(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>, all: &[Description]) -> Step {
+fn descriptions_backwards(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: Kind<'_>,
+    all: &[Description],
+) -> Step {
     let indexed: Vec<(u32, &Description)> = (0..).zip(all).collect();
     for (index, first) in indexed.into_iter().rev() {
         let mut is_first = || -> Step<bool> {

@@ -52,7 +52,7 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
 const NAMES_MAX: usize = 64;
 
 /// The name with a character more, one less, and another last one and one in the middle.
-fn similar(name: &[u8]) -> Vec<Vec<u8>> {
+fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     let other = |at: usize| {
         let mut other = name.to_vec();
         other.iter_mut().skip(at).take(1).for_each(|byte| {
@@ -92,7 +92,7 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
         };
         variables.sort_by_key(|one| std::cmp::Reverse(one.name.text.as_bytes().len()));
         for known in variables.iter().take(NAMES_MAX) {
-            let others = similar(known.name.text.as_bytes()).into_iter();
+            let others = similar_names(known.name.text.as_bytes()).into_iter();
             let fits = |name: &Vec<u8>| name.len() < TEXT_MAX && !is_there(name, &variables);
             let name = known.name.text.to_string();
             for other in other_structures(&name) {

@@ -5,7 +5,8 @@ use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, another, is_sendable, writable_numbers,
+    NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, changed_value, is_sendable,
+    writable_numbers,
 };
 use super::{Row, case};
 use crate::judge::{Checks as _, Needs, Step, applicable};
@@ -28,7 +29,7 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
         let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
         let handle = ValueAddress::of_handle(*channel, variable.handle);
         for (id, address) in [("VAR-13", known.address()), ("VAR-12", handle)] {
-            let other = another(value, false);
+            let other = changed_value(value, false);
             let (good, back) = (address.write(&other), address.write(value));
             let (good, back) = (good?, back?);
             // As it is taken without a refusal before it.
@@ -73,7 +74,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
         let Some(value) = probe.filled_value_at(&address)? else {
             continue;
         };
-        let other = another(&value, false);
+        let other = changed_value(&value, false);
         let longer = [&other[..], &[1]].concat();
         let shorter = (1..other.len()).filter_map(|len| other.get(..len));
         for data in shorter.chain([&longer[..]]) {
@@ -140,7 +141,7 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         let Some(blank) = probe.filled_value_at(&address)? else {
             continue;
         };
-        let other = another(&blank, false);
+        let other = changed_value(&blank, false);
         probe.send(address.write(&other)?)?;
         let evidence = probe.evidence();
         let after = probe.value_at(&address)?.unwrap_or_default();

@@ -70,30 +70,30 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
 fn elements(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for one in &all {
-        let twins = twins(probe, one)?;
+        let siblings = siblings(probe, one)?;
         let rules = ["SDA-9".into()];
         let write_check =
             WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
         probe.try_write(&write_check, &one.address, |probe, _, new| {
-            for (rule, twin, address, before) in &twins {
+            for (rule, sibling, address, before) in &siblings {
                 let after = probe.value_at(address)?.unwrap_or_default();
                 if after == new && after != *before {
-                    taken.push((*rule, twin, address, before, probe.evidence()));
+                    taken.push((*rule, sibling, address, before, probe.evidence()));
                 }
             }
             Ok(())
         })?;
         // What took the new value and has the old one again has taken both writes.
         let is_own = taken.is_empty();
-        for (rule, twin, address, before, evidence) in taken {
+        for (rule, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
             probe.set_evidence(evidence);
             let kept = again.as_ref() != Some(before);
             let expected = || format!("{} at a place of its own", one.what);
-            probe.check(rule, kept, expected, || format!("written in {twin} too"));
+            probe.check(rule, kept, expected, || format!("written in {sibling} too"));
         }
-        if is_own && !twins.is_empty() {
+        if is_own && !siblings.is_empty() {
             probe.pass("SDA-1");
         }
     }
@@ -101,11 +101,11 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Where else a write might go to: what is there, what it holds and how it is judged.
-type Twin = (Rule, String, ValueAddress, Vec<u8>);
+type Sibling = (Rule, String, ValueAddress, Vec<u8>);
 
 /// The same element of the other instances of its class, and the other elements of its own. Of
 /// these one may well follow another on a machine.
-fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
+fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
     let number = at.saturating_sub(start);
@@ -122,8 +122,8 @@ fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
         // The HLD of each channel has the same axes.
         let is_same = other.first == one.instance.first
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
-        let is_twin = other.class == one.instance.class && !is_same && number <= other.count;
-        if let (true, 1.., Ok(element)) = (is_twin, number, other.first.nth(number)) {
+        let is_sibling = other.class == one.instance.class && !is_same && number <= other.count;
+        if let (true, 1.., Ok(element)) = (is_sibling, number, other.first.nth(number)) {
             others.push(("SDA-1".into(), other.to_string(), element));
         }
     }

@@ -39,24 +39,24 @@ struct Reading {
 }
 
 impl WatchedVariable {
-    fn named(&self) -> ValueAddress {
+    fn by_name(&self) -> ValueAddress {
         ValueAddress::Name { channel: self.channel, name: self.variable.name.text.clone() }
     }
 
-    fn handled(&self) -> ValueAddress {
+    fn by_handle(&self) -> ValueAddress {
         let handle = self.variable.handle;
         ValueAddress::of_handle(self.channel, handle)
     }
 }
 
 /// All that has a value, and one that stands still: what moves by itself is not changed by a write.
-fn all(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
+fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             let (start, value, seen) = (Vec::new(), Vec::new(), Vec::new());
             let mut one = WatchedVariable { channel, variable, start, value, at: None, seen };
-            if let Some(value) = probe.value_at(&one.handled())? {
+            if let Some(value) = probe.value_at(&one.by_handle())? {
                 (one.start, one.value) = (value.clone(), value);
                 all.push(one);
             }
@@ -65,7 +65,7 @@ fn all(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     // Looked at again when everything else was.
     let mut still = Vec::new();
     for one in all {
-        if probe.value_at(&one.handled())?.as_ref() == Some(&one.start) {
+        if probe.value_at(&one.by_handle())?.as_ref() == Some(&one.start) {
             still.push(one);
         }
     }
@@ -109,7 +109,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
 }
 
 /// Writes each in this order, the last first if `backwards`, and then reads all.
-fn pass(
+fn write_and_read_all(
     probe: &mut Probe<'_>,
     all: &mut [WatchedVariable],
     (backwards, salt): (bool, usize),
@@ -178,9 +178,9 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
 }
 
 /// Puts everything back, by whichever way takes it.
-fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
+fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
-        let ways = [one.at.clone(), Some(one.handled()), Some(one.named())];
+        let ways = [one.at.clone(), Some(one.by_handle()), Some(one.by_name())];
         for place in ways.into_iter().flatten() {
             let start = one.start.clone();
             if write_value(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
@@ -206,32 +206,33 @@ fn both_ways(
 ) -> Step {
     let mut tried = Ok(());
     for (backwards, salt) in [(false, 1), (true, 1001)] {
-        tried = tried.and_then(|()| pass(probe, &mut all, (backwards, salt), &by, &look));
+        tried =
+            tried.and_then(|()| write_and_read_all(probe, &mut all, (backwards, salt), &by, &look));
     }
     judge(probe, rule, &all);
-    let restored = restore(probe, rule, &mut all);
+    let restored = restore_all(probe, rule, &mut all);
     tried.and(restored)
 }
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
-    let all = all(probe)?;
-    both_ways(probe, "VAR-13".into(), all, |one| Some(one.named()), WatchedVariable::handled)
+    let all = steady_variables(probe)?;
+    both_ways(probe, "VAR-13".into(), all, |one| Some(one.by_name()), WatchedVariable::by_handle)
 }
 
 fn by_handle(probe: &mut Probe<'_>) -> Step {
-    let all = all(probe)?;
-    both_ways(probe, "VAR-12".into(), all, |one| Some(one.handled()), WatchedVariable::named)
+    let all = steady_variables(probe)?;
+    both_ways(probe, "VAR-12".into(), all, |one| Some(one.by_handle()), WatchedVariable::by_name)
 }
 
 fn of_axes(probe: &mut Probe<'_>) -> Step {
-    let mut all = all(probe)?;
+    let mut all = steady_variables(probe)?;
     for one in &mut all {
         one.at = axis_address(probe, one.channel, &one.variable)?;
     }
     if all.iter().all(|one| one.at.is_none()) {
         return Err(Stop::not_applicable("no axis variable is on the axis interface"));
     }
-    both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), WatchedVariable::handled)
+    both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), WatchedVariable::by_handle)
 }
 
 #[cfg(test)]

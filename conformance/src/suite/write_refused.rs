@@ -6,8 +6,8 @@ use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableT
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Probe, RawCall, WritableNumber, WriteCheck, another, each_of_access, handle_of, is_sendable,
-    require_taken, writable_numbers, write_check,
+    Probe, RawCall, WritableNumber, WriteCheck, changed_value, each_of_access, handle_of,
+    is_sendable, require_taken, writable_numbers, write_check,
 };
 use super::{Row, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Rule, Step, Stop};
@@ -66,7 +66,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
             return Ok(());
         };
         let moved = probe.value_at(address)?.as_ref() != Some(&before);
-        let other = another(&before, write_check.is_text);
+        let other = changed_value(&before, write_check.is_text);
         let Some(write) = address.write(&other).ok().filter(is_sendable) else { return Ok(()) };
         let exchange = probe.send(write)?;
         let refused = exchange.is_error();
@@ -178,7 +178,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
         tried = tried.saturating_add(1);
         let whole = ValueAddress::of_handle(channel, *handle);
         let Some(value) = probe.value_at(&first)? else { return Ok(()) };
-        let other = another(&value, false);
+        let other = changed_value(&value, false);
         let good = first.write(&value)?;
         let named = by_name(0)?;
         let good_by_name = ValueAddress::Name { channel, name: named };

@@ -5,7 +5,7 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Probe, another, axis_address, each_of_access, is_of_service, is_sendable, is_taken,
+    Probe, axis_address, changed_value, each_of_access, is_of_service, is_sendable, is_taken,
     require_taken,
 };
 use super::{Row, case};
@@ -18,13 +18,13 @@ pub(super) const CASES: &[Row] = &[
         "A value of another size than the variable's is answered by an error, or is there as it was sent"),
 ];
 
-/// A way to a value, and the clause that says what a write by it has.
+/// An address of a value, and the clause of writes to it.
 struct WriteAddress {
     id: &'static str,
     address: ValueAddress,
 }
 
-fn ways(
+fn write_addresses(
     probe: &mut Probe<'_>,
     channel: Channel,
     variable: &Description,
@@ -57,29 +57,29 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
         if is_of_service(variable) || tried.contains(&sort) || variable.dimensions.len() > 1 {
             return Ok(());
         }
-        for way in ways(probe, channel, variable)? {
-            if probe.may_write(&way.address, &variable.name.text.to_string())? {
+        for at in write_addresses(probe, channel, variable)? {
+            if probe.may_write(&at.address, &variable.name.text.to_string())? {
                 tried.push(sort);
-                of_way(probe, channel, variable, &way)?;
+                of_address(probe, channel, variable, &at)?;
             }
         }
         Ok(())
     })
 }
 
-fn of_way(
+fn of_address(
     probe: &mut Probe<'_>,
     channel: Channel,
     variable: &Description,
-    way: &WriteAddress,
+    at: &WriteAddress,
 ) -> Step {
     let is_text = variable.var_type == VariableType::STRING;
-    let Some(value) = probe.filled_value_at(&way.address)? else {
+    let Some(value) = probe.filled_value_at(&at.address)? else {
         return Ok(());
     };
     let whole = ValueAddress::of_handle(channel, variable.handle);
     // Other bytes from the first on: a part of them that is written shows.
-    let other = if is_text { vec![b'x'; value.len()] } else { another(&value, false) };
+    let other = if is_text { vec![b'x'; value.len()] } else { changed_value(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
     let one = size.unwrap_or(1);
     let longer = |more: usize| [&other[..], &vec![1; more]].concat();
@@ -94,8 +94,7 @@ fn of_way(
     for data in all {
         if data.len() != value.len() && !sizes.contains(&data.len()) {
             sizes.push(data.len());
-            let sent =
-                WrongSizeWrite { way, watched: &whole, is_text, value: &value, other: &data };
+            let sent = WrongSizeWrite { at, watched: &whole, is_text, value: &value, other: &data };
             let what =
                 format!("{} bytes for {} of {}", data.len(), value.len(), variable.name.text);
             sent.judge(probe, &what)?;
@@ -104,9 +103,9 @@ fn of_way(
     Ok(())
 }
 
-/// A value of another size, on its way.
+/// A write of another size to an address.
 struct WrongSizeWrite<'a> {
-    way: &'a WriteAddress,
+    at: &'a WriteAddress,
     watched: &'a ValueAddress,
     is_text: bool,
     value: &'a [u8],
@@ -118,20 +117,20 @@ impl WrongSizeWrite<'_> {
     /// has written what was sent, as far as that goes: of more bytes a variable cannot have it.
     /// How much a text holds is known from help pages only.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
-        let Self { way, watched, is_text, value, other } = *self;
-        let (bad, good) = (way.address.write(other), way.address.write(value));
+        let Self { at, watched, is_text, value, other } = *self;
+        let (bad, good) = (at.address.write(other), at.address.write(value));
         let (Ok(bad), Ok(good)) = (bad, good) else { return Ok(()) };
         if !is_sendable(&bad) || !is_sendable(&good) {
             return Ok(());
         }
-        let of_size: Rule = if is_text { online("VAR-25") } else { way.id.into() };
-        require_taken(probe, way.id, good)?;
+        let of_size: Rule = if is_text { online("VAR-25") } else { at.id.into() };
+        require_taken(probe, at.id, good)?;
         let before = probe.value_at(watched)?;
-        let is_taken = is_taken(probe, way.id, what, bad)?;
+        let is_taken = is_taken(probe, at.id, what, bad)?;
         let evidence = probe.evidence();
-        let (read, after) = (probe.value_at(&way.address)?, probe.value_at(watched)?);
+        let (read, after) = (probe.value_at(&at.address)?, probe.value_at(watched)?);
         probe.set_evidence(evidence);
-        let rule = if is_text { of_size } else { assumed(way.id) };
+        let rule = if is_text { of_size } else { assumed(at.id) };
         probe.check(rule, !is_taken, || format!("an error number for {what}"), "a success");
         if is_taken {
             let read = read.unwrap_or_default();
@@ -144,7 +143,7 @@ impl WrongSizeWrite<'_> {
             }
             let expected = || format!("the value of before {what}");
             let shown = || Hex(after.clone().unwrap_or_default());
-            probe.check(way.id, after == before, expected, shown);
+            probe.check(at.id, after == before, expected, shown);
         }
         probe.send(good).map(drop)
     }

@@ -43,7 +43,7 @@ pub(super) const CASES: &[Row] = &[
 const SOME: u32 = 8;
 
 /// The answer to a request, whose service has to give one.
-fn some<'a>(
+fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
     rule: &'static str,
     request: impl Into<Request<'a>>,
@@ -86,7 +86,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
         let mut all: Vec<Vec<u8>> = Vec::new();
         for index in 1..=count {
             let one = ReadDescriptors::new(list, index, 1)?;
-            let Some(one) = some(probe, RULE, one)? else { break };
+            let Some(one) = ask_for_data(probe, RULE, one)? else { break };
             let found = || format!("{} bytes at offset {index}", one.len());
             probe.check(RULE, one.len() == DESCRIPTOR_LEN, "84 bytes", found);
             let other = !all.contains(&one);
@@ -102,9 +102,9 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
         }
     }
     for channel in probe.channels()? {
-        some(probe, RULE, CountObjects::new(channel))?;
+        ask_for_data(probe, RULE, CountObjects::new(channel))?;
         for kind in DynamicKind::ALL {
-            let count = some(probe, RULE, CountDynamic::new(channel, kind))?;
+            let count = ask_for_data(probe, RULE, CountDynamic::new(channel, kind))?;
             let Some(count) = count else { continue };
             let found = || format!("{} bytes of a number", count.len());
             probe.check(RULE, DynamicCount::decode(&count).is_ok(), "4 bytes", found);
@@ -119,14 +119,14 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
-            let data = some(probe, RULE, CountVariables::new(channel, kind))?;
+            let data = ask_for_data(probe, RULE, CountVariables::new(channel, kind))?;
             let Some(data) = data else { continue };
             let count = VariableCount::decode(&data);
             let found = || format!("{} bytes for {name}", data.len());
             probe.check(RULE, count.is_ok(), "a number of 4 bytes", found);
             let mut all = Vec::new();
             for index in 0..count.map_or(0, |count| count.0.min(SOME)) {
-                let one = some(probe, RULE, DescribeByIndex::new(channel, index, kind))?;
+                let one = ask_for_data(probe, RULE, DescribeByIndex::new(channel, index, kind))?;
                 let Some(one) = one else { continue };
                 let other = !all.contains(&one);
                 let found = || format!("the same again at index {index} of {name}");

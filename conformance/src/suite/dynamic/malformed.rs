@@ -6,7 +6,7 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 
-use super::{each, first, names_of, refuses_still};
+use super::{each, first, names_of, rejects_steadily};
 use crate::judge::{Checks as _, Step, assumed};
 use crate::suite::kit::{Probe, RawCall};
 
@@ -19,16 +19,16 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let with = |data: &[u8]| -> Step<RawCall> {
                 Ok(RawCall::new(request)?.with(|call| call.data = data.to_vec()))
             };
-            refuses_still(probe, "DYN-5", "index 0", at, with(&[0; 4])?, request)?;
+            rejects_steadily(probe, "DYN-5", "index 0", at, with(&[0; 4])?, request)?;
             for data in [&[][..], &[1], &[1, 0], &[1, 0, 0, 0, 0]] {
                 let what = format!("an index of {} bytes", data.len());
-                refuses_still(probe, assumed(id), &what, at, with(data)?, request)?;
+                rejects_steadily(probe, assumed(id), &what, at, with(data)?, request)?;
             }
         }
         let request = Request::from(CountDynamic::new(channel, kind));
         let short = RawCall::new(request)?.with(|call| call.read_length = 3);
         let what = "a read length of 3 for a number";
-        refuses_still(probe, assumed("ADS-1"), what, at, short, request)?;
+        rejects_steadily(probe, assumed("ADS-1"), what, at, short, request)?;
         for (_, known) in names_of(probe, channel, kind, count)? {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
@@ -40,15 +40,15 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 let long = [known.as_bytes(), &rest, &[0]].concat();
                 let what = format!("a name of {} characters", long.len().saturating_sub(1));
                 let long = good.with(|call| call.data = long);
-                refuses_still(probe, "DYN-6", &what, at, long, request)?;
+                rejects_steadily(probe, "DYN-6", &what, at, long, request)?;
             }
             let longest = DYNAMIC_NAME_MAX.saturating_add(1);
             let behind = good.with(|call| call.data.resize(longest, b'x'));
             let what = "a request of 97 bytes, with something behind the name's end";
-            refuses_still(probe, assumed("DYN-6"), what, at, behind, request)?;
+            rejects_steadily(probe, assumed("DYN-6"), what, at, behind, request)?;
             let short = good.with(|call| call.read_length = call.read_length.saturating_sub(1));
             let what = "a read length of 7 for a value";
-            refuses_still(probe, assumed("DYN-3"), what, at, short, request)?;
+            rejects_steadily(probe, assumed("DYN-3"), what, at, short, request)?;
         }
         Ok(())
     })

@@ -110,7 +110,7 @@ fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Cnc
 }
 
 /// Sends what must be rejected, beside a request that differs by the fault only and is answered.
-fn refuses_still<'a>(
+fn rejects_steadily<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
     what: &str,

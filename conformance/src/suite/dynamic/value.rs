@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, TextRef};
 
-use super::{PARAMETERS_MAX, each, first, names_of, number, prefix, refuses_still};
+use super::{PARAMETERS_MAX, each, first, names_of, number, prefix, rejects_steadily};
 use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
 use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};
@@ -112,7 +112,7 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let what = format!("the name {unknown:?}");
-            refuses_still(probe, "DYN-3", &what, (channel, kind), bad, good.into())?;
+            rejects_steadily(probe, "DYN-3", &what, (channel, kind), bad, good.into())?;
         }
         Ok(())
     })
@@ -126,7 +126,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
             let what = format!("{known} among the {}", prefix(other));
             let bad = DynamicValueByName { kind: other, ..good };
             let rule = assumed("DYN-3");
-            refuses_still(probe, rule, &what, (channel, kind), bad, good.into())?;
+            rejects_steadily(probe, rule, &what, (channel, kind), bad, good.into())?;
         }
         Ok(())
     })

@@ -76,9 +76,11 @@ impl Addresses {
                 }
                 Ok(all)
             }
-            Holder::Channel(channel) => self.both(channel, &["COM-5", "ADR-3"], |by, instance| {
-                object(held, com(by, ComTable::Channel, instance), own)
-            }),
+            Holder::Channel(channel) => {
+                self.by_number_and_rank(channel, &["COM-5", "ADR-3"], |by, instance| {
+                    object(held, com(by, ComTable::Channel, instance), own)
+                })
+            }
             Holder::PlatformAxis(axis) => {
                 let of = |addressing| object(held, com(addressing, ComTable::Axis, axis), own);
                 Ok(vec![
@@ -97,12 +99,12 @@ impl Addresses {
                 };
                 let described = offsets.into_iter().flatten().find(described);
                 let offset = described.map_or_else(|| at(AxisStride::X10000, place), Ok)?;
-                self.both(channel, &["COM-5", "ADR-13"], |by, instance| {
+                self.by_number_and_rank(channel, &["COM-5", "ADR-13"], |by, instance| {
                     object(held, com(by, ComTable::Channel, instance), offset)
                 })
             }
             Holder::OfChannel { class, channel } => {
-                self.both(channel, &["ADR-5", "ADR-6"], |by, instance| {
+                self.by_number_and_rank(channel, &["ADR-5", "ADR-6"], |by, instance| {
                     element(held, (by, class, instance), own)
                 })
             }
@@ -113,22 +115,25 @@ impl Addresses {
                     Class::Hld => AxisStride::X1000,
                     _ => AxisStride::X10000,
                 };
-                let offset = first.map_or_else(|| at(stride, axis), |first| plus(first, held))?;
+                let offset =
+                    first.map_or_else(|| at(stride, axis), |first| offset_of(first, held))?;
                 let mut rules = rules(&["ADR-5", "ADR-13", "GEN-6"]);
                 rules.push(assumed("ADR-7"));
                 Ok(vec![(element(held, (Logical, class, 0), offset)?, rules)])
             }
             Holder::OfPlace { class: Class::Decoder, channel, place } => {
                 let offset = at(AxisStride::X10000, place)?;
-                self.both(channel, &["ADR-7", "ADR-13", "GEN-6"], |by, instance| {
+                self.by_number_and_rank(channel, &["ADR-7", "ADR-13", "GEN-6"], |by, instance| {
                     element(held, (by, Class::Decoder, instance), offset)
                 })
             }
             Holder::OfPlace { class, channel, place } => {
                 let first = self.first(class, channel, place);
-                let offset = first
-                    .map_or_else(|| at(AxisStride::X10000, place), |first| plus(first, held))?;
-                self.both(channel, &["ADR-5", "ADR-13", "GEN-6"], |by, instance| {
+                let offset = first.map_or_else(
+                    || at(AxisStride::X10000, place),
+                    |first| offset_of(first, held),
+                )?;
+                self.by_number_and_rank(channel, &["ADR-5", "ADR-13", "GEN-6"], |by, instance| {
                     element(held, (by, class, instance), offset)
                 })
             }
@@ -153,7 +158,7 @@ impl Addresses {
     }
 
     /// By the number of a channel and by its rank; nothing of one that is not claimed.
-    fn both(
+    fn by_number_and_rank(
         &self,
         channel: u8,
         logical: &[&'static str],
@@ -192,7 +197,7 @@ impl Addresses {
     }
 }
 
-fn plus(first: IndexOffset, held: &StoredContent) -> Step<IndexOffset> {
+fn offset_of(first: IndexOffset, held: &StoredContent) -> Step<IndexOffset> {
     Ok(IndexOffset::new(first.get().saturating_add(held.element)))
 }
 

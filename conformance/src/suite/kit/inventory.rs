@@ -203,7 +203,7 @@ impl Probe<'_> {
             return Ok(false);
         }
         let reported = self.count_elements(first)?.unwrap_or_default();
-        let reached = self.reach(first, reported.min(OBJECTS_MAX))?;
+        let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
         // One element fewer than the number has a name: the number counts element 0.
         let is_itself = reported > 0
             && reached.saturating_add(1) == reported
@@ -214,7 +214,7 @@ impl Probe<'_> {
     }
 
     /// The number of elements up to the last that has a name, of `count` that the target reports.
-    fn reach(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
+    fn last_named(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
         if self.is_named(first, count)? {
             return Ok(count);
         }

@@ -22,7 +22,7 @@ pub(crate) fn element_size(variable: &Description) -> Option<usize> {
 const ELEMENTS_MAX: usize = 64;
 
 /// Those, what an index of one byte cannot tell from them, and the last.
-fn tried(number: usize, count: usize) -> bool {
+fn is_tried(number: usize, count: usize) -> bool {
     number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn places_tried(
     let count = usize::try_from(element_count(dimensions)).unwrap_or(usize::MAX);
     // A value has 2048 elements at most.
     let all = places(dimensions).take(2048).enumerate();
-    all.filter(move |(number, _)| tried(*number, count))
+    all.filter(move |(number, _)| is_tried(*number, count))
 }
 
 /// Places in an array, in row-major order: the last index runs fastest.

@@ -46,7 +46,7 @@ pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{HELD_MAX, StreamWrite, send, send_until_taken};
 pub use target_state::TargetState;
-pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, another, is_sendable, same};
+pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};
 pub use undo::Changes;
 pub(crate) use writable::{
     WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,

@@ -26,7 +26,7 @@ pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
 
 /// The nearest other value: one bit of the first byte. A text gets another first character; one of
 /// a single byte has no room for that and its NUL.
-pub(crate) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
+pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
     }
@@ -132,7 +132,7 @@ impl Probe<'_> {
         if !address.write(&before).is_ok_and(|write| is_sendable(&write)) {
             return Ok(());
         }
-        let other = another(&before, write_check.is_text);
+        let other = changed_value(&before, write_check.is_text);
         // What it holds it takes first: nothing is changed by that.
         if !self.write_checked(write_check, address, &before)? {
             return Ok(());

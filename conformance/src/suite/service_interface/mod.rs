@@ -123,8 +123,8 @@ fn response(probe: &mut Probe<'_>) -> Step {
             ));
         }
         // The response is restored first: the state tells a program that it is there.
-        restoring(probe, (channel, ResponseState, &before.1), |probe| {
-            restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
+        with_restoring(probe, (channel, ResponseState, &before.1), |probe| {
+            with_restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
         })?;
         let after = (
             read_variable(probe, channel, Response)?,
@@ -137,7 +137,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Does what changes a variable, and restores what was there.
-fn restoring(
+fn with_restoring(
     probe: &mut Probe<'_>,
     (channel, variable, was): (Channel, ServiceVariable, &[u8]),
     change: impl FnOnce(&mut Probe<'_>) -> Step,
