@@ -66,7 +66,7 @@ pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "`BinRead` accepts what is rejected",
     "`BinRead` consumes what it rejects",
     "`decode_prefix` takes the bytes that follow a stream for a part of it",
-    "a stream that bytes follow has one byte less by `decode_prefix`",
+    "`decode_prefix` accepts what is rejected, but for its last byte",
     "`decode_prefix` rejects a stream if bytes follow it",
     "`BinRead` and `BinWrite` lose the last byte of a stream that bytes follow",
     "`BinRead` rejects a stream if bytes follow it",
@@ -148,9 +148,7 @@ fn bend(defect: Defect) -> Bend {
         bend.prefix = |bytes, prefix| prefix.map(|_| bytes.len());
     }
     if defect.is(19) {
-        bend.prefix = |bytes, prefix| {
-            prefix.map(|len| if len < bytes.len() { len.saturating_sub(1) } else { len })
-        };
+        bend.prefix = |bytes, prefix| prefix.or(Ok(bytes.len().saturating_sub(1)));
     }
     if defect.is(20) {
         bend.prefix = |bytes, prefix| match prefix {
