@@ -9,6 +9,8 @@ mod addresses;
 mod arbitrary;
 #[path = "../tests/binrw.rs"]
 mod binrw;
+#[path = "../tests/codes.rs"]
+mod codes;
 #[path = "../tests/containers.rs"]
 mod containers;
 #[path = "../tests/content.rs"]

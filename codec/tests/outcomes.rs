@@ -1,18 +1,18 @@
 //! The codec accepts, rejects and dispatches what version 0.1.0 did, with the same bytes and errors.
 //!
-//! `outcomes.tsv` has a row for each stream, for frames, calls and replies: a digest of the inputs and one
-//! of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before streams and
+//! `outcomes.tsv` has a row for each vector, sample of a call and index group: a digest of the inputs made of
+//! it and one of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before streams and
 //! functions were declared by macros) and with the sources of version 0.2.0. All rows were equal, without
 //! exception.
 //!
-//! The inputs are made of the vectors and of the samples of calls. If those change, compare with version
-//! 0.1.0 again: check out 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename
-//! `DispatchError` to `Refusal` and `subject().name()` to `stream()`, run the test there and here with
-//! `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
+//! A new vector or sample adds rows and changes none. Compare the new rows with version 0.1.0: check out
+//! 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename `DispatchError` to `Refusal`,
+//! the fields of its `Service` to `takes` and `asked`, and `subject().name()` to `stream()`, run the test
+//! there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
 
 mod common;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -20,8 +20,8 @@ use ads_cnc::ads::{AmsPort, FrameRef};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, DispatchError, Service};
 use ads_cnc::{Encode as _, Error};
-use ads_cnc_vectors::vectors;
-use common::{CALLS, Fault, Subject};
+use ads_cnc_vectors::{Vector, vectors};
+use common::{CALLS, CallSample, Fault, Subject};
 
 /// Mutations of each vector.
 const MUTATIONS: usize = 48;
@@ -39,6 +39,11 @@ impl Digest {
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(Self::PRIME);
         }
+    }
+
+    /// 32 bits, so that a row is short.
+    fn short(&self) -> u32 {
+        (self.0 ^ (self.0 >> 32)) as u32
     }
 }
 
@@ -62,9 +67,11 @@ impl Random {
     }
 }
 
+/// What was computed: by kind of input, and by the vector, sample or index group that the inputs are made of.
+type Rows = BTreeMap<(&'static str, String), Row>;
+
 /// A row of `outcomes.tsv`.
 struct Row {
-    name: &'static str,
     inputs: u32,
     given: Digest,
     accepted: u32,
@@ -72,13 +79,11 @@ struct Row {
 }
 
 impl Row {
-    fn new(name: &'static str) -> Self {
-        let (given, outcomes) = (Digest::EMPTY, Digest::EMPTY);
-        Self { name, inputs: 0, given, accepted: 0, outcomes }
-    }
+    const EMPTY: Self =
+        Self { inputs: 0, given: Digest::EMPTY, accepted: 0, outcomes: Digest::EMPTY };
 
     /// An input, and its outcome: the bytes encoded again, or the error.
-    fn add(&mut self, input: &[u8], outcome: Result<Vec<u8>, String>) {
+    fn add(&mut self, input: &[u8], outcome: Outcome) {
         self.inputs += 1;
         self.given.add(input);
         self.accepted += u32::from(outcome.is_ok());
@@ -89,10 +94,13 @@ impl Row {
     }
 
     fn text(&self) -> String {
-        let Self { name, inputs, given, accepted, outcomes } = self;
-        format!("{name}\t{inputs}\t{:016x}\t{accepted}\t{:016x}\n", given.0, outcomes.0)
+        let Self { inputs, given, accepted, outcomes } = self;
+        format!("{inputs} {:08x}\t{accepted} {:08x}", given.short(), outcomes.short())
     }
 }
+
+/// The bytes encoded again, or the error.
+type Outcome = Result<Vec<u8>, String>;
 
 fn shown(error: Error) -> String {
     let Fault { kind, field, offset, expected, found } = Fault::of(error);
@@ -143,35 +151,44 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-fn bytes_of(stream: &str) -> impl Iterator<Item = Vec<u8>> {
-    vectors().iter().filter(move |vector| vector.stream == stream).map(|vector| vector.bytes())
+fn vectors_of(stream: &str) -> impl Iterator<Item = &'static Vector> {
+    vectors().iter().filter(move |vector| vector.stream == stream)
 }
 
-/// All inputs of a stream, by each of its types: the owned type has the outcome of the view.
-fn stream_row(stream: Stream) -> Row {
-    let mut row = Row::new(stream.layout().name);
-    for input in bytes_of(stream.layout().name).flat_map(|bytes| inputs(&bytes)) {
-        let mut outcomes = Subject::of(stream).readings().map(|reading| {
-            let mut buf = vec![0; input.len() + 8];
-            let len = (reading.encode)(&input, &mut buf).map_err(shown)?;
-            buf.truncate(len);
-            Ok(buf)
-        });
-        let outcome = outcomes.next().expect("a view");
-        assert!(outcomes.all(|other| other == outcome), "{stream}: {input:x?}");
-        row.add(&input, outcome);
+/// The outcome of a stream by each of its types: the owned type has the outcome of the view.
+fn decoded(stream: Stream, input: &[u8]) -> Outcome {
+    let mut outcomes = Subject::of(stream).readings().map(|reading| {
+        let mut buf = vec![0; input.len() + 8];
+        let len = (reading.encode)(input, &mut buf).map_err(shown)?;
+        buf.truncate(len);
+        Ok(buf)
+    });
+    let outcome = outcomes.next().expect("a view");
+    assert!(outcomes.all(|other| other == outcome), "{stream}: {input:x?}");
+    outcome
+}
+
+fn streams(rows: &mut Rows) {
+    for stream in Stream::all() {
+        for vector in vectors_of(stream.layout().name) {
+            let row = rows.entry(("stream", vector.id.clone())).or_insert(Row::EMPTY);
+            for input in inputs(&vector.bytes()) {
+                row.add(&input, decoded(stream, &input));
+            }
+        }
     }
-    row
 }
 
 /// Frames are split off what was received.
-fn frame_row() -> Row {
-    let mut row = Row::new("ams-frame");
-    for input in bytes_of("ams-frame").flat_map(|bytes| inputs(&bytes)) {
-        let split = FrameRef::split(&input, 0x1000).map_err(shown);
-        row.add(&input, split.map(|frame| frame.map_or(vec![], |(_, len)| input[..len].to_vec())));
+fn frames(rows: &mut Rows) {
+    for vector in vectors_of("ams-frame") {
+        let row = rows.entry(("frame", vector.id.clone())).or_insert(Row::EMPTY);
+        for input in inputs(&vector.bytes()) {
+            let split = FrameRef::split(&input, 0x1000).map_err(shown);
+            let outcome = split.map(|frame| frame.map_or(vec![], |(_, len)| input[..len].to_vec()));
+            row.add(&input, outcome);
+        }
     }
-    row
 }
 
 /// All fields of a call.
@@ -185,7 +202,7 @@ fn call_bytes(call: &Call<'_>) -> Vec<u8> {
 }
 
 /// The function, and the call that its request encodes to again; or the error.
-fn dispatched(call: &Call<'_>) -> Result<Vec<u8>, String> {
+fn dispatched(call: &Call<'_>) -> Outcome {
     let request = call.dispatch().map_err(|error| match error {
         DispatchError::Port(port) => format!("Port {}", port.0),
         DispatchError::Group(group) => format!("Group {}", group.get()),
@@ -201,8 +218,7 @@ fn dispatched(call: &Call<'_>) -> Result<Vec<u8>, String> {
 
 /// Calls by their address: near every index group that a sample has, at each offset that a function may
 /// have and others.
-fn address_row() -> Row {
-    let mut row = Row::new("calls by address");
+fn addresses(rows: &mut Rows) {
     let groups: BTreeSet<u32> = CALLS
         .iter()
         .map(|sample| sample.call.index_group.get())
@@ -212,8 +228,9 @@ fn address_row() -> Row {
         [1, 2, 0xFFFF_u32].into_iter().flat_map(|axis| (0..9).map(move |at| axis << 16 | at));
     let offsets: Vec<u32> = (0..0x100).chain(of_axes).chain([0xFFFF, 1 << 31, u32::MAX]).collect();
     let data = [&b""[..], b"\x01\0\0\0", b"\x01\0\0\0\0\0\0\0", b"V.E\0", b"\x01\0\0\0V.E\0"];
-    let mut random = Random(0);
     for group in groups {
+        let row = rows.entry(("address", format!("{group:#08x}"))).or_insert(Row::EMPTY);
+        let mut random = Random(u64::from(group));
         for &offset in &offsets {
             for port in [AmsPort::SDA, AmsPort::COM, AmsPort(random.pick(&[550, 551, 554]))] {
                 for service in [Service::Read, Service::Write, Service::ReadWrite] {
@@ -231,70 +248,87 @@ fn address_row() -> Row {
             }
         }
     }
-    row
 }
 
 /// Each sample of a call with its data cut, extended and mutated.
-fn data_row() -> Row {
-    let mut row = Row::new("calls by data");
+fn data(rows: &mut Rows) {
     for sample in CALLS {
+        let row = rows.entry(("data", sample.slug.to_owned())).or_insert(Row::EMPTY);
         for data in inputs(sample.call.data) {
             let call = Call { data: &data, ..sample.call };
             row.add(&call_bytes(&call), dispatched(&call));
         }
     }
-    row
 }
 
-/// The reply to each sample of a call, made of the vectors of its stream.
-fn reply_row() -> Row {
-    let mut row = Row::new("replies");
-    for sample in CALLS {
+/// The reply to each sample of a call, made of the vectors of its stream. A vector has a row only if the
+/// request has another outcome than the stream: if the reply is longer than the request permits.
+fn replies(rows: &mut Rows) {
+    for CallSample { slug, call, .. } in CALLS {
         // A call that is rejected differs in the rows of calls.
-        let Ok(request) = sample.call.dispatch() else { continue };
-        let stream = request.function().spec().reply;
-        let replies = stream.into_iter().flat_map(|stream| bytes_of(stream.layout().name));
-        for input in replies.chain([vec![], vec![0]]) {
-            let reply = request
-                .decode_reply(&input)
-                .and_then(|reply| Ok(reply.encode(&mut vec![0; input.len()])?.to_vec()));
-            row.add(&[sample.slug.as_bytes(), &input].concat(), reply.map_err(shown));
+        let Ok(request) = call.dispatch() else { continue };
+        let reply = |input: &[u8]| {
+            let reply = request.decode_reply(input).map_err(shown)?;
+            Ok(reply.encode(&mut vec![0; input.len()]).map_err(shown)?.to_vec())
+        };
+        let row = rows.entry(("reply", (*slug).to_owned())).or_insert(Row::EMPTY);
+        for input in [&[][..], &[0]] {
+            row.add(input, reply(input));
+        }
+        let Some(stream) = request.function().spec().reply else { continue };
+        for vector in vectors_of(stream.layout().name) {
+            let (bytes, key) = (vector.bytes(), ("reply", format!("{slug}, {}", vector.id)));
+            let outcome = reply(&bytes);
+            if outcome != decoded(stream, &bytes) {
+                rows.entry(key).or_insert(Row::EMPTY).add(&bytes, outcome);
+            }
         }
     }
-    row
 }
 
-/// Says of a row that differs from the one kept whether the outcomes or already the inputs differ.
-fn difference(row: &str, kept: &str) -> Option<String> {
-    // Name, number of inputs and their digest.
-    let given = |row: &str| row.split('\t').take(3).collect::<Vec<_>>().join("\t");
-    let name = row.split('\t').next()?;
-    if kept.lines().any(|other| other == row) {
-        return None;
-    }
-    let are_the_same = kept.lines().any(|other| given(other) == given(row));
-    Some(format!("{name}: {}", if are_the_same { "outcomes of the same inputs" } else { "inputs" }))
+/// The rows by their first two columns, kind and name.
+fn parsed(table: &str) -> BTreeMap<(&str, &str), Vec<&str>> {
+    let rows = table.lines().skip(1).map(|line| line.split('\t').collect::<Vec<_>>());
+    rows.map(|row| ((row[0], row[1]), row[2..].to_vec())).collect()
+}
+
+/// The rows that differ, and how.
+fn differences(table: &str, kept: &str) -> Vec<String> {
+    let (rows, kept) = (parsed(table), parsed(kept));
+    let keys: BTreeSet<_> = rows.keys().chain(kept.keys()).collect();
+    let difference = |key| match (rows.get(key), kept.get(key)) {
+        (Some(row), Some(other)) if row == other => None,
+        (Some(row), Some(other)) if row[0] == other[0] => Some("other outcomes of the same inputs"),
+        (Some(_), Some(_)) => Some("other inputs"),
+        (Some(_), None) => Some("new"),
+        (None, _) => Some("no longer computed"),
+    };
+    let differences = keys.into_iter().filter_map(|key| Some((key, difference(key)?)));
+    differences.map(|((kind, name), how)| format!("{kind} {name}: {how}")).collect()
 }
 
 #[test]
 #[cfg_attr(miri, ignore = "too many inputs for an interpreter")]
 fn outcomes_are_those_of_0_1_0() {
-    let mut table = "name\tinputs\tdigest of inputs\taccepted\tdigest of outcomes\n".to_owned();
-    let others = [frame_row(), address_row(), data_row(), reply_row()];
-    for row in Stream::all().map(stream_row).chain(others) {
-        table += &row.text();
+    let mut rows = Rows::new();
+    for compute in [streams, frames, addresses, data, replies] {
+        compute(&mut rows);
+    }
+    let mut table = "kind\tname\tinputs, digest\taccepted, digest of outcomes\n".to_owned();
+    for ((kind, name), row) in &rows {
+        table += &format!("{kind}\t{name}\t{}\n", row.text());
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/outcomes.tsv");
     if std::env::var_os("ADS_CNC_WRITE_OUTCOMES").is_some() {
         std::fs::write(&path, &table).unwrap();
     }
     let kept = std::fs::read_to_string(path).unwrap();
-    let changed: Vec<_> = table.lines().filter_map(|row| difference(row, &kept)).collect();
     assert!(
-        table.lines().eq(kept.lines()),
-        "changed: {changed:#?}\n\
-         Outcomes of the same inputs are part of the interface: a change belongs in CHANGELOG.md. Of other \
-         inputs, compare the outcomes with those of version 0.1.0, as the head of this file says. \
-         ADS_CNC_WRITE_OUTCOMES=1 rewrites codec/tests/outcomes.tsv."
+        table == kept,
+        "changed: {:#?}\n\
+         Outcomes of the same inputs are part of the interface: a change belongs in CHANGELOG.md. Of new \
+         rows, compare the outcomes with those of version 0.1.0, as the head of this file says. \
+         ADS_CNC_WRITE_OUTCOMES=1 rewrites codec/tests/outcomes.tsv.",
+        differences(&table, &kept)
     );
 }

@@ -75,7 +75,7 @@ targets! {
     DYNAMIC_BYTES: "dynamic_bytes", |data, defect| bytes::check(bytes::DYNAMIC, data, defect),
         bytes::DEFECTS, "dynamic parameters: the same";
     STREAMING_BYTES: "streaming_bytes",
-        |data, defect| bytes::check(bytes::STREAMING, data, defect), bytes::DEFECTS,
+        |data, defect| bytes::check(bytes::STREAMING, data, defect), bytes::STREAMING_DEFECTS,
         "data streaming: the same";
     #[cfg(feature = "arbitrary")]
     ADS_VALUE: "ads_value", |data, defect| values::check(bytes::ADS, data, defect), values::DEFECTS,

@@ -16,9 +16,10 @@ pub(crate) struct Reading {
     pub(crate) encode: fn(&[u8], &mut [u8]) -> Result<usize, Error>,
 }
 
-/// Bytes through `BinRead` and `BinWrite`: what was written, and how many were read.
+/// Bytes through `BinRead` and `BinWrite`: what was written if the bytes were accepted, and the
+/// reader's position.
 #[cfg(all(feature = "binrw", feature = "std"))]
-pub(crate) type ReadAndWritten = fn(&[u8]) -> Option<(Vec<u8>, usize)>;
+pub(crate) type ReadAndWritten = (Option<Vec<u8>>, usize);
 
 /// A stream with its readings.
 pub(crate) struct Subject {
@@ -31,10 +32,9 @@ pub(crate) struct Subject {
     /// Decodes both and compares them.
     #[cfg(feature = "alloc")]
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
-    /// Reads the bytes by `BinRead`: the bytes that `BinWrite` writes of what was read, and how many
-    /// were read.
+    /// Reads the bytes by `BinRead` and writes what was read by `BinWrite`.
     #[cfg(all(feature = "binrw", feature = "std"))]
-    pub(crate) binrw: ReadAndWritten,
+    pub(crate) binrw: fn(&[u8]) -> ReadAndWritten,
     /// Decodes the bytes, owned, and encodes them into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
@@ -79,20 +79,18 @@ fn decoded_and_copied<T: Clone>(decoded: Result<T, Error>, call: &mut dyn FnMut(
 }
 
 #[cfg(all(feature = "binrw", feature = "std"))]
-fn read_and_written<T>(bytes: &[u8]) -> Option<(Vec<u8>, usize)>
+fn read_and_written<T>(bytes: &[u8]) -> ReadAndWritten
 where
     T: for<'a> binrw::BinRead<Args<'a> = ()> + binrw::meta::ReadEndian,
     T: for<'a> binrw::BinWrite<Args<'a> = ()> + binrw::meta::WriteEndian,
 {
     let mut reader = std::io::Cursor::new(bytes);
-    let value = T::read(&mut reader);
-    if value.is_err() {
-        assert_eq!(reader.position(), 0, "the reader is where it was");
-    }
-    let value = value.ok()?;
-    let mut writer = std::io::Cursor::new(Vec::new());
-    value.write(&mut writer).unwrap();
-    Some((writer.into_inner(), usize::try_from(reader.position()).unwrap()))
+    let written = T::read(&mut reader).ok().map(|value| {
+        let mut writer = std::io::Cursor::new(Vec::new());
+        value.write(&mut writer).unwrap();
+        writer.into_inner()
+    });
+    (written, usize::try_from(reader.position()).unwrap())
 }
 
 macro_rules! reading {

@@ -1,7 +1,7 @@
 //! Bytes → decode → encode: the same bytes.
 
 use ads_cnc::layout::Stream;
-use ads_cnc::{Error, ErrorKind};
+use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
 
 use crate::common::{self, Bend, Fault};
 use crate::{Defect, Outcome};
@@ -13,6 +13,7 @@ pub(crate) type Family = &'static [Stream];
 ///
 /// Borrowed reading, owned reading and the walk by the field table agree, errors included; what
 /// they accept encodes to the same bytes, as many as announced, and into no smaller buffer.
+/// `decode_prefix`, `BinRead` and `BinWrite` agree with them.
 pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&stream) = family.get(usize::from(pick)) else { return Outcome::unread() };
@@ -39,6 +40,12 @@ pub(crate) const DEFECTS: &[&str] = match VARIABLE_DEFECTS {
     [] => &[],
 };
 
+/// A program stream ends where its bytes end: no bytes follow it.
+pub(crate) const STREAMING_DEFECTS: &[&str] = match DEFECTS {
+    [of_all @ .., _, _, _, _, _] => of_all,
+    _ => &[],
+};
+
 /// Values are read by a type too.
 pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "the last byte loses its top bit when it is encoded",
@@ -52,6 +59,17 @@ pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "an error has found one more than there is if that is more than eight",
     "a vector has a byte too much if the last is 0",
     "a segment of more than four bytes is shown as one byte less",
+    "a stream that no byte follows has one byte less by `decode_prefix`",
+    "`decode_prefix` rejects an accepted stream of more than four bytes",
+    "`BinWrite` writes the last of more than four bytes wrong",
+    "`BinRead` rejects an accepted stream of more than four bytes",
+    "`BinRead` accepts what is rejected",
+    "`BinRead` consumes what it rejects",
+    "`decode_prefix` takes the bytes that follow a stream for a part of it",
+    "`decode_prefix` accepts what is rejected, but for its last byte",
+    "`decode_prefix` rejects a stream if bytes follow it",
+    "`BinRead` and `BinWrite` lose the last byte of a stream that bytes follow",
+    "`BinRead` rejects a stream if bytes follow it",
     "bytes of a value behind the sixteenth lose their top bit when they are written by a type",
 ];
 
@@ -116,9 +134,81 @@ fn bend(defect: Defect) -> Bend {
         bend.segment = |len| if len > 4 { len - 1 } else { len };
     }
     if defect.is(12) {
+        bend.prefix = |bytes, prefix| {
+            prefix.map(|len| if len == bytes.len() { len.saturating_sub(1) } else { len })
+        };
+    }
+    if defect.is(13) {
+        bend.prefix = |bytes, prefix| match prefix {
+            Ok(len) if len == bytes.len() && len > 4 => rejected(),
+            _ => prefix,
+        };
+    }
+    if defect.is(18) {
+        bend.prefix = |bytes, prefix| prefix.map(|_| bytes.len());
+    }
+    if defect.is(19) {
+        bend.prefix = |bytes, prefix| prefix.or(Ok(bytes.len().saturating_sub(1)));
+    }
+    if defect.is(20) {
+        bend.prefix = |bytes, prefix| match prefix {
+            Ok(len) if len < bytes.len() => rejected(),
+            _ => prefix,
+        };
+    }
+    #[cfg(feature = "binrw")]
+    bend_binrw(&mut bend, defect);
+    if defect.is(23) {
         bend.typed = |bytes| bytes.iter_mut().skip(16).for_each(|byte| *byte &= 0x7F);
     }
     bend
+}
+
+/// Any error.
+fn rejected() -> Result<usize, Error> {
+    NoData::decode(&[0]).map(|_| 0)
+}
+
+/// The defects of `BinRead` and `BinWrite`.
+#[cfg(feature = "binrw")]
+fn bend_binrw(bend: &mut Bend, defect: Defect) {
+    if defect.is(14) {
+        bend.binrw = |_, (mut written, read)| {
+            if let Some([_, _, _, _, .., last]) = written.as_deref_mut() {
+                *last ^= 1;
+            }
+            (written, read)
+        };
+    }
+    if defect.is(15) {
+        bend.binrw = |bytes, (written, read)| {
+            if read == bytes.len() && read > 4 { (None, 0) } else { (written, read) }
+        };
+    }
+    if defect.is(16) {
+        bend.binrw = |bytes, (written, read)| match written {
+            None => (Some(bytes.to_vec()), bytes.len()),
+            _ => (written, read),
+        };
+    }
+    if defect.is(17) {
+        bend.binrw = |bytes, (written, read)| {
+            let read = if written.is_none() { bytes.len() } else { read };
+            (written, read)
+        };
+    }
+    if defect.is(21) {
+        bend.binrw = |bytes, (mut written, read)| {
+            let follows = read < bytes.len();
+            let last = written.as_mut().filter(|_| follows).and_then(Vec::pop);
+            (written, read - usize::from(last.is_some()))
+        };
+    }
+    if defect.is(22) {
+        bend.binrw = |bytes, (written, read)| {
+            if read < bytes.len() { (None, 0) } else { (written, read) }
+        };
+    }
 }
 
 /// AMS/TCP and AMS headers, requests and replies.

@@ -1,0 +1,146 @@
+//! The numbers of codes, types, classes and attributes, as the manuals and the vendors' help pages print them.
+
+use ads_cnc::address::{Addressing, Attribute, Class, ClassGroup};
+use ads_cnc::ads::{AdsError, AdsState, Command, StateFlags};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::value::{DataType, Shape};
+use ads_cnc::{Synchronisation, U32List, Validity, VariableAccess, VariableType, WriteAccess};
+
+/// The names that the numbers up to 0xFFF have.
+macro_rules! names {
+    ($code:ident) => {
+        (0..0x1000).filter_map(|number| Some((number, $code(number).name()?))).collect::<Vec<_>>()
+    };
+}
+
+#[test]
+fn codes_of_variables_have_the_numbers_of_the_manual() {
+    let types = [
+        (1, "BOOLEAN"),
+        (2, "SGN08"),
+        (3, "UNS08"),
+        (4, "SGN16"),
+        (5, "UNS16"),
+        (6, "SGN32"),
+        (7, "UNS32"),
+        (8, "REAL64"),
+        (9, "STRING"),
+    ];
+    assert_eq!(names!(VariableType), types);
+    assert_eq!(names!(VariableAccess), [(1, "READ_ONLY"), (2, "READ_WRITE")]);
+    assert_eq!(names!(Synchronisation), [(1, "NO_SYNC"), (2, "SYNCHRONIZED")]);
+    assert_eq!(names!(Validity), [(1, "CHANNEL"), (2, "GLOBAL")]);
+    assert_eq!(names!(WriteAccess), [(0, "READ_ONLY"), (1, "WRITABLE")]);
+}
+
+#[test]
+fn codes_of_ads_have_the_numbers_of_the_help_pages() {
+    let commands = [
+        (1, "READ_DEVICE_INFO"),
+        (2, "READ"),
+        (3, "WRITE"),
+        (4, "READ_STATE"),
+        (5, "WRITE_CONTROL"),
+        (6, "ADD_NOTIFICATION"),
+        (7, "DELETE_NOTIFICATION"),
+        (8, "NOTIFICATION"),
+        (9, "READ_WRITE"),
+    ];
+    assert_eq!(names!(Command), commands);
+    assert_eq!(names!(StateFlags), [(4, "REQUEST"), (5, "RESPONSE")]);
+    assert_eq!(names!(AdsState), [(5, "RUN"), (6, "STOP"), (15, "CONFIG")]);
+    let errors = [
+        (0, "NO_ERROR"),
+        (6, "TARGET_PORT_NOT_FOUND"),
+        (7, "TARGET_MACHINE_NOT_FOUND"),
+        (0x701, "SERVICE_NOT_SUPPORTED"),
+        (0x702, "INVALID_GROUP"),
+        (0x703, "INVALID_OFFSET"),
+        (0x704, "INVALID_ACCESS"),
+        (0x705, "INVALID_SIZE"),
+        (0x706, "INVALID_DATA"),
+        (0x710, "SYMBOL_NOT_FOUND"),
+    ];
+    assert_eq!(names!(AdsError), errors);
+}
+
+/// Errors contain a type by its number: that of its code, or one after the codes if no variable has the type.
+#[test]
+fn types_have_their_sizes_and_their_numbers_in_errors() {
+    let types = DataType::ALL.map(|ty| {
+        let shape = Shape::new(ty, U32List::EMPTY, ty.size().unwrap_or(1)).unwrap();
+        let error = match ty {
+            DataType::Boolean => shape.encode(&1_u8, &mut []),
+            _ => shape.encode(&true, &mut []),
+        };
+        (ty.name(), error.unwrap_err().expected(), ty.size())
+    });
+    let expected = [
+        ("BOOLEAN", 1, Some(1)),
+        ("SGN08", 2, Some(1)),
+        ("UNS08", 3, Some(1)),
+        ("SGN16", 4, Some(2)),
+        ("UNS16", 5, Some(2)),
+        ("SGN32", 6, Some(4)),
+        ("UNS32", 7, Some(4)),
+        ("LINT", 10, Some(8)),
+        ("LWORD", 11, Some(8)),
+        ("REAL32", 12, Some(4)),
+        ("REAL64", 8, Some(8)),
+        ("STRING", 9, None),
+    ];
+    assert_eq!(types, expected);
+}
+
+#[test]
+fn classes_and_attributes_have_the_digits_of_the_manual() {
+    let group = |class, attribute| {
+        ClassGroup { addressing: Addressing::Logical, class, attribute, instance: 0 }.index_group()
+    };
+    let classes = Class::ALL.map(|class| (class.to_string(), group(class, Attribute::Content)));
+    let classes = classes.map(|(name, group)| (name, group.get() >> 12 & 0xF));
+    let expected = [
+        ("position controller", 0),
+        ("interpolator", 1),
+        ("decoder", 2),
+        ("HLD", 3),
+        ("path preparation", 4),
+        ("spindle", 5),
+    ];
+    assert_eq!(classes, expected.map(|(name, digit)| (name.to_owned(), digit)));
+
+    let digits = Attribute::ALL.map(|attribute| {
+        (attribute.to_string(), group(Class::Decoder, attribute).get() >> 8 & 0xF)
+    });
+    let expected = [
+        ("content", 3),
+        ("name", 4),
+        ("type", 5),
+        ("length", 6),
+        ("unit", 7),
+        ("write flag", 8),
+        ("object address", 9),
+    ];
+    assert_eq!(digits, expected.map(|(name, digit)| (name.to_owned(), digit)));
+}
+
+#[test]
+fn service_variables_have_the_types_of_the_manual() {
+    let variables = ServiceVariable::ALL.map(|variable| (variable.name(), variable.var_type()));
+    let expected = [
+        ("V.G.SERVICE.UUID", VariableType::STRING),
+        ("V.G.SERVICE.REQUEST", VariableType::STRING),
+        ("V.G.SERVICE.REQUEST_STATE", VariableType::UNS32),
+        ("V.G.SERVICE.RESPONSE_STATE", VariableType::UNS32),
+        ("V.G.SERVICE.RESPONSE", VariableType::STRING),
+    ];
+    assert_eq!(variables, expected);
+    let variants = [
+        ServiceVariable::Uuid,
+        ServiceVariable::Request,
+        ServiceVariable::RequestState,
+        ServiceVariable::ResponseState,
+        ServiceVariable::Response,
+    ];
+    assert_eq!(ServiceVariable::ALL, variants);
+}
