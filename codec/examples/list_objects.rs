@@ -45,7 +45,7 @@ fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     if count.0 == 0 {
         return Ok(());
     }
-    for object in cnc.call(&ReadDescriptors::new(list, 1, count.0)?, &mut reply)?.iter() {
+    for object in cnc.call(&ReadDescriptors::new(list, 1, count.0)?, &mut reply)? {
         let size = object.size();
         let (group, offset) = (object.index_group(), object.index_offset());
         row::<&dyn Display>([&group, &offset, &object.name(), &object.type_name(), &size, &""]);
@@ -57,12 +57,12 @@ fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
 fn elements(cnc: &Cnc, first: ElementAddress) -> Result<()> {
     let mut reply = Vec::new();
     let count = cnc.call(&CountElements::new(first)?, &mut reply)?.0;
-    for place in 1..=count {
-        let element = first.nth(place)?;
+    for index in 1..=count {
+        let element = first.nth(index)?;
         let (mut name, mut of_type, mut unit) = (Vec::new(), Vec::new(), Vec::new());
-        let name = cnc.call(&ReadElementName::new(element), &mut name)?.text.text();
-        let of_type = cnc.call(&ReadElementType::new(element), &mut of_type)?.text.text();
-        let unit = cnc.call(&ReadElementUnit::new(element), &mut unit)?.text.text();
+        let name = cnc.call(&ReadElementName::new(element), &mut name)?.text;
+        let of_type = cnc.call(&ReadElementType::new(element), &mut of_type)?.text;
+        let unit = cnc.call(&ReadElementUnit::new(element), &mut unit)?.text;
         let size = cnc.call(&ReadElementLength::new(element), &mut reply)?.get();
         let group = element.group(Attribute::Content);
         row::<&dyn Display>([&group, &element.index_offset(), &name, &of_type, &size, &unit]);

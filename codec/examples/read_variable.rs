@@ -24,17 +24,18 @@ fn main() -> Result<()> {
 
     let mut reply = Vec::new();
     let value = cnc.call(&ReadByName::new(channel, &name)?, &mut reply)?;
-    println!("{name}: {:?} {:?}", shape.data_type(), shape.dimensions());
-    for element in shape.elements(value.bytes)?.iter() {
-        println!("  {element:?}");
+    let dimensions: String = shape.dimensions().iter().map(|size| format!("[{size}]")).collect();
+    println!("{name}: {}{dimensions}", shape.data_type());
+    for element in shape.elements(value.bytes)? {
+        println!("  {element}");
     }
     Ok(())
 }
 
-/// Asks by name where the CNC is recent enough, and looks through the kind where it is not.
+/// Requests the description by name; an older CNC has no such function, so all of the kind are compared.
 fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
-    let (name, mut reply) = (path.text().to_string(), Vec::new());
-    if let Ok(found) = cnc.call(&DescribeByName::new(channel, &name)?, &mut reply) {
+    let mut reply = Vec::new();
+    if let Ok(found) = cnc.call(&DescribeByName::new(channel, path)?, &mut reply) {
         return Ok(found.to_owned());
     }
     let kind = path.kind();
@@ -45,5 +46,5 @@ fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<Descr
             return Ok(found.without_name().to_owned());
         }
     }
-    Err(format!("there is no {name}").into())
+    Err(format!("no such variable: {path}").into())
 }
