@@ -18,7 +18,7 @@ use super::name::{NameArgs, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, simulator_gate};
 use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
-use crate::objects::{Access, Object, ValueAddress};
+use crate::objects::{Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, Trouble};
 use crate::values::{Type, parse, plain};
 
@@ -179,7 +179,7 @@ fn check(object: &Object) -> Result<(), Trouble> {
         return Err(Trouble::Unable(why));
     }
     match object.access {
-        Access::Read => Err(Trouble::Unable(format!(
+        ReportedAccess::Read => Err(Trouble::Unable(format!(
             "{name} is read only, as the CNC says; nothing was written"
         ))),
         _ => Ok(()),

@@ -7,7 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
 
 use super::Lookup;
-use crate::objects::{Access, List, Object, ValueAddress};
+use crate::objects::{List, Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, Trouble};
 use crate::values::Type;
 
@@ -62,7 +62,7 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
                 name: text,
                 ty: hint(ty),
                 unit: None,
-                access: Access::Unknown,
+                access: ReportedAccess::Unknown,
                 handle: None,
             })
         }
@@ -103,7 +103,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
 /// What a description tells.
 struct DescribedVariable {
     ty: Type,
-    access: Access,
+    access: ReportedAccess,
     handle: Option<Handle>,
 }
 
@@ -117,7 +117,7 @@ fn described(
     match session.call(&describe) {
         Ok(variable) => Ok(Some(DescribedVariable {
             ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
-            access: Access::of_variable(variable.access),
+            access: ReportedAccess::of_variable(variable.access),
             // One that is by name only has none.
             handle: Some(variable.handle).filter(|handle| handle.0 != 0),
         })),
@@ -149,7 +149,7 @@ fn listed(
             Ok(variable) if is_it(&variable, wanted.text(), of_axis) => {
                 return Ok(Some(DescribedVariable {
                     ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
-                    access: Access::of_variable(variable.access),
+                    access: ReportedAccess::of_variable(variable.access),
                     // The handle is that of another place.
                     handle: Some(variable.handle).filter(|_| !of_axis),
                 }));

@@ -38,7 +38,7 @@ mod value_address;
 mod walk;
 
 pub use list::List;
-pub use object::{Access, Object};
+pub use object::{Object, ReportedAccess};
 pub use pattern::Pattern;
 pub use report::{ObjectReport, ObjectsReport};
 pub use table::{Column, columns, csv, table};

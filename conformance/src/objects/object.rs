@@ -20,7 +20,7 @@ pub struct Object {
     pub ty: Type,
     /// Its unit, if it has one.
     pub unit: Option<CncString>,
-    pub access: Access,
+    pub access: ReportedAccess,
     /// Its handle, if it is a variable.
     pub handle: Option<Handle>,
 }
@@ -35,7 +35,7 @@ impl Object {
             address: ValueAddress::Object { group, offset, size: descriptor.size() },
             ty: Type::of_content(descriptor.type_name(), descriptor.size()),
             unit: None,
-            access: Access::of_flag(descriptor.write_access().is_writable()),
+            access: ReportedAccess::of_flag(descriptor.write_access().is_writable()),
             handle: None,
         }
     }
@@ -50,7 +50,7 @@ impl Object {
             name,
             ty: Type::of_variable(var_type, dimensions.as_slice().into(), size),
             unit: None,
-            access: Access::of_variable(access),
+            access: ReportedAccess::of_variable(access),
             handle: Some(handle),
         }
     }
@@ -64,7 +64,11 @@ impl Object {
             name,
             ty: Type::known(DataType::Real64, Vec::new()),
             unit: None,
-            access: if kind == DynamicKind::P { Access::Read } else { Access::Unknown },
+            access: if kind == DynamicKind::P {
+                ReportedAccess::Read
+            } else {
+                ReportedAccess::Unknown
+            },
             handle: None,
         }
     }
@@ -76,7 +80,7 @@ impl Object {
 
     /// Whether the CNC says that it may be written.
     pub fn is_writable(&self) -> bool {
-        self.access == Access::ReadWrite
+        self.access == ReportedAccess::ReadWrite
     }
 
     pub(crate) fn is_text(&self) -> bool {
@@ -114,7 +118,7 @@ impl Object {
 
 /// Whether something may be written, as the CNC says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
+pub enum ReportedAccess {
     /// It may be read.
     Read,
     /// It may be read and written.
@@ -125,7 +129,7 @@ pub enum Access {
     Unknown,
 }
 
-impl Access {
+impl ReportedAccess {
     /// As a flag has it.
     pub const fn of_flag(writable: bool) -> Self {
         if writable { Self::ReadWrite } else { Self::Read }
@@ -141,7 +145,7 @@ impl Access {
     }
 }
 
-impl fmt::Display for Access {
+impl fmt::Display for ReportedAccess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Read => f.write_str("R"),

@@ -9,14 +9,14 @@ use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, RawCall};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::exchange::Exchange;
 use crate::judge::{Checks as _, Needs, OrStop as _, Record, Step, Stop, assumed, online};
 use crate::objects::KINDS;
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("adr-com-object-access", &["ADR-1", "ADR-3", "ADR-4", "GEN-4"], Needs::Queries, com_object_access,
         "Each channel's object list is at 0x130100 + channel, on the port of COM"),
     case("adr-decoder-group", &["ADR-1", "ADR-5", "GEN-4", "GEN-6"], Needs::Queries, decoder_group,
@@ -34,7 +34,7 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 #[rustfmt::skip]
-pub(super) const FRAME_CASES: &[Row] = &[
+pub(super) const FRAME_CASES: &[CaseRow] = &[
     case("ads-every-frame", &["ADS-1", "ADS-2", "ADS-3", "ADS-4", "ADS-5"], Needs::Frames, every_frame,
         "Every frame of this run has the header and the length its request asks for"),
     case("ads-every-refusal", &["ADS-6", "ADS-7"], Needs::Frames, every_refusal,

@@ -4,11 +4,11 @@ use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
 
 use super::kit::{Probe, brackets, each_array, each_variable, element_name};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, assumed};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("val-array-has-elements", &["VAR-4", "VAR-7"], Needs::Queries, array_has_elements,
         "An array has the elements that its dimensions say, up to the last of each"),
     case("val-index-out-of-bounds", &["VAR-11", "VAR-20"], Needs::Queries, index_out_of_bounds,

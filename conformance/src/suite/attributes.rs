@@ -7,11 +7,11 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("adr-attributes", &["ADR-6"], Needs::Queries, attributes,
         "Type and length of an element are what their groups say"),
     case("adr-attributes-by-index", &["ADR-1", "ADR-12"], Needs::Queries, by_index,

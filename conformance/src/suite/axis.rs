@@ -13,11 +13,11 @@ use super::kit::{
     AxisHandle, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names, axis_variables,
     name_of,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("axis-handles", &["VAR-10", "VAR-26", "ADR-7", "GEN-6"], Needs::Queries, handles,
         "On the axis interface a name has the handle that its place is described with"),
     case("axis-values", &["VAR-10", "VAR-26"], Needs::Queries, values,

@@ -4,12 +4,12 @@ use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class};
 use ads_cnc::operation::{AxisHandleByName, ReadElement, Request};
 
 use super::kit::{OF_PLACES, Probe};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("axis-exchange", &["ADR-13", "SDA-13", "VAR-10"], Needs::Simulator, exchange,
         "An axis takes its values along to another place; the platform's place stays"),
 ];

@@ -13,11 +13,11 @@ use super::kit::{
     AxisHandle, Compared, Probe, RawCall, answering_places, axis_names, axis_variables, compare,
     name_of,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("axis-places", &["VAR-10", "VAR-26", "GEN-6"], Needs::Queries, places,
         "Every axis with variables is at a place, counted from 1, and at no other"),
     case("axis-place-too-far", &["VAR-26"], Needs::Malformed, too_far,

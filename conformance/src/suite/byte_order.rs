@@ -7,11 +7,11 @@ use ads_cnc::operation::{DynamicValueByIndex, DynamicValueByName, HandleByName, 
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Counted, Probe, is_permuted, name_of};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, Step};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("gen-number-order", &["GEN-1"], Needs::Queries, number_order,
         "Counts and handles come with their lowest byte first"),
     case("gen-field-order", &["GEN-1"], Needs::Queries, field_order,

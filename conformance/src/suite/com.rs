@@ -7,11 +7,11 @@ use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks, IfThere as _, Needs, Step, assumed, online};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("com-count", &["COM-1", "COM-2"], Needs::Queries, count,
         "Offset 0 gives the number of objects, and the last of them is there"),
     case("com-descriptors", &["COM-2", "COM-5", "GEN-5"], Needs::Queries, descriptors,

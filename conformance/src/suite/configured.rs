@@ -8,12 +8,12 @@ use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, VARIABLES_MAX};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 use crate::simulator::Configured;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("var-as-configured",
         &["VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-14", "VAR-15", "VAR-16"],
         Needs::Simulator, as_configured,

@@ -8,12 +8,12 @@ use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
 use crate::objects::Object;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("com-content", &["COM-2", "COM-5", "GEN-5"], Needs::Queries, content,
         "Every object is read where its descriptor says, in the size it says"),
     case("com-content-by-index", &["ADR-1", "ADR-12"], Needs::Queries, content_by_index,

@@ -8,13 +8,13 @@ use ads_cnc::{
 };
 
 use super::kit::{Probe, VARIABLES_MAX, name_of};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("var-extended-descriptions", &["VAR-15", "VAR-16"], Needs::Queries, extended,
         "Every V.E has an extended description; V.G and V.A are answered by nothing"),
     case("var-extended-beyond-last", &["VAR-3"], Needs::Queries, extended_beyond,

@@ -4,14 +4,14 @@ use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
 use super::kit::Probe;
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::client::{Inquired, Inquiry, InquiryReply};
 use crate::judge::{Checks as _, Evidence, Needs, Step};
 use crate::simulator;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("ads-device-info", &["ADS-8"], Needs::Queries, device_info,
         "Each task says the name and version of its device"),
     case("ads-device-state", &["ADS-9"], Needs::Queries, device_state,

@@ -13,12 +13,12 @@ use ads_cnc::{Decode, ErrorKind};
 use super::kit::{
     Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, type_and_length,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, assumed};
 use crate::objects::decode_element_count;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("sda-elements", &["SDA-4", "ADR-6"], Needs::Queries, elements,
         "The first element says how many follow, and whose they are; then the list ends"),
     case("sda-first-element", &["SDA-4", "SDA-8"], Needs::Queries, first_element,

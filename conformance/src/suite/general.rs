@@ -12,11 +12,11 @@ use ads_cnc::{CncString, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed, online};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("gen-ports-answer", &["GEN-4"], Needs::Queries, ports_answer,
         "At each port that is claimed a task is"),
     case("gen-tasks-apart", &["GEN-4"], Needs::Malformed, tasks_apart,

@@ -8,11 +8,11 @@ use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, Variable
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, Steady, name_of};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     // The first that asks for values: no handle has been asked for by name before.
     case("var-described-handle", &["VAR-4", "VAR-9", "VAR-10"], Needs::Queries, described,
         "A description has the name and the handle that the variable is read by"),

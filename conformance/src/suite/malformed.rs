@@ -12,11 +12,11 @@ use ads_cnc::operation::{
 use ads_cnc::{Kind, TextRef, U32List};
 
 use super::kit::{Probe, RawCall};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Needs, OrStop as _, Rule, Step, assumed};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("bad-kind", &["VAR-1"], Needs::Malformed, bad_kind,
         "A kind with a final dot, without NUL, unknown or too long is answered by an error"),
     case("bad-index-kind", &["VAR-3"], Needs::Malformed, bad_index_kind,

@@ -55,7 +55,7 @@ use crate::judge::{Body, Case, CaseSubject, Needs, Step, codec_cases, in_catalog
 type Try = fn(&mut Probe<'_>) -> Step;
 
 /// A case that a function tries.
-struct Row {
+struct CaseRow {
     id: &'static str,
     clauses: &'static [&'static str],
     needs: Needs,
@@ -70,12 +70,12 @@ const fn case(
     needs: Needs,
     run: Try,
     title: &'static str,
-) -> Row {
-    Row { id, clauses: in_catalogue(clauses), needs, run, title }
+) -> CaseRow {
+    CaseRow { id, clauses: in_catalogue(clauses), needs, run, title }
 }
 
 /// The cases that a function tries.
-const TABLES: &[&[Row]] = &[
+const TABLES: &[&[CaseRow]] = &[
     address::CASES,
     ads_services::CASES,
     attributes::CASES,
@@ -117,7 +117,7 @@ const TABLES: &[&[Row]] = &[
     address::FRAME_CASES,
 ];
 
-fn rows() -> impl Iterator<Item = &'static Row> {
+fn rows() -> impl Iterator<Item = &'static CaseRow> {
     TABLES.iter().copied().flatten()
 }
 

@@ -4,12 +4,12 @@ use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
 use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 use crate::values::until_nul;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("var-names-are-paths", &["VAR-20"], Needs::Queries, paths,
         "Each name is one of structures, indices and the variable in them"),
     case("var-by-name-only", &["VAR-18"], Needs::Queries, by_name_only,

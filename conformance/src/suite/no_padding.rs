@@ -4,11 +4,11 @@ use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
 use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("gen-packed", &["GEN-2"], Needs::Queries, packed,
         "In descriptors and descriptions nothing stands between the fields"),
 ];

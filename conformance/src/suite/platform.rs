@@ -11,12 +11,12 @@ use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 use super::kit::{
     OBJECTS_MAX, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, applicable, assumed};
 use crate::objects::{List, Object};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("com-platform-objects", &["COM-1", "COM-4", "ADR-3"], Needs::Queries, platform_objects,
         "The platform's objects are in its own list and in that of the first channel"),
     case("com-platform-content", &["COM-4", "ADR-3"], Needs::Queries, platform_content,

@@ -2,14 +2,14 @@
 //! content another value, so that none passes for another.
 
 use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, Stop};
 use crate::objects::{List, Object, ValueAddress};
 use crate::simulator::{Holder, StoredContent};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("held-is-read",
         &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-4", "COM-5",
             "GEN-1", "GEN-6"],

@@ -4,12 +4,12 @@ use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, same};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("gen-characters-written", &["GEN-3"], Needs::Writes, written,
         "Every character of CP1252 that is written to a text is read again"),
 ];

@@ -9,13 +9,13 @@ use super::kit::{
     Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_count,
     element_name, name_of, order, part, places_tried, same,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::explain::{ValueFormat, type_by_name};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("val-whole-by-handle", &["VAR-8", "VAR-11", "VAR-14"], Needs::Queries, whole_by_handle,
         "Without an index, a handle gives the whole variable, in its described size"),
     case("val-whole-by-name", &["VAR-9", "VAR-14", "GEN-2"], Needs::Queries, whole_by_name,

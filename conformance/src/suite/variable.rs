@@ -13,12 +13,12 @@ use ads_cnc::{
 };
 
 use super::kit::{Probe, VARIABLES_MAX, name_of};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, assumed};
 use crate::objects::KINDS;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("var-count", &["VAR-1", "VAR-2"], Needs::Queries, count,
         "Each kind has a number, and no kind at all asks for their sum"),
     case("var-descriptions",

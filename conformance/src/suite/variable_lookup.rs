@@ -9,11 +9,11 @@ use ads_cnc::{CncStr, CncString, Description, TextRef};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, name_of};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("var-unknown-name", &["ADS-4", "VAR-9", "VAR-10"], Needs::Queries, unknown_name,
         "A name nobody has is answered by an error"),
     case("var-similar-name", &["VAR-9", "VAR-20"], Needs::Queries, similar_name,

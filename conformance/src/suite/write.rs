@@ -8,12 +8,12 @@ use super::kit::{
     NOTHING_WRITABLE, Probe, WriteCheck, axis_address, dynamic_among_variables, each_of_access,
     handle_of, same, write_check,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-by-handle", &["VAR-6", "VAR-10", "VAR-12", "VAR-17"], Needs::Writes, by_handle,
         "What is written by a handle is read back, and the old value after it"),
     case("write-by-name", &["VAR-6", "VAR-13", "VAR-14", "VAR-17"], Needs::Writes, by_name,

@@ -8,12 +8,12 @@ use super::kit::{
     NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, changed_value, is_sendable,
     writable_numbers,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable};
 use crate::objects::{List, ValueAddress};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-after-refusal", &["ADS-2", "ADS-4", "VAR-12", "VAR-13"],
         Needs::MalformedWrites, after_refusal,
         "Behind a write that was refused the next one is done, and its result is its own"),

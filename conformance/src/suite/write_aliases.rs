@@ -5,12 +5,12 @@ use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-objects-by-index", &["ADR-12"], Needs::Writes, objects_by_index,
         "What an object takes by its channel's number it takes by its rank, and has it then"),
     case("write-platform-axes-of-hld", &["SDA-13"], Needs::Writes, axes_of_hld,

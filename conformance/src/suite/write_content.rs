@@ -7,12 +7,12 @@ use ads_cnc_vectors::Hex;
 use super::kit::{
     NOTHING_WRITABLE, Probe, RawCall, WritableElement, WriteCheck, elements_with_flag,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, applicable, assumed};
 use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-objects", &["COM-2", "COM-5"], Needs::Writes, objects,
         "What is written to an object with write access is read back"),
     case("write-read-only-objects", &["COM-2"], Needs::Writes, read_only_objects,

@@ -5,12 +5,12 @@ use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, each_of_access, handle_of, same, write_check};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-elements-by-handle", &["VAR-12"], Needs::Writes, by_handle,
         "An index writes the element of that place, and no other"),
     case("write-elements-by-name", &["VAR-13", "VAR-20"], Needs::Writes, by_name,

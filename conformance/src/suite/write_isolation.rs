@@ -6,12 +6,12 @@ use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, axis_address, element_count, is_of_service, write_value};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-nothing-else-by-name", &["VAR-13"], Needs::MalformedWrites, by_name,
         "A write by name changes what it names, and nothing else in any channel"),
     case("write-nothing-else-by-handle", &["VAR-12"], Needs::MalformedWrites, by_handle,

@@ -9,12 +9,12 @@ use super::kit::{
     Probe, RawCall, WritableNumber, WriteCheck, changed_value, each_of_access, handle_of,
     is_sendable, require_taken, writable_numbers, write_check,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-read-only", &["VAR-6"], Needs::Writes, read_only,
         "A variable that is READ_ONLY takes no value"),
     case("write-read-only-changed", &["VAR-6"], Needs::MalformedWrites, read_only_changed,

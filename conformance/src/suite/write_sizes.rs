@@ -8,12 +8,12 @@ use super::kit::{
     Probe, axis_address, changed_value, each_of_access, is_of_service, is_sendable, is_taken,
     require_taken,
 };
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed, online};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-wrong-size", &["VAR-12", "VAR-13", "VAR-25", "VAR-26"], Needs::MalformedWrites, wrong_size,
         "A value of another size than the variable's is answered by an error, or is there as it was sent"),
 ];

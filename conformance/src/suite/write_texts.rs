@@ -4,13 +4,13 @@ use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, each_of_access, write_value};
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, online};
 use crate::objects::ValueAddress;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("write-texts", &["VAR-12", "VAR-13", "VAR-25"], Needs::Writes, texts,
         "A text as long as is described is read as written, and a shorter one behind it too"),
 ];

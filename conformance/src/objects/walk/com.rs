@@ -10,7 +10,7 @@ use super::super::List;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
 use crate::session::Trouble;
 
-type Addresses = BTreeSet<(IndexGroup, IndexOffset)>;
+type AddressSet = BTreeSet<(IndexGroup, IndexOffset)>;
 
 impl Walk<'_> {
     pub(super) fn com(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
@@ -35,14 +35,14 @@ impl Walk<'_> {
     fn list(
         &mut self,
         objects: ObjectList,
-        known: &Addresses,
-    ) -> Result<Option<Addresses>, Trouble> {
+        known: &AddressSet,
+    ) -> Result<Option<AddressSet>, Trouble> {
         let Some(count) = self.count_objects(objects)? else { return Ok(None) };
         let list = List::from(objects);
         let is_selected = self.enter(list);
         // That of the platform is asked for what it shares with the first channel's, too.
         if !is_selected && list != List::Platform {
-            return Ok(Some(Addresses::new()));
+            return Ok(Some(AddressSet::new()));
         }
         let all = self.objects_of(objects, count.min(OBJECTS_MAX), RANGE)?;
         if u32::try_from(all.len()) != Ok(count) {

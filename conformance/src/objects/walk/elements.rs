@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag, ObjectAddress};
 
-use super::super::{Access, List, Object, ValueAddress};
+use super::super::{List, Object, ReportedAccess, ValueAddress};
 use super::{CLASSES, Walk, Walker as _};
 use crate::session::Trouble;
 use crate::values::Type;
@@ -25,7 +25,7 @@ pub(super) struct Attributes {
     name: CncString,
     ty: Type,
     unit: Option<CncString>,
-    access: Access,
+    access: ReportedAccess,
 }
 
 impl Walk<'_> {
@@ -161,7 +161,8 @@ impl Walk<'_> {
         let unit: Option<ElementText> = self.decoded(ReadElementUnit::new(element))?;
         let unit = unit.map(|unit| unit.text.text);
         let flag: Option<ElementWriteFlag> = self.decoded(ReadElementWriteFlag::new(element))?;
-        let access = flag.map_or(Access::Unknown, |flag| Access::of_flag(flag.is_writable()));
+        let access = flag
+            .map_or(ReportedAccess::Unknown, |flag| ReportedAccess::of_flag(flag.is_writable()));
         Ok(Attributes { name, ty, unit, access })
     }
 }

@@ -14,14 +14,14 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 use crate::objects::decode_element_count;
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, Steady, compare, name_of};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("ads-read-addresses", &["ADS-1"], Needs::Queries, read_addresses,
         "A Read answers for its own group and offset, with so many bytes as it asks for"),
     case("ads-read-write-addresses", &["ADS-3"], Needs::Queries, read_write_addresses,

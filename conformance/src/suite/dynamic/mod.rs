@@ -11,12 +11,12 @@ use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, Request};
 use ads_cnc::{CncString, Decode as _};
 
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("dyn-count", &["DYN-1", "SDA-12"], Needs::Queries, list::count,
         "Each kind has a number, where the decoder's elements have none"),
     case("dyn-names", &["DYN-1", "DYN-2", "DYN-5", "DYN-6", "SDA-12"], Needs::Queries, list::names,

@@ -5,11 +5,11 @@ mod empty_places;
 mod platform;
 mod range;
 
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::Needs;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("sda-object-address", &["SDA-1", "ADR-2", "ADR-5", "ADR-7", "GEN-6"],
         Needs::Queries, address::object_address,
         "The address of an instance is in its class's group, and no other's"),

@@ -14,11 +14,11 @@ use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, Rule, Step, Stop, assumed};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Probe, WriteCheck, service_channels, with_reply};
-use crate::suite::{Row, case};
+use crate::suite::{CaseRow, case};
 use crate::values::until_nul;
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("service-variables", &["SVC-1", "SVC-11"], Needs::Queries, variables,
         "A channel with the interface has its five variables, and in them what they hold"),
     case("service-response", &["SVC-1", "SVC-3", "SVC-4"], Needs::Writes, response,

@@ -12,13 +12,13 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
-use super::{Row, case};
+use super::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
 #[rustfmt::skip]
-pub(super) const CASES: &[Row] = &[
+pub(super) const CASES: &[CaseRow] = &[
     case("stream-object", &["STM-1"], Needs::Queries, object,
         "The object of the stream is listed by its name and at its address, and takes writes"),
     case("stream-whole-lines", &["STM-1", "STM-4", "STM-7"], Needs::Writes, whole_lines,
