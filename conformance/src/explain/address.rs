@@ -10,7 +10,6 @@ use ads_cnc::operation::{
     DispatchError, Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service, Task,
 };
 
-use super::codes;
 use super::model::{ExplainedAddress, ExplainedStream, FunctionReport, ServiceAddress};
 use super::part;
 use crate::edition::Feature;
@@ -156,7 +155,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     FunctionReport {
         name: spec.name,
         service: spec.service.to_string(),
-        task: codes::task(spec.task).to_owned(),
+        task: spec.task.to_string(),
         port: spec.task.port().0,
         effect: effect.to_owned(),
         clause: spec.clause,
@@ -170,7 +169,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
 fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
     let spec = function.spec();
     if place.port.is_some_and(|port| port != spec.task.port()) {
-        let (task, port) = (codes::task(spec.task), spec.task.port());
+        let (task, port) = (spec.task, spec.task.port());
         notes.push(format!("documented for {task}, port {port} (ADR-10)"));
     }
     match function {
@@ -319,7 +318,7 @@ fn describe_com(com: ComGroup) -> String {
 }
 
 fn describe_class(group: ClassGroup) -> String {
-    let class = codes::class_name(group.class);
+    let class = group.class;
     let attribute = match group.attribute {
         Attribute::Content => "content",
         Attribute::Name => "name",

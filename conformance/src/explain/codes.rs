@@ -1,33 +1,13 @@
 //! The names of codes, and texts.
 
-use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
 use ads_cnc::operation::Task;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{CncStr, TextRef};
 
-pub(super) const fn task(task: Task) -> &'static str {
-    match task {
-        Task::Geo => "GEO",
-        Task::Sda => "SDA",
-        Task::Com => "COM",
-    }
-}
-
-pub(crate) const fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::PositionController => "position controller",
-        Class::Interpolator => "interpolator",
-        Class::Decoder => "decoder",
-        Class::Hld => "HLD",
-        Class::PathPreparation => "path preparation",
-        Class::Spindle => "spindle",
-    }
-}
-
 /// The task of a port.
 pub(super) fn port(number: u16) -> Option<String> {
-    Task::from_port(AmsPort(number)).map(|found| format!("{} task", task(found)))
+    Task::from_port(AmsPort(number)).map(|found| format!("{found} task"))
 }
 
 /// The name of an AMS command.

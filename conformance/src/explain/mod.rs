@@ -36,7 +36,6 @@ mod value;
 pub use crate::text::hex::{HexError, parse_hex};
 pub use crate::values::{UnknownType, ValueFormat, type_by_name};
 pub use address::describe;
-pub(crate) use codes::class_name;
 pub use frame::looks_like_frame;
 pub(crate) use model::sources;
 pub use model::{

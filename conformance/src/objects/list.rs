@@ -6,8 +6,6 @@ use ads_cnc::address::{Class, ComTable};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::ObjectList;
 
-use crate::explain::class_name;
-
 /// A list of objects, elements or variables, by the name that tools display.
 ///
 /// ```
@@ -62,7 +60,7 @@ impl fmt::Display for List {
             Self::Channel(number) => write!(f, "COM channel {number}"),
             Self::Axis(place) => write!(f, "COM axis {place}"),
             Self::Class { class, channel, axis } => {
-                f.write_str(class_name(class))?;
+                class.fmt(f)?;
                 match channel {
                     Some(index) if class == Class::Spindle => write!(f, " {index}")?,
                     Some(number) => write!(f, " channel {number}")?,

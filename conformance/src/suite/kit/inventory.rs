@@ -14,7 +14,6 @@ use ads_cnc::sda::{ElementLength, ObjectAddress};
 
 pub(crate) use variables::{VARIABLES_MAX, name_of};
 
-use crate::explain::class_name;
 use crate::judge::{OrStop as _, Step, Stop};
 use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
 use crate::profile::Claim;
@@ -84,7 +83,7 @@ pub(crate) fn element_by_rank(element: ElementAddress, rank: u8) -> ElementAddre
 
 impl std::fmt::Display for Instance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} ({}, {})", class_name(self.class), self.channel, self.axis)
+        write!(f, "{} ({}, {})", self.class, self.channel, self.axis)
     }
 }
 

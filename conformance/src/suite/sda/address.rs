@@ -9,7 +9,6 @@ use ads_cnc::address::{
 use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 
-use crate::explain::class_name;
 use crate::judge::{Checks as _, Rule, Step, assumed};
 use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
 
@@ -19,7 +18,7 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let ClassGroup { addressing, class, attribute, instance } = one.first.class_group();
         let group = one.first.group(Attribute::Content);
         let of_class = class == one.class && attribute == Attribute::Content;
-        let expected = || format!("the content group of the {}", class_name(one.class));
+        let expected = || format!("the content group of the {}", one.class);
         let found = || format!("{group} for {one}");
         probe.check("ADR-5", of_class, expected, found);
         let same = u32::from(instance) == one.channel;
@@ -71,7 +70,7 @@ fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress)
         _ => (assumed("ADR-7"), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
     };
     let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
-    let found = || format!("offset {offset} of the {}, axis {axis}", class_name(class));
+    let found = || format!("offset {offset} of the {}, axis {axis}", class);
     probe.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 
@@ -90,8 +89,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
                 || format!("{} or the address by number", by_index.group(Attribute::Content));
             probe.check(assumed("SDA-1"), same, expected, &exchange);
             let mut steady = Steady::default();
-            let what =
-                format!("the number of elements of the {} of channel {number}", class_name(class));
+            let what = format!("the number of elements of the {} of channel {number}", class);
             let (one, other) = (CountElements::new(first)?, CountElements::new(by_index)?);
             steady.same(probe, ["ADR-1", "ADR-12"], what, one, other)?;
             steady.finish()?;

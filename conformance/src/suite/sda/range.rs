@@ -6,7 +6,6 @@ use ads_cnc::operation::{CountElements, FindInstance, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::Hex;
 
-use crate::explain::class_name;
 use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
 
@@ -21,8 +20,7 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     }
     let address = data.and_then(|data| ObjectAddress::decode(data).ok());
     let first = address.and_then(|address| address.first_element().ok()).flatten();
-    let expected =
-        || format!("the {} ({channel}, {axis}) in a group of its class", class_name(class));
+    let expected = || format!("the {} ({channel}, {axis}) in a group of its class", class);
     let found = || match address {
         Some(address) => format!("{}, {}", address.index_group, address.index_offset),
         None => exchange.result(),
@@ -31,14 +29,13 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     if let Some(first) = first {
         let group = first.class_group();
         let same = (group.class, u32::from(group.instance)) == (class, channel);
-        let expected =
-            || format!("the {} ({channel}, {axis}) in a group of its own", class_name(class));
+        let expected = || format!("the {} ({channel}, {axis}) in a group of its own", class);
         probe.check("SDA-1", same, expected, found);
         // What is there is read there, its number of elements first of all.
         let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
-        let expected = || format!("the elements of the {} ({channel}, {axis})", class_name(class));
+        let expected = || format!("the elements of the {} ({channel}, {axis})", class);
         let of_range: Vec<Rule> = rules.iter().filter(|rule| rule.id == "SDA-5").copied().collect();
         probe.check(&of_range, read, expected, &exchange);
     }
@@ -69,7 +66,7 @@ fn is_nowhere(
     };
     let address = ObjectAddress::decode(data);
     let none = address == Ok(ObjectAddress::NONE);
-    let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class_name(class));
+    let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class);
     let found = || Hex(data.to_vec());
     probe.check("SDA-2", none, expected, found);
     // An instance is found where there can be none.
