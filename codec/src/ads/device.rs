@@ -53,7 +53,6 @@ pub struct DeviceInfoReply {
 
 impl DeviceInfoReply {
     /// The bytes of the stream.
-    #[inline(never)]
     pub fn to_bytes(&self) -> [u8; size_of::<InfoLayout>()] {
         zerocopy::transmute!(self.layout())
     }

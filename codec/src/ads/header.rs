@@ -160,7 +160,6 @@ impl AmsHeader {
     }
 
     /// The bytes of the stream.
-    #[inline(never)]
     pub fn to_bytes(&self) -> [u8; AMS_HEADER_LEN] {
         zerocopy::transmute!(self.layout())
     }

@@ -63,17 +63,18 @@ fn encode<'b>(
     data: Option<&[u8]>,
     buf: &'b mut [u8],
 ) -> Result<&'b [u8], Error> {
-    // Only an error may have no data.
-    if data.is_none() && result.is_ok() {
-        let [_, length_field, _] = fields(stream);
-        return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));
-    }
-    Writer::run(stream, encoded_len(data), buf, |out| {
-        out.u32(result.0);
-        if let Some(data) = data {
-            out.u32(to_u32(data.len()));
-            out.put(data);
+    let Some(data) = data else {
+        // Only an error may have no data.
+        if result.is_ok() {
+            let [_, length_field, _] = fields(stream);
+            return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));
         }
+        return Writer::copy(stream, &result.0.to_le_bytes(), buf);
+    };
+    Writer::run(stream, encoded_len(Some(data)), buf, |out| {
+        out.u32(result.0);
+        out.u32(to_u32(data.len()));
+        out.put(data);
     })
 }
 
