@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
 
-use ads_cnc::operation::WriteValue;
+use ads_cnc::operation::{ReadByName, WriteValue};
 use ads_cnc::service::ServiceId;
 use ads_cnc::value::Boolean;
 use ads_cnc::*;
@@ -48,6 +48,22 @@ fn names_are_equal_by_their_text_and_its_case() {
     check(&[path("V.E.test[4]"), from_text, element], path("V.E.TEST[4]"));
     let wire = VariablePath::from_text(CncStr::from_bytes(b"V.G.Gr\xF6\xDFe").unwrap()).unwrap();
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
+}
+
+/// A name that was read is requested without its end.
+#[test]
+fn names_that_were_read_are_requested_by_their_text() {
+    let channel = address::Channel::new(1).unwrap();
+    let expected = ReadByName::new(channel, "V.E.a").unwrap();
+    let padded = VariableNameRef::decode(b"V.E.a\0\0").unwrap().name;
+    assert_eq!(ReadByName::new(channel, padded).unwrap(), expected);
+    #[cfg(feature = "alloc")]
+    {
+        let owned = padded.to_owned();
+        assert_eq!(ReadByName::new(channel, &owned).unwrap(), expected);
+        assert_eq!(owned.as_ref(), padded);
+        assert_eq!(padded.text().to_owned(), owned.text);
+    }
 }
 
 /// NULs after a kind are no part of it; they are of a text with its end (E-34).

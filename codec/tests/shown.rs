@@ -9,6 +9,7 @@ use ads_cnc::address::{
 use ads_cnc::ads::{AdsError, AdsState, AmsAddr, AmsNetId, AmsPort, Command, StateFlags};
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::layout::{Field, Stream, Type};
+use ads_cnc::operation::{Function, Task};
 use ads_cnc::sda::ElementLength;
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::streaming::*;
@@ -134,6 +135,7 @@ fn texts_are_in_characters_with_their_end() {
     debugs(with(None), r#""a" without NUL"#);
     shows(with(Some(&[0, 0])), "a");
     shows(with(None), "a");
+    #[cfg(feature = "alloc")]
     shows(Text::from(with(None)), "a");
     debugs(Kind::V_E, r#""V.E""#);
     let path = VariablePath::new("V.E.test[4].Länge").unwrap();
@@ -185,6 +187,9 @@ fn services_have_their_names() {
         shows(variable, variable.name());
     }
     shows(ServiceVariable::Request, "V.G.SERVICE.REQUEST");
+    let tasks = [Task::Geo, Task::Sda, Task::Com];
+    assert_eq!(tasks.map(|task| task.to_string()), ["GEO", "SDA", "COM"]);
+    shows(Function::ReadByName, "read variable value by name");
     // The text that a machine holds in CP1252 is shown in characters.
     let ids = [shown];
     let mut host = Host::new(&ids);

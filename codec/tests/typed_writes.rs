@@ -31,6 +31,8 @@ fn values_to_write_are_their_bytes() {
     assert_eq!((number.as_bytes(), buffer.as_bytes()), (&bytes[..], &bytes[..]));
     assert_eq!(number, buffer);
     assert_ne!(number, WriteValue::from(1.25_f64));
+    let elements = Elements::new(DataType::Real64, U32List::EMPTY, &bytes).unwrap();
+    assert_eq!(WriteValue::from(elements), buffer);
     assert_eq!(format!("{number:?}"), format!("{bytes:?}"));
     let all: std::collections::HashSet<_> = [number, buffer, true.into()].into();
     assert_eq!(all.len(), 2);

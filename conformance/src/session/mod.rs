@@ -40,7 +40,7 @@ pub use trouble::Trouble;
 /// let value = session.call(&ReadByName::new(channel, "V.E.Testvar")?)?;
 /// assert_eq!(value.bytes[..4], [123, 0, 0, 0]);
 ///
-/// let write = WriteByName::new(channel, "V.E.Testvar[0]", &[1, 0, 0, 0])?;
+/// let write = WriteByName::new(channel, "V.E.Testvar[0]", 1_i32)?;
 /// assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -121,7 +121,7 @@ impl<'s> Probe<'s> {
         self.check(rules, true, "", "");
     }
 
-    /// As [`check`](Self::check), where the data of the reply is known to the byte: the evidence
+    /// As `check`, where the data of the reply is known to the byte: the evidence
     /// shows both.
     pub fn check_reply(
         &mut self,
@@ -141,7 +141,7 @@ impl<'s> Probe<'s> {
         kept
     }
 
-    /// As [`check`](Self::check), and there is nothing to go on with if it fails.
+    /// As `check`, and the case ends if it fails.
     pub fn require(
         &mut self,
         rules: impl Rules,
