@@ -154,18 +154,6 @@ impl fmt::Display for Bytes {
     }
 }
 
-/// The name of a type by its number, or the code of a type that is not documented.
-struct TypeNumber(u32);
-
-impl fmt::Display for TypeNumber {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match DataType::by_number(self.0) {
-            Some(data_type) => data_type.fmt(f),
-            None => write!(f, "type {}", self.0),
-        }
-    }
-}
-
 /// Whether the numbers of an error are index groups.
 fn is_group(field: Field) -> bool {
     field.subject() == Subject::IndexGroup
@@ -186,7 +174,8 @@ impl fmt::Display for Error {
                 return write!(f, "{field} at offset {offset}: no \"]\"");
             }
             (ErrorKind::Mismatch, _) if field == typed_value::TYPE => {
-                let [expected, found] = [expected, found].map(TypeNumber);
+                let name = |number| DataType::by_number(number).map_or("", DataType::name);
+                let [expected, found] = [expected, found].map(name);
                 return write!(f, "expected {expected}, found {found}");
             }
             _ => write!(f, "{field} at offset {offset}: ")?,

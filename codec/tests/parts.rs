@@ -109,6 +109,7 @@ fn dynamic_values_keep_their_bits() {
         assert_eq!(stored.to_bits(), value.to_bits());
         assert_eq!(stored.get().to_bits(), value.to_bits());
         assert_eq!(DynamicValue::from_bits(stored.to_bits()), stored);
+        assert_eq!(f64::from(stored).to_bits(), value.to_bits());
         let mut buf = [0; 8];
         assert_eq!(stored.encode(&mut buf), Ok(&value.to_le_bytes()[..]));
     }
