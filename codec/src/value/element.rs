@@ -37,7 +37,7 @@ macro_rules! element {
         #[non_exhaustive]
         pub enum Element<'a> {
             $(
-                #[doc = concat!("Of [`DataType::", stringify!($variant), "`].")]
+                #[doc = concat!("A value of the type [`DataType::", stringify!($variant), "`].")]
                 $variant($number),
             )+
             /// Text to its first NUL or to the end of its bytes (VAR-22, assumed).

@@ -133,7 +133,7 @@ impl Session {
     /// Reads the bytes of a value.
     ///
     /// # Errors
-    /// Those of [`request`](Self::request), and a reply that is no value.
+    /// Those of [`request`](Self::request), and [`Trouble`] for a reply that does not decode to a value.
     pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, Trouble> {
         let read = address.read().map_err(|error| address.no_request(error))?;
         let data = self.request(address.task(), read)?;

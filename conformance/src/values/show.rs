@@ -57,7 +57,8 @@ pub(crate) fn number(element: Element<'_>) -> String {
     }
 }
 
-/// An element as it is shown: a text in quotes, what is odd about it after it.
+/// The value of an element as text. A STRING is quoted, with the text after its first NUL if there is any; a
+/// BOOLEAN other than 0 and 1 is followed by its byte.
 fn display(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.0 > 1 => format!("TRUE ({})", flag.0),

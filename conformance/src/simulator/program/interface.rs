@@ -41,7 +41,7 @@ impl StreamingInterface {
         Self { bytes: [0; STREAM_MAX], len: 0 }
     }
 
-    /// Takes all of a write or nothing of it (STM-15: after what is there).
+    /// Appends all bytes of a write to those that are buffered, or none of them (STM-15).
     ///
     /// [`Ack::Rejected`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Busy`],
     /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is

@@ -9,7 +9,7 @@ pub struct HexError {
     pub line: usize,
     /// The column, from 1, in characters.
     pub column: usize,
-    /// The character that is no digit; none for a single digit.
+    /// The character that is not a hex digit; `None` if a byte has one digit only.
     pub found: Option<char>,
 }
 

@@ -13,8 +13,8 @@ use crate::simulator::program::{
 };
 use crate::text::some_time;
 
-/// The streaming program; one that starts again and again if nothing is given, as nobody can start
-/// it over ADS.
+/// The streaming program. Without a configured one it restarts after each end, as ADS has no function that
+/// starts it.
 pub(super) fn streaming(
     source: Source<'_>,
     table: &StreamingTable,
