@@ -1,10 +1,16 @@
 //! Codecs over the testee protocol: this project's own, with and without a defect, and miniatures
 //! that misbehave as a whole.
 
-use std::time::Duration;
+mod common;
+
+use std::io::{BufRead as _, BufReader};
+use std::net::TcpStream;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 
 use ads_cnc_conformance::faults;
 use ads_cnc_conformance::judge::{Case, CaseOutcome, CaseSubject, Exit, Needs, TESTEE, Verdict};
+use ads_cnc_conformance::process::{RunningCommand, shell};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
     JudgedTestee, Miniature, Own, Terms, Testee, TesteeProcess, judge,
@@ -169,6 +175,27 @@ fn what_cannot_be_started_fails_by_the_protocol_alone() {
         assert!(judged.hello.is_none());
         let fault = &judged.outcomes.last().unwrap().verdicts[0].judgements[0];
         assert!(fault.found.contains("crash"), "{}", fault.found);
+    }
+}
+
+#[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
+/// The shell starts `ads-cnc serve` as a child of its own, which ends with the shell.
+#[test]
+fn a_command_ends_with_the_processes_it_started() {
+    let mut command = shell(&format!(
+        "\"{}\" serve --listen 127.0.0.1:0 && exit 0",
+        env!("CARGO_BIN_EXE_ads-cnc")
+    ));
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let running = RunningCommand::start(command).unwrap();
+    let mut line = String::new();
+    BufReader::new(running.take_stdout().unwrap()).read_line(&mut line).unwrap();
+    let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap();
+    drop(common::connect(addr.parse().unwrap()));
+    drop(running);
+    let begun = Instant::now();
+    while TcpStream::connect(addr).is_ok() {
+        assert!(begun.elapsed() < Duration::from_secs(20), "the simulated CNC still listens");
     }
 }
 

@@ -25,12 +25,20 @@ pub const START: Duration = Duration::from_secs(20);
 /// A command line as the user's shell understands it.
 pub fn shell(line: &str) -> Command {
     #[cfg(windows)]
-    let (program, option) = ("cmd", "/C");
+    {
+        use std::os::windows::process::CommandExt as _;
+
+        // cmd does not know the escapes of `arg`. With /S it removes the outer quotes, and no others.
+        let mut command = Command::new("cmd");
+        command.raw_arg(format!("/S /C \"{line}\""));
+        command
+    }
     #[cfg(not(windows))]
-    let (program, option) = ("sh", "-c");
-    let mut command = Command::new(program);
-    command.arg(option).arg(line);
-    command
+    {
+        let mut command = Command::new("sh");
+        command.args(["-c", line]);
+        command
+    }
 }
 
 type SharedChild = Mutex<Box<dyn ChildWrapper>>;
