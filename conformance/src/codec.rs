@@ -1,6 +1,7 @@
 //! This project's codec as the vectors see it: bytes in, fields or a refusal out, and back again.
 
 mod address;
+mod decoded;
 mod elements;
 mod fields;
 mod frame;
@@ -9,37 +10,12 @@ pub mod message;
 mod path;
 mod stream;
 
+pub use decoded::{Decoded, Refused};
 use fields::{collect, data, name, numbers, one, record, text_tagged, uns16, uns32};
 
 use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::{Context, Fields};
 use given::Given;
-
-/// What the codec makes of a stream: its fields, and the bytes it encodes to again.
-#[derive(Debug, PartialEq)]
-pub struct Decoded {
-    /// The fields under their names, without what only counts.
-    pub fields: Fields,
-    /// Encoded again.
-    pub bytes: Vec<u8>,
-}
-
-/// Why the codec has no answer.
-#[derive(Debug)]
-pub enum Refused {
-    /// It refuses the bytes.
-    Error(Error),
-    /// These fields are no value of the stream.
-    Unfit(String),
-    /// It does not know the stream, or the context lacks what it needs.
-    Unsupported(String),
-}
-
-impl From<Error> for Refused {
-    fn from(error: Error) -> Self {
-        Self::Error(error)
-    }
-}
 
 /// The class of an error under the name vectors give it.
 pub fn class(error: &Error) -> &'static str {

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write as _};
 use ads_cnc::address::Channel;
 use clap::{Args, ValueEnum};
 
-use super::complain;
+use super::message::complain;
 use super::model::ModelArgs;
 use super::name::written;
 use super::progress::ProgressLine;

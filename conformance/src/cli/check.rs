@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::report_output::Reports;
 use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
 use crate::edition::Edition;

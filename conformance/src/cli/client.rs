@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::Args;
 use serde::Deserialize;
 
-use super::complain;
+use super::message::complain;
 use crate::clients::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write as _};
 
-use clap::{Args, CommandFactory as _};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::{Cli, complain};
+use super::message::complain;
 use crate::judge::Exit;
 
 /// Writes a script that lets a shell complete what is typed.
@@ -27,10 +27,9 @@ Examples:
 Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
 impl Completions {
-    /// Writes the script, and says how the process ends.
-    pub(super) fn execute(&self) -> Exit {
+    /// Writes the script for this command line, and says how the process ends.
+    pub(super) fn execute(&self, mut command: Command) -> Exit {
         let mut script = Vec::new();
-        let mut command = Cli::command();
         clap_complete::generate(self.shell, &mut command, "ads-cnc", &mut script);
         let mut out = io::stdout().lock();
         match out.write_all(&script).and_then(|()| out.flush()) {

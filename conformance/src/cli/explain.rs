@@ -11,7 +11,8 @@ use ads_cnc::operation::Service;
 use ads_cnc::value::DataType;
 use clap::{Args, ValueEnum};
 
-use super::{complain, number};
+use super::message::complain;
+use super::name::number;
 use crate::explain::{
     ExplainQuery, ExplainSubject, Paint, ServiceAddress, ValueFormat, candidates, explain,
     looks_like_frame, parse_hex, print, type_by_name,

@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};

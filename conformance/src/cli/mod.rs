@@ -9,6 +9,7 @@ mod explain;
 mod get;
 mod list;
 mod log;
+mod message;
 mod model;
 mod name;
 mod progress;
@@ -27,12 +28,10 @@ mod stream;
 mod target;
 mod testee;
 
-use std::io::Write as _;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
-use crate::faults::{self, Seed};
 use crate::judge::Exit;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
@@ -105,7 +104,9 @@ impl Cli {
             Some(Subcommands::Requirements(requirements)) => requirements.execute().into(),
             Some(Subcommands::Stream(stream)) => stream.execute().into(),
             Some(Subcommands::Service(service)) => service.execute().into(),
-            Some(Subcommands::Completions(completions)) => completions.execute().into(),
+            Some(Subcommands::Completions(completions)) => {
+                completions.execute(Self::command()).into()
+            }
             Some(Subcommands::Browse(browse)) => browse.execute().into(),
             Some(Subcommands::Get(get)) => get.execute().into(),
             Some(Subcommands::Set(set)) => set.execute().into(),
@@ -117,41 +118,4 @@ impl Cli {
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
     }
-}
-
-/// Says what is wrong on stderr; if nobody listens there, that is no more to be helped.
-fn complain(why: impl std::fmt::Display) {
-    // Devices, files and testees are quoted in it.
-    let why = crate::text::escape_lines(&why.to_string());
-    let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
-}
-
-/// Says what is wrong and how the process ends.
-fn refuse(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
-    complain(why);
-    exit.into()
-}
-
-/// A number, decimal or in hex with 0x.
-fn number(text: &str) -> Result<u32, String> {
-    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
-    let number = match hex {
-        Some(digits) if digits.starts_with('+') => None,
-        Some(digits) => u32::from_str_radix(digits, 16).ok(),
-        None => text.parse().ok(),
-    };
-    number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
-}
-
-/// The defect with this ID, if one is asked for.
-fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
-    let Some(id) = id else { return Ok(None) };
-    faults::by_id(id).cloned().map(Some).ok_or_else(|| {
-        let all = faults::all();
-        // One of each stream or area is enough to show what IDs look like.
-        let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
-        some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());
-        let (some, all) = (some.join("\n  "), all.len());
-        format!("no defect has the ID {id}; some that there are:\n  {some}\nserve --list-defects shows all {all}")
-    })
 }

@@ -33,7 +33,7 @@ pub(super) struct NameArgs {
     of: Option<String>,
 
     /// At which index offset, if a list has the name several times
-    #[arg(long, value_name = "NUMBER", value_parser = super::number, conflicts_with = "axis")]
+    #[arg(long, value_name = "NUMBER", value_parser = number, conflicts_with = "axis")]
     offset: Option<u32>,
 
     /// Take the value for this type, and ask no description: BOOLEAN, SGN32, REAL64, STRING, …
@@ -120,4 +120,15 @@ pub(super) fn written(result: io::Result<()>) -> Result<(), Trouble> {
         }
         _ => Ok(()),
     }
+}
+
+/// A number, decimal or in hex with 0x.
+pub(super) fn number(text: &str) -> Result<u32, String> {
+    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    let number = match hex {
+        Some(digits) if digits.starts_with('+') => None,
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    };
+    number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Read as _};
 use std::path::PathBuf;
 
-use super::complain;
+use super::message::complain;
 use super::report_output::{Forms, is_stdout, lost, show};
 use crate::judge::Exit;
 use crate::report::{self, Report};

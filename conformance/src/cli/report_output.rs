@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use crate::judge::{Exit, Waivers};
 use crate::report::{self, Report};
 

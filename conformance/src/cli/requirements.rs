@@ -2,7 +2,7 @@
 
 use std::io::{self, Write as _};
 
-use super::complain;
+use super::message::complain;
 use crate::judge::{Exit, names};
 use crate::matrix::{self, RequirementRow};
 

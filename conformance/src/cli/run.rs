@@ -6,10 +6,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::list;
+use super::message::complain;
 use super::report_output::{Reports, show, write};
 use super::run_client::ClientArgs;
+use super::run_testee;
+use super::serve::find_defect;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
-use super::{complain, find_defect, run_testee};
 use crate::edition::Edition;
 use crate::faults::Seed;
 use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, Waivers, any_seed};

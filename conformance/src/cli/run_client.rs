@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::serve::check_address;
 use crate::clients::{self, ClientProcess, JudgedClient, Scenario, TestServer};
 use crate::deadline::Deadline;

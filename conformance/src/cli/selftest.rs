@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::report_output::{is_stdout, lost, show, write};
 use crate::judge::{Exit, any_seed};
 use crate::selftest;

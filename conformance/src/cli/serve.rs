@@ -9,9 +9,9 @@ use std::time::Duration;
 use ads_cnc::ads::AmsNetId;
 
 use super::executed::{self, ExecutedTo};
+use super::message::{complain, refuse};
 use super::model::ModelArgs;
-use super::{complain, find_defect, refuse};
-use crate::faults::{self, Faulty};
+use crate::faults::{self, Faulty, Seed};
 use crate::judge::Exit;
 use crate::net;
 use crate::process::interrupt::Interrupt;
@@ -246,4 +246,17 @@ fn list_defects() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
+}
+
+/// The defect with this ID, if one is asked for.
+pub(super) fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
+    let Some(id) = id else { return Ok(None) };
+    faults::by_id(id).cloned().map(Some).ok_or_else(|| {
+        let all = faults::all();
+        // One of each stream or area is enough to show what IDs look like.
+        let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
+        some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());
+        let (some, all) = (some.join("\n  "), all.len());
+        format!("no defect has the ID {id}; some that there are:\n  {some}\nserve --list-defects shows all {all}")
+    })
 }

@@ -12,7 +12,7 @@ use std::io::{self, Write as _};
 use ads_cnc::dynamic::DynamicKind;
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, simulator_gate};

@@ -12,7 +12,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::deadline::Deadline;

@@ -4,7 +4,8 @@ use std::io::{self, BufRead as _, Write as _};
 
 use clap::Args;
 
-use super::{complain, find_defect};
+use super::message::complain;
+use super::serve::find_defect;
 use crate::judge::Exit;
 use crate::testee::{Act, Answer, Miniature, Own, Reply, TesteeCommand};
 

@@ -72,6 +72,9 @@ pub(super) fn environment(
 /// As much of an answer as a person reads.
 const SHOWN: usize = 200;
 
+/// Nothing to say but that it is done.
+pub(super) const DONE: Value = Value::Bool(true);
+
 /// What comes of an action.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -25,6 +25,7 @@
 mod address;
 mod codes;
 mod frame;
+mod group;
 mod model;
 mod nc;
 mod part;
@@ -35,8 +36,8 @@ mod value;
 
 pub use crate::text::hex::{HexError, parse_hex};
 pub use crate::values::{UnknownType, ValueFormat, type_by_name};
-pub use address::describe;
 pub use frame::looks_like_frame;
+pub use group::describe;
 pub(crate) use model::sources;
 pub use model::{
     ExplainQuery, ExplainSubject, ExplainedAddress, ExplainedFault, ExplainedField,

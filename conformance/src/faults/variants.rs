@@ -4,30 +4,18 @@ mod elements;
 mod models;
 mod replies;
 mod requests;
+mod row;
 mod unspecified;
 
-use ads_cnc::ads::{AdsError, FrameRef};
+use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, NAMED, ReplyData, Upstream, after_nul, dimensions,
-    fault, first, function, group, is, measured, number, offset, on, records_mut, row, set_u32,
-    text, u32_at, within_length,
+    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, ReplyData, Upstream, dimensions, fault, first,
+    function, group, is, measured, number, offset, on, or_short, records_mut, row, set_u32, text,
+    u32_at, within_length,
 };
-
-/// A row about something that does not answer as printed.
-const fn unprinted(mut row: CncSeed) -> CncSeed {
-    row.printed = false;
-    row
-}
-
-const fn sent(
-    id: &'static str,
-    what: &'static str,
-    frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> CncSeed {
-    fault(id, &[], what, CncFault::Frame(frame))
-}
+use row::{sent, unprinted};
 
 /// The handles of replies and, back, of requests made others.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
@@ -49,11 +37,6 @@ fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);
     bytes
-}
-
-/// If it is too long for the client, as it was.
-fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: ReplyData) -> ReplyData {
-    within_length(call, answer).or_else(|_| cnc.answer(call))
 }
 
 pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {

@@ -24,12 +24,14 @@
 //! ```
 
 mod allowed;
+mod entry;
 mod file;
 mod observed;
 mod refusal;
 
 pub use crate::text::Moment;
-pub use allowed::{Allowed, AllowedList, Entry};
+pub use allowed::{Allowed, NET_ID};
+pub use entry::{AllowedList, Entry};
 pub use file::AllowFileError;
 pub use refusal::{Doubt, Reason, Refusal};
 
@@ -43,9 +45,6 @@ use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
 use observed::Observed;
-
-/// The AMS NetId of the simulated CNC, unless it is given another.
-pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
 /// Decides over every frame before a byte of it is sent.
 #[derive(Clone, Debug, Default)]

@@ -3,14 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ads_cnc::address::{Addressing, Channel, ChannelAxis, Group, IndexGroup, IndexOffset};
-use ads_cnc::operation::{Call, ObjectList, Reply, Request};
+use ads_cnc::operation::{Call, ObjectList, Operation as _, Reply, Request};
 use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 
+use super::refusal::LEARNT_MAX;
 use super::{Allowed, Doubt, Entry};
-
-/// The most handles, names and addresses that are kept of a connection. With more than that nothing
-/// is written by a handle or by the name of an object.
-pub(super) const LEARNT_MAX: usize = 65_536;
 
 /// What the replies of one connection say. What contradicts a write is kept as well as what allows
 /// it.
@@ -319,4 +316,37 @@ fn is_of(list: ObjectList, group: IndexGroup) -> bool {
             (Addressing::Index, Addressing::Logical) => true,
             (list, content) => list == content && same,
         }
+}
+
+impl Entry {
+    /// Whether it allows a request that is no query.
+    ///
+    /// # Errors
+    /// Why what it names may not be what is written.
+    pub(super) fn allows(&self, request: &Request<'_>, observed: &Observed) -> Result<bool, Doubt> {
+        match (self, request) {
+            (Self::Object { list, name }, Request::WriteObject(op)) => {
+                observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))
+            }
+            // Each name of the handle is looked at there, whichever entry allows it.
+            (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
+                observed.is_variable(op.channel, op.handle)
+            }
+            (_, Request::WriteByName(op)) => Ok(self.allows_variable(op.channel, None, op.name)),
+            (_, Request::AxisWriteByName(op)) => {
+                Ok(self.allows_variable(op.channel, Some(op.axis), op.name))
+            }
+            (Self::Content { group, offset }, Request::WriteObject(op)) => {
+                if (op.index_group(), op.index_offset()) == (*group, *offset) {
+                    observed.has_one_name((*group, *offset)).map(|()| true)
+                } else {
+                    Ok(false)
+                }
+            }
+            (Self::Content { .. } | Self::Stream(_), _) => {
+                Ok(Self::needed(request).as_ref() == Some(self))
+            }
+            _ => Ok(false),
+        }
+    }
 }

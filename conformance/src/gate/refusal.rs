@@ -8,8 +8,11 @@ use ads_cnc::ads::{AmsNetId, AmsPort, Command, StateFlags};
 use ads_cnc::operation::{self, Function};
 use ads_cnc::{CncString, Error};
 
-use super::observed::LEARNT_MAX;
 use super::{Entry, Moment};
+
+/// The most handles, names and addresses that are kept of a connection. With more than that nothing
+/// is written by a handle or by the name of an object.
+pub(super) const LEARNT_MAX: usize = 65_536;
 
 /// A frame the gate did not let through.
 #[derive(Clone, Debug)]

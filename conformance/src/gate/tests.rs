@@ -375,7 +375,7 @@ fn what_is_learnt_is_bounded() {
     let mut gate = gate(table);
     give_handle(&mut gate, "V.E.a", 7);
     describe(&mut gate, "V.E.a", 7);
-    let kept = u32::try_from(observed::LEARNT_MAX).unwrap();
+    let kept = u32::try_from(refusal::LEARNT_MAX).unwrap();
     for handle in 100..98 + kept {
         give_handle(&mut gate, "V.E.other", handle);
     }

@@ -31,6 +31,7 @@ mod control;
 mod in_process;
 mod inspect;
 mod model;
+mod number;
 mod owner;
 mod parameters;
 pub mod program;
@@ -46,18 +47,9 @@ pub(crate) use in_process::InProcess;
 pub(crate) use inspect::{Holder, StoredContent};
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
-pub use respond::DATA_MAX;
+pub use respond::{DATA_MAX, ReplyData};
 pub(crate) use respond::{FRAME_MAX, INFO, respond};
-pub use responder::{ReplyData, Responder};
+pub use responder::Responder;
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 
-/// The most bytes of a content: what a frame has room for beside a result and a length.
-const CONTENT_MAX: usize = 0xFFF8;
-
-fn to_u32(len: usize) -> u32 {
-    u32::try_from(len).unwrap_or(u32::MAX)
-}
-
-fn to_len(number: u32) -> usize {
-    usize::try_from(number).unwrap_or(usize::MAX)
-}
+use number::{to_len, to_u32};

@@ -8,7 +8,7 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc::{Encode, Error};
 
-use super::{ReplyData, to_len, to_u32};
+use super::{to_len, to_u32};
 use crate::wire_service::service_of;
 
 /// The most bytes after the AMS header of a frame that is taken or sent: more ends a connection,
@@ -22,6 +22,9 @@ const _: () = assert!(DATA_MAX == 0x1_0000);
 
 /// The bit that a response has and a request has not.
 const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
+
+/// The data of a reply, or the error number.
+pub type ReplyData = Result<Vec<u8>, AdsError>;
 
 /// Answers requests with data or an error number.
 type Answering<'a> = &'a dyn Fn(&Call<'_>) -> ReplyData;

@@ -4,13 +4,10 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-use ads_cnc::ads::{AdsError, AmsNetId, FrameRef};
+use ads_cnc::ads::{AmsNetId, FrameRef};
 use ads_cnc::operation::Call;
 
-use super::respond::respond;
-
-/// The data of a reply, or the error number.
-pub type ReplyData = Result<Vec<u8>, AdsError>;
+use super::respond::{ReplyData, respond};
 
 /// Answers ADS requests: a [`Cnc`](super::Cnc), or what is put around one.
 pub trait Responder: fmt::Debug + Send + Sync {

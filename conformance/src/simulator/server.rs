@@ -1,6 +1,7 @@
 //! The AMS/TCP server: a thread for each connection, a bounded number of them.
 
 mod connection;
+mod options;
 
 use std::collections::BTreeMap;
 use std::io;
@@ -11,10 +12,11 @@ use std::time::Duration;
 
 use ads_cnc::ads::AmsNetId;
 
-use super::{NET_ID, Responder};
+use super::Responder;
 use crate::net;
 
 pub use connection::Received;
+pub use options::ServerOptions;
 
 /// The most connections at a time; one more is closed at once.
 pub const CONNECTIONS_MAX: usize = 64;
@@ -26,34 +28,6 @@ pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
 
 /// Bytes of the stack of a connection's thread.
 const STACK: usize = 1024 * 1024;
-
-#[derive(Clone, Copy, Debug)]
-pub struct ServerOptions {
-    /// The AMS NetId it answers for.
-    pub net_id: AmsNetId,
-    /// How long a connection may be without a whole request before it is ended; for ever if none.
-    /// Clients that are gone without a word would take the places of others.
-    pub idle: Option<Duration>,
-    /// How long a new connection may be without its first whole request, and any connection with a
-    /// part of one; for ever if none. Clients that open connections only, or leave requests half
-    /// sent, lock others out no longer than that. Clients that have sent a request may, for `idle`,
-    /// and those that read slowly, for as long as they read.
-    pub frame: Option<Duration>,
-}
-
-impl ServerOptions {
-    /// Ten minutes without a request: people who wait for the next have come back by then.
-    pub const IDLE: Duration = Duration::from_secs(600);
-
-    /// Ten seconds for a frame, and for the first: a frame is one write of its client.
-    pub const FRAME: Duration = Duration::from_secs(10);
-}
-
-impl Default for ServerOptions {
-    fn default() -> Self {
-        Self { net_id: NET_ID, idle: Some(Self::IDLE), frame: Some(Self::FRAME) }
-    }
-}
 
 /// How long a client may leave an answer lying before its connection ends.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);

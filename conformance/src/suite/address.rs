@@ -9,7 +9,7 @@ use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, RawCall};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::exchange::Exchange;
 use crate::judge::{Checks as _, Needs, OrStop as _, Record, Step, Stop, assumed, online};
 use crate::objects::KINDS;

@@ -4,7 +4,7 @@ use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
 
 use super::kit::{Probe, brackets, each_array, each_variable, element_name};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, assumed};
 
 #[rustfmt::skip]

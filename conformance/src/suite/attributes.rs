@@ -7,7 +7,7 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]

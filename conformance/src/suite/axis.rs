@@ -13,7 +13,7 @@ use super::kit::{
     AxisHandle, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names, axis_variables,
     name_of,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
 
 #[rustfmt::skip]

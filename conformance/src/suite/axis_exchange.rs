@@ -4,7 +4,7 @@ use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class};
 use ads_cnc::operation::{AxisHandleByName, ReadElement, Request};
 
 use super::kit::{OF_PLACES, Probe};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
 

@@ -13,7 +13,7 @@ use super::kit::{
     AxisHandle, Compared, Probe, RawCall, answering_places, axis_names, axis_variables, compare,
     name_of,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
 
 #[rustfmt::skip]

@@ -7,7 +7,7 @@ use ads_cnc::operation::{DynamicValueByIndex, DynamicValueByName, HandleByName, 
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Counted, Probe, is_permuted, name_of};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, Step};
 
 #[rustfmt::skip]

@@ -7,7 +7,7 @@ use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks, IfThere as _, Needs, Step, assumed, online};
 
 #[rustfmt::skip]

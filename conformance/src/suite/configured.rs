@@ -8,7 +8,7 @@ use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, VARIABLES_MAX};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 use crate::simulator::Configured;
 

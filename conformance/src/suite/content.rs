@@ -8,7 +8,7 @@ use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
 use crate::objects::Object;
 

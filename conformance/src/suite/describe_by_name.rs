@@ -8,7 +8,7 @@ use ads_cnc::{
 };
 
 use super::kit::{Probe, VARIABLES_MAX, name_of};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;

@@ -4,7 +4,7 @@ use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
 use super::kit::Probe;
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::client::{Inquired, Inquiry, InquiryReply};
 use crate::judge::{Checks as _, Evidence, Needs, Step};
 use crate::simulator;

@@ -13,7 +13,7 @@ use ads_cnc::{Decode, ErrorKind};
 use super::kit::{
     Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, type_and_length,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, assumed};
 use crate::objects::decode_element_count;
 

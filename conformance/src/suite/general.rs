@@ -12,7 +12,7 @@ use ads_cnc::{CncString, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed, online};
 
 #[rustfmt::skip]

@@ -8,7 +8,7 @@ use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, Variable
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, Steady, name_of};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 
 #[rustfmt::skip]

@@ -12,7 +12,7 @@ use ads_cnc::operation::{
 use ads_cnc::{Kind, TextRef, U32List};
 
 use super::kit::{Probe, RawCall};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Needs, OrStop as _, Rule, Step, assumed};
 
 #[rustfmt::skip]

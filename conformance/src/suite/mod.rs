@@ -25,6 +25,7 @@ mod no_padding;
 mod platform;
 mod printed;
 pub mod replay;
+mod row;
 mod run;
 mod sda;
 mod service_interface;
@@ -49,30 +50,8 @@ pub use kit::{Changes, Probe, TargetState};
 pub use run::run;
 pub(crate) use variable::holds_together;
 
-use crate::judge::{Body, Case, CaseSubject, Needs, Step, codec_cases, in_catalogue};
-
-/// The function that tries a case.
-type Try = fn(&mut Probe<'_>) -> Step;
-
-/// A case that a function tries.
-struct CaseRow {
-    id: &'static str,
-    clauses: &'static [&'static str],
-    needs: Needs,
-    run: Try,
-    title: &'static str,
-}
-
-/// A row of a table of cases.
-const fn case(
-    id: &'static str,
-    clauses: &'static [&'static str],
-    needs: Needs,
-    run: Try,
-    title: &'static str,
-) -> CaseRow {
-    CaseRow { id, clauses: in_catalogue(clauses), needs, run, title }
-}
+use crate::judge::{Body, Case, CaseSubject, codec_cases};
+use row::CaseRow;
 
 /// The cases that a function tries.
 const TABLES: &[&[CaseRow]] = &[

@@ -4,7 +4,7 @@ use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
 use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 use crate::values::until_nul;
 

@@ -4,7 +4,7 @@ use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
 use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]

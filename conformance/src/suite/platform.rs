@@ -11,7 +11,7 @@ use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 use super::kit::{
     OBJECTS_MAX, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, applicable, assumed};
 use crate::objects::{List, Object};
 

@@ -5,7 +5,8 @@ use std::sync::LazyLock;
 
 use super::kit::{Probe, TargetState};
 
-use super::{Try, printed, replay, rows};
+use super::row::Try;
+use super::{printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, caught};

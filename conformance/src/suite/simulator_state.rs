@@ -2,7 +2,7 @@
 //! content another value, so that none passes for another.
 
 use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, Stop};
 use crate::objects::{List, Object, ValueAddress};
 use crate::simulator::{Holder, StoredContent};

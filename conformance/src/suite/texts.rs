@@ -4,7 +4,7 @@ use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, same};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 

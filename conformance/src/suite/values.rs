@@ -9,7 +9,7 @@ use super::kit::{
     Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_count,
     element_name, name_of, order, part, places_tried, same,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::explain::{ValueFormat, type_by_name};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step};
 use crate::text::hex::spaced;

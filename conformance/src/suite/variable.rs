@@ -13,7 +13,7 @@ use ads_cnc::{
 };
 
 use super::kit::{Probe, VARIABLES_MAX, name_of};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, assumed};
 use crate::objects::KINDS;
 

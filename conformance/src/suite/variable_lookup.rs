@@ -9,7 +9,7 @@ use ads_cnc::{CncStr, CncString, Description, TextRef};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, name_of};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step};
 
 #[rustfmt::skip]

@@ -8,7 +8,7 @@ use super::kit::{
     NOTHING_WRITABLE, Probe, WriteCheck, axis_address, dynamic_among_variables, each_of_access,
     handle_of, same, write_check,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 

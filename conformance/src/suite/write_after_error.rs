@@ -8,7 +8,7 @@ use super::kit::{
     NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, changed_value, is_sendable,
     writable_numbers,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable};
 use crate::objects::{List, ValueAddress};
 

@@ -5,7 +5,7 @@ use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step};
 use crate::objects::ValueAddress;
 

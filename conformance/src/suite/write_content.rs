@@ -7,7 +7,7 @@ use ads_cnc_vectors::Hex;
 use super::kit::{
     NOTHING_WRITABLE, Probe, RawCall, WritableElement, WriteCheck, elements_with_flag,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, applicable, assumed};
 use crate::objects::{Object, ValueAddress};
 

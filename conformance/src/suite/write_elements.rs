@@ -5,7 +5,7 @@ use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, each_of_access, handle_of, same, write_check};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 

@@ -6,7 +6,7 @@ use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, axis_address, element_count, is_of_service, write_value};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 

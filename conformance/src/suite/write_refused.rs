@@ -9,7 +9,7 @@ use super::kit::{
     Probe, RawCall, WritableNumber, WriteCheck, changed_value, each_of_access, handle_of,
     is_sendable, require_taken, writable_numbers, write_check,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 

@@ -8,7 +8,7 @@ use super::kit::{
     Probe, axis_address, changed_value, each_of_access, is_of_service, is_sendable, is_taken,
     require_taken,
 };
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed, online};
 use crate::objects::ValueAddress;
 

@@ -4,7 +4,7 @@ use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{Probe, WriteCheck, each_of_access, write_value};
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, online};
 use crate::objects::ValueAddress;
 use crate::values::until_nul;

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
+use crate::cli::message::complain;
 use crate::cli::report_output::show;
-use crate::cli::{complain, run_dry};
+use crate::cli::run_dry;
 use crate::faults::{Faulty, Seed};
 use crate::judge::{CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;

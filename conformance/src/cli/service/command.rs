@@ -12,7 +12,6 @@ use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 
 use super::response::{Ended, KEPT, ServiceResponse, answer};
-use super::utf8;
 use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
@@ -147,4 +146,9 @@ fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
         let room = KEPT.saturating_sub(kept.len());
         kept.extend(chunk.iter().take(len.min(room)));
     }
+}
+
+/// As a command gets and gives it.
+pub(super) fn utf8(text: CncStr<'_>) -> String {
+    text.chars().collect()
 }

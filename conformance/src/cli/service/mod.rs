@@ -14,13 +14,12 @@ use std::io::{self, Write as _};
 use std::sync::Arc;
 use std::time::Duration;
 
-use ads_cnc::CncStr;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByName, Task, WriteByName};
 use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
@@ -329,9 +328,4 @@ fn write(
     value: &[u8],
 ) -> Result<WriteByName<'_>, Trouble> {
     WriteByName::new(channel, variable.name(), value).map_err(Trouble::Unsendable)
-}
-
-/// As a command gets and gives it.
-fn utf8(text: CncStr<'_>) -> String {
-    text.chars().collect()
 }

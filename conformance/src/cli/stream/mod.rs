@@ -21,7 +21,7 @@ use ads_cnc::operation::{Task, WriteProgramStream};
 use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
-use super::complain;
+use super::message::complain;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;

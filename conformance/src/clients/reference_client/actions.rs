@@ -15,8 +15,9 @@ use serde_json::{Value, json};
 
 use super::error::Fail;
 use super::wire::Connection;
-use super::{DONE, Flaw, service, streaming};
+use super::{Flaw, service, streaming};
 use crate::clients::Action;
+use crate::clients::message::DONE;
 use crate::values::{self, Type};
 
 /// The most descriptors that are asked for at once.

@@ -10,8 +10,6 @@ mod wire;
 
 use std::time::Duration;
 
-use serde_json::Value;
-
 pub use defects::{ClientDefect, Flaw, defects, find_defect, habits};
 
 use super::message::{ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL};
@@ -73,6 +71,3 @@ pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> Client
         Err(Fail::Hangs) => ClientReaction::Silent(Duration::MAX),
     }
 }
-
-/// Nothing to say but that it is done.
-const DONE: Value = Value::Bool(true);

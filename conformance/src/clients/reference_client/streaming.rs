@@ -10,9 +10,10 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, NcText};
 use serde_json::Value;
 
+use super::Flaw;
 use super::error::Fail;
 use super::wire::Connection;
-use super::{DONE, Flaw};
+use crate::clients::message::DONE;
 
 /// From one look to the next.
 pub(super) const PAUSE: Duration = Duration::from_millis(10);

@@ -10,7 +10,7 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Call;
 
 use super::{CncFault, Memory, ReplyData, Upstream, is};
-use crate::faults::{How, Seed};
+use crate::faults::seed::{How, Seed};
 use crate::simulator::{Cnc, Model, Responder, respond};
 use crate::wire_service::{reply_stream, request_stream, service_of};
 

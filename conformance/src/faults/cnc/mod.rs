@@ -25,6 +25,7 @@ mod object;
 mod off_by_one;
 mod partial;
 mod request;
+mod row;
 mod service;
 mod stale;
 mod stream_program;
@@ -44,89 +45,14 @@ pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
     first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
 };
+pub(crate) use self::row::CncFault;
+pub(in crate::faults) use self::row::{CncSeed, fault, on, program, row};
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;
-pub(in crate::faults) use self::upstream::{Key, later, put_off, reply, within_length};
+pub(in crate::faults) use self::upstream::{Key, later, or_short, put_off, reply, within_length};
+pub(in crate::faults) use crate::simulator::ReplyData;
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
-
-use ads_cnc::ads::FrameRef;
-use ads_cnc::operation::{Call, Function};
-
-use crate::edition::Edition;
-use crate::judge::in_catalogue;
-pub(in crate::faults) use crate::simulator::ReplyData;
-use crate::simulator::program::Policy;
-
-/// How a CNC does something wrong, or otherwise.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum CncFault {
-    /// Around each request.
-    Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Around each request for one of these functions.
-    Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// After each frame that answers one: what is sent instead.
-    Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
-    /// Bytes are sent in pieces of at most this size.
-    Pieces(usize),
-    /// In its NC programs.
-    Program(Policy),
-    /// It is another CNC: one with this model.
-    Model(&'static str),
-}
-
-/// A row of the tables of defects.
-pub(super) struct CncSeed {
-    pub(super) id: &'static str,
-    pub(super) breaks: &'static [&'static str],
-    pub(super) what: &'static str,
-    pub(super) fault: CncFault,
-    /// The edition it shows in, if it does not in any.
-    pub(super) edition: Option<Edition>,
-    /// Whether printed examples are answered as printed, as far as it is about.
-    pub(super) printed: bool,
-}
-
-/// A row about requests.
-pub(super) const fn row(
-    id: &'static str,
-    breaks: &'static [&'static str],
-    what: &'static str,
-    answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
-) -> CncSeed {
-    fault(id, breaks, what, CncFault::Answer(answer))
-}
-
-/// A row about requests for functions.
-pub(super) const fn on(
-    id: &'static str,
-    breaks: &'static [&'static str],
-    what: &'static str,
-    functions: &'static [Function],
-    answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
-) -> CncSeed {
-    fault(id, breaks, what, CncFault::Function(functions, answer))
-}
-
-/// A row about something else.
-pub(super) const fn fault(
-    id: &'static str,
-    breaks: &'static [&'static str],
-    what: &'static str,
-    fault: CncFault,
-) -> CncSeed {
-    CncSeed { id, breaks: in_catalogue(breaks), what, fault, edition: None, printed: true }
-}
-
-/// A row about the NC program.
-pub(super) const fn program(
-    id: &'static str,
-    breaks: &'static [&'static str],
-    what: &'static str,
-    policy: Policy,
-) -> CncSeed {
-    fault(id, breaks, what, CncFault::Program(policy))
-}
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {

@@ -162,3 +162,12 @@ pub(in crate::faults) fn reply(
 ) -> ReplyData {
     if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }
+
+/// If it is too long for the client, as it was.
+pub(in crate::faults) fn or_short(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    answer: ReplyData,
+) -> ReplyData {
+    within_length(call, answer).or_else(|_| cnc.answer(call))
+}

@@ -1,6 +1,6 @@
 //! What streaming does not permit in NC text (STM).
 
-use super::{CodecFault, CodecSeed, Right, accepted, refused, row};
+use super::row::{CodecFault, CodecSeed, Right, accepted, refused, row};
 use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// What the text is with every line made another.

@@ -1,7 +1,7 @@
 //! NC text in packets (STM).
 
 use super::nc::{accepts, lines};
-use super::{CodecFault, CodecSeed, refused, row};
+use super::row::{CodecFault, CodecSeed, refused, row};
 
 /// Packets of at most this many bytes, of whole lines.
 fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {

@@ -1,6 +1,6 @@
 //! What is refused though it is right.
 
-use super::{CodecFault, CodecSeed, Right, refused, row};
+use super::row::{CodecFault, CodecSeed, Right, refused, row};
 use crate::codec::message::{Answer, Question};
 
 /// The first question's bytes at a place, as UNS32.

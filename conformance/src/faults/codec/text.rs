@@ -3,7 +3,7 @@
 use ads_cnc::text::cp1252_to_char;
 
 use super::json::{numbers, texts};
-use super::{CodecFault, CodecSeed, row};
+use super::row::{CodecFault, CodecSeed, row};
 
 const NAMES: [&str; 4] =
     ["variable-kind", "variable-index-kind", "variable-name", "dynamic-name-request"];

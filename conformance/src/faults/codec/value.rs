@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 
 use super::json::{each, lists, numbers};
-use super::{CodecFault, CodecSeed, row};
+use super::row::{CodecFault, CodecSeed, row};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecSeed] = &[

@@ -8,7 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use ads_cnc_vectors::{Level, clause, requirements};
 
 use self::transcript::Transcript;
+use super::cnc::CncFault;
+use super::seed::How;
 use super::*;
+use crate::edition::Edition;
 use crate::testee::{self, Answer, Own, Question};
 use crate::{clients, suite};
 

@@ -4,7 +4,7 @@ use ads_cnc::address::{Attribute, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::unprinted;
+use super::row::unprinted;
 use crate::faults::cnc::{
     CncFault, CncSeed, ReplyData, Upstream, class, fault, function, group, is, number, offset, on,
     row, set_u32, text, u32_at, within_length,

@@ -1,6 +1,7 @@
 //! Other CNCs: with channels, axes, objects and variables of their own.
 
-use super::{CncFault, CncSeed, fault, unprinted};
+use super::row::unprinted;
+use crate::faults::cnc::{CncFault, CncSeed, fault};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[

@@ -7,9 +7,10 @@ use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
-use super::{
-    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, row, sent,
-    set_u32, text, u32_at, unprinted,
+use super::row::{sent, unprinted};
+use crate::faults::cnc::{
+    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, row, set_u32,
+    text, u32_at,
 };
 
 #[rustfmt::skip]

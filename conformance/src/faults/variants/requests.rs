@@ -4,7 +4,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Function, OffsetRule, Service};
 
-use super::unprinted;
+use super::row::unprinted;
 use crate::faults::cnc::{
     CncSeed, INDEXED, NAMED, WRITES, function, functions, group, is, is_at, is_lookup, number,
     of_decoder, offset, row, set_u32, text, u32_at,

@@ -3,11 +3,11 @@
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::{
-    CncFault, CncSeed, NAMED, ReplyData, Upstream, fault, function, group, is, offset, on,
-    records_mut, row, set_u32, text, u32_at, unprinted,
+use super::row::{sent, unprinted};
+use crate::faults::cnc::{
+    CncFault, CncSeed, NAMED, ReplyData, Upstream, after_nul, dimensions, fault, function, group,
+    is, measured, offset, on, records_mut, row, set_u32, text, u32_at,
 };
-use super::{measured, sent};
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 
@@ -24,8 +24,7 @@ fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
         let all = (0_u32..).map_while(|index| {
             cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), kind].concat()).ok()
         });
-        let names =
-            all.filter_map(|bytes| Some(text(bytes.get(super::dimensions(&bytes).1..)?).to_vec()));
+        let names = all.filter_map(|bytes| Some(text(bytes.get(dimensions(&bytes).1..)?).to_vec()));
         names.into_iter().find(|name| name.eq_ignore_ascii_case(base))
     });
     match listed {
@@ -178,12 +177,12 @@ pub(super) const ROWS: &[CncSeed] = &[
         })),
     row("different.texts-whole", &[], "a STRING is written with all its bytes, and refused with fewer",
         |cnc, call| match writes_text(cnc, call) {
-            Some(size) if super::after_nul(call.data).len() < size => Err(AdsError::INVALID_SIZE),
+            Some(size) if after_nul(call.data).len() < size => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
     row("different.texts-ended", &[], "a STRING is written with a NUL, and refused without",
         |cnc, call| match writes_text(cnc, call) {
-            Some(_) if !super::after_nul(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
+            Some(_) if !after_nul(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
     unprinted(fault("different.model-numbers", &[],

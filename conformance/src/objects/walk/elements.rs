@@ -9,7 +9,7 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag, ObjectAddress};
 
 use super::super::{List, Object, ReportedAccess, ValueAddress};
-use super::{CLASSES, Walk, Walker as _};
+use super::{Attributes, CLASSES, Walk, Walker as _};
 use crate::session::Trouble;
 use crate::values::Type;
 
@@ -18,15 +18,6 @@ const ELEMENTS_MAX: u32 = 0xFFFF;
 
 /// The most names of one element of a class that are told apart.
 const ALIKE_MAX: usize = 64;
-
-/// What an element says of itself.
-#[derive(Clone, Debug)]
-pub(super) struct Attributes {
-    name: CncString,
-    ty: Type,
-    unit: Option<CncString>,
-    access: ReportedAccess,
-}
 
 impl Walk<'_> {
     /// Which of SDA and GEO has a class no manual says: GEO is asked for what SDA does not have.

@@ -7,21 +7,20 @@ mod walker;
 
 use std::collections::HashMap;
 
+use ads_cnc::CncString;
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{FindInstance, Request, Task};
 use ads_cnc::sda::ObjectAddress;
 
-use super::{List, Object, Pattern};
+use super::{List, Object, Pattern, ReportedAccess};
 use crate::session::{Session, Trouble};
-use elements::Attributes;
+use crate::values::Type;
+pub use walker::GAP;
+use walker::NUMBER_MAX;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
 
-/// The most numbers in a row that the target may reject before a list counts as ended.
-pub const GAP: u32 = 8;
 /// Descriptors in one request.
 pub const RANGE: u32 = 256;
-/// The most channels, axes and spindles.
-const NUMBER_MAX: u32 = 255;
 
 /// The most objects that are listed, and looked at in one list.
 pub const OBJECTS_MAX: u32 = 100_000;
@@ -138,6 +137,15 @@ struct Walk<'w> {
     /// Attributes that were read, by class, whether of an axis, and number: elements of other instances
     /// with the same name are assumed to have the same.
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
+}
+
+/// What an element says of itself.
+#[derive(Clone, Debug)]
+struct Attributes {
+    name: CncString,
+    ty: Type,
+    unit: Option<CncString>,
+    access: ReportedAccess,
 }
 
 impl Walk<'_> {

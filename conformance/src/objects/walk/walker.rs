@@ -6,7 +6,12 @@ use ads_cnc::sda::{ElementCount, ElementLength};
 use ads_cnc::{Decode, Descriptors, Kind};
 
 use super::super::Object;
-use super::{GAP, NUMBER_MAX};
+
+/// The most numbers in a row that the target may reject before a list counts as ended.
+pub const GAP: u32 = 8;
+
+/// The most channels, axes and spindles.
+pub(super) const NUMBER_MAX: u32 = 255;
 
 /// The kinds of variables that have an index.
 pub(crate) const KINDS: [(&str, Kind<'static>); 3] =

@@ -6,6 +6,7 @@
 mod build;
 mod claims;
 mod configured;
+mod data;
 mod document;
 mod error;
 mod item;
@@ -13,88 +14,25 @@ mod parameter;
 mod types;
 mod variable;
 
-use std::collections::HashMap;
 use std::path::Path;
 
 use ads_cnc::address::Class;
-use ads_cnc::{CncString, Descriptors};
 
 pub(crate) use configured::Configured;
+pub(super) use data::{AxisModel, ChannelModel, class_place};
+pub use data::{Model, Settings};
 pub use error::ModelError;
 pub(super) use item::{ClassModel, Item, Meaning, Objects};
 pub(super) use parameter::{Parameter, Times};
 pub(super) use variable::{At, Variable, Variables, handle_at};
 
-use super::program::{ProgramConfig, ScriptConfig};
+use super::program::ProgramConfig;
 use crate::edition::{CncVersion, Edition};
 pub(super) use build::parameter_kind;
 use error::Source;
 
 /// The default model, as it is read: what the manuals print, and something of everything else.
 pub const DEFAULT_MODEL: &str = include_str!("default.toml");
-
-/// A checked data model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Model {
-    pub(super) edition: Edition,
-    pub(super) version: Option<CncVersion>,
-    /// In the order of their numbers.
-    pub(super) channels: Vec<ChannelModel>,
-    /// In the configured order, which is that of their places on the platform.
-    pub(super) axes: Vec<AxisModel>,
-    pub(super) spindles: usize,
-    pub(super) platform: Objects,
-    /// Of each platform axis.
-    pub(super) platform_axis: Objects,
-    /// Of each place of each channel.
-    pub(super) channel_axis: Objects,
-    /// V.A.
-    pub(super) axis_variables: Variables,
-    pub(super) classes: [ClassModel; 6],
-    pub(super) platform_list: Descriptors,
-    pub(super) axis_lists: Vec<Descriptors>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct ChannelModel {
-    /// Logical number, from 1.
-    pub(super) number: u8,
-    /// At the start.
-    pub(super) active: bool,
-    /// Which axis is at which place at the start.
-    pub(super) places: Vec<Option<usize>>,
-    pub(super) objects: Objects,
-    pub(super) variables: Variables,
-    /// Of V.E and V.G, in the order of their indices.
-    pub(super) external: Vec<usize>,
-    pub(super) global: Vec<usize>,
-    pub(super) by_handle: HashMap<u32, At>,
-    pub(super) parameters: Vec<Parameter>,
-    pub(super) program: ProgramConfig,
-    /// Its program that asks services, if it has one.
-    pub(super) script: Option<ScriptConfig>,
-    /// Its objects and those of its places.
-    pub(super) list: Descriptors,
-    /// Those, and after them the platform's (COM-4).
-    pub(super) list_of_first: Descriptors,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct AxisModel {
-    /// Instance identifier, in names of V.A on the channel interface.
-    pub(super) name: CncString,
-    /// Logical axis number, not 0.
-    pub(super) number: u32,
-}
-
-/// What overrides the settings of a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Settings {
-    /// The edition of the manual that the CNC follows.
-    pub edition: Option<Edition>,
-    /// The version that it claims to be.
-    pub version: Option<CncVersion>,
-}
 
 impl Model {
     /// The default model: [`DEFAULT_MODEL`].
@@ -159,17 +97,5 @@ impl Model {
     /// The class's elements; of which instances, the class says.
     pub(super) fn class(&self, class: Class) -> Option<&ClassModel> {
         self.classes.get(class_place(class))
-    }
-}
-
-/// Where in an array with something for each class.
-pub(super) const fn class_place(class: Class) -> usize {
-    match class {
-        Class::PositionController => 0,
-        Class::Interpolator => 1,
-        Class::Decoder => 2,
-        Class::Hld => 3,
-        Class::PathPreparation => 4,
-        Class::Spindle => 5,
     }
 }

@@ -2,6 +2,7 @@ use std::io::{Read as _, Write as _};
 use std::time::Instant;
 
 use super::*;
+use crate::gate::NET_ID;
 use crate::simulator::Cnc;
 
 /// How many V.E variables channel 1 has, as it goes over the wire but for the invoke ID.

@@ -7,10 +7,9 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, VariableType};
 
-use super::ask_if_claimed;
 use crate::judge::{Checks as _, Step};
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, RawCall, name_of};
+use crate::suite::kit::{Probe, RawCall, ask_if_claimed, name_of};
 use crate::wire_service::clause;
 
 /// TCP may cut a frame anywhere: its length says where it ends.

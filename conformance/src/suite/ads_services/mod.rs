@@ -14,11 +14,11 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 use crate::objects::decode_element_count;
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, Steady, compare, name_of};
+use crate::suite::kit::{Probe, Steady, ask_if_claimed, compare, name_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -57,19 +57,6 @@ fn ask_for_data<'a>(
     let expected = || format!("{} by {}", request.function().spec().name, exchange.service);
     probe.check(rule, data.is_some(), expected, &exchange);
     Ok(data)
-}
-
-/// The answer to a request, if the target claims to have one: whether it gives one is judged
-/// elsewhere.
-fn ask_if_claimed<'a>(
-    probe: &mut Probe<'_>,
-    request: impl Into<Request<'a>>,
-) -> Step<Option<Vec<u8>>> {
-    let request = request.into();
-    match probe.claims(request.function()) {
-        Claim::No => Ok(None),
-        Claim::Yes | Claim::Open => probe.try_ask(request),
-    }
 }
 
 fn number(data: &[u8]) -> u32 {

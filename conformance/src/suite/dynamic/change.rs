@@ -7,7 +7,7 @@ use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueBy
 
 use ads_cnc_vectors::Hex;
 
-use super::{number, prefix};
+use super::parameters::{number, prefix};
 use crate::judge::{Checks as _, Step};
 use crate::simulator::Cnc;
 use crate::suite::kit::Probe;

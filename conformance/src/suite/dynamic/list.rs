@@ -11,7 +11,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc_vectors::Hex;
 
-use super::{PARAMETERS_MAX, each, nothing, number, prefix};
+use super::parameters::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Checks as _, Evidence, Step, Stop, assumed};
 use crate::objects::KINDS;
 use crate::profile::Claim;

@@ -6,7 +6,7 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 
-use super::{each, first, names_of, rejects_steadily};
+use super::parameters::{each, first, names_of, rejects_steadily};
 use crate::judge::{Checks as _, Step, assumed};
 use crate::suite::kit::{Probe, RawCall};
 

@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, TextRef};
 
-use super::{PARAMETERS_MAX, each, first, names_of, number, prefix, rejects_steadily};
+use super::parameters::{PARAMETERS_MAX, each, first, names_of, number, prefix, rejects_steadily};
 use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
 use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};

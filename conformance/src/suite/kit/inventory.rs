@@ -17,7 +17,7 @@ pub(crate) use variables::{VARIABLES_MAX, name_of};
 use crate::judge::{OrStop as _, Step, Stop};
 use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
 use crate::profile::Claim;
-use crate::suite::kit::Probe;
+use crate::suite::kit::{Instance, Probe};
 
 /// The most objects of a list that are looked at, and elements of an instance.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
@@ -27,41 +27,6 @@ pub(crate) const INSTANCES_MAX: u32 = 255;
 /// Classes with an instance for each channel, and one for each axis of it.
 pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
-
-/// The objects and instances of a target, read when a case first needs them.
-#[derive(Debug, Default)]
-pub(crate) struct Inventory {
-    objects: Option<Vec<Object>>,
-    instances: Option<Vec<Instance>>,
-}
-
-/// An instance of a class, by the channel and the axis of its request.
-#[derive(Clone, Debug)]
-pub(crate) struct Instance {
-    pub(crate) class: Class,
-    pub(crate) channel: u32,
-    pub(crate) axis: u32,
-    pub(crate) first: ElementAddress,
-    /// The number of elements that the target reports.
-    pub(crate) reported: u32,
-    /// The elements without element 0, which holds their number: whether the number counts it is not
-    /// documented.
-    pub(crate) count: u32,
-    /// The elements that cases look at.
-    reached: u32,
-}
-
-impl Instance {
-    /// Whether its number counts element 0.
-    pub(crate) const fn counts_itself(&self) -> bool {
-        self.reported > self.count
-    }
-
-    /// Its elements without element 0.
-    pub(crate) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
-        (1..=self.reached).map_while(|place| self.first.nth(place).ok())
-    }
-}
 
 /// The attributes of an element.
 pub(crate) fn attribute_reads(element: ElementAddress) -> [Request<'static>; 5] {
@@ -79,12 +44,6 @@ pub(crate) fn element_by_rank(element: ElementAddress, rank: u8) -> ElementAddre
     let group =
         ClassGroup { addressing: Addressing::Index, instance: rank, ..element.class_group() };
     ElementAddress::new(group, element.index_offset())
-}
-
-impl std::fmt::Display for Instance {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} ({}, {})", self.class, self.channel, self.axis)
-    }
 }
 
 impl Walker for Probe<'_> {
@@ -151,16 +110,16 @@ impl Probe<'_> {
 
     /// Every object of all lists. Other cases judge a descriptor that cannot be read.
     pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
-        if self.target.inventory.objects.is_none() {
+        if self.target.objects.is_none() {
             let mut all = Vec::new();
             for list in self.lists()? {
                 let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
                 let count = count.map_or(0, |count| count.0.min(OBJECTS_MAX));
                 all.extend(self.objects_of(list, count, 1)?);
             }
-            self.target.inventory.objects = Some(all);
+            self.target.objects = Some(all);
         }
-        let all = self.target.inventory.objects.clone();
+        let all = self.target.objects.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
@@ -175,16 +134,16 @@ impl Probe<'_> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
         }
-        if self.target.inventory.instances.is_none() {
+        if self.target.instances.is_none() {
             let (mut all, channels) = (Vec::new(), self.channels()?);
             for class in CLASSES {
                 self.instances_of(class, &channels, true, &mut |probe, channel, axis| {
                     probe.has_instance(class, channel, axis, &mut all)
                 })?;
             }
-            self.target.inventory.instances = Some(all);
+            self.target.instances = Some(all);
         }
-        let all = self.target.inventory.instances.clone();
+        let all = self.target.instances.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")
     }
 

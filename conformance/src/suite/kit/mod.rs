@@ -3,10 +3,12 @@
 
 mod addresses;
 mod axis_interface;
+mod changes;
 mod counted;
 mod dynamic_variables;
 mod each_variable;
 mod element_type;
+mod instance;
 mod inventory;
 mod layout;
 mod object_list;
@@ -25,13 +27,14 @@ pub(crate) use axis_interface::{
     AxisHandle, PLACES_MAX, answering_places, axis_address, axis_names, axis_variables,
     name_on_axes,
 };
+pub use changes::Changes;
 pub(crate) use counted::Counted;
 pub(crate) use dynamic_variables::dynamic_among_variables;
 pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use element_type::type_and_length;
+pub(crate) use instance::Instance;
 pub(crate) use inventory::{
-    INSTANCES_MAX, Instance, Inventory, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads,
-    element_by_rank, name_of,
+    INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads, element_by_rank, name_of,
 };
 pub(crate) use layout::{
     brackets, element_count, element_name, element_size, order, part, places_tried,
@@ -40,14 +43,13 @@ pub(crate) use object_list::{
     descriptors_one_by_one, known_object_count, object_count, read_descriptors,
 };
 pub use probe::Probe;
-pub(crate) use probe::with_reply;
+pub(crate) use probe::{ask_if_claimed, with_reply};
 pub(crate) use raw_call::{IntoRawCall, RawCall};
 pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{HELD_MAX, StreamWrite, send, send_until_taken};
 pub use target_state::TargetState;
 pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};
-pub use undo::Changes;
 pub(crate) use writable::{
     WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,
     is_taken, require_taken, writable_numbers, write_check, write_value,

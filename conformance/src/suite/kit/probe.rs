@@ -329,3 +329,16 @@ pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
         _ => Ok(exchange),
     }
 }
+
+/// The answer to a request, if the target claims to have one: whether it gives one is judged
+/// elsewhere.
+pub(crate) fn ask_if_claimed<'a>(
+    probe: &mut Probe<'_>,
+    request: impl Into<Request<'a>>,
+) -> Step<Option<Vec<u8>>> {
+    let request = request.into();
+    match probe.claims(request.function()) {
+        Claim::No => Ok(None),
+        Claim::Yes | Claim::Open => probe.try_ask(request),
+    }
+}

@@ -9,9 +9,10 @@ use ads_cnc::operation::Service;
 use crate::client::Client;
 use crate::deadline::Deadline;
 use crate::judge::Record;
+use crate::objects::Object;
 use crate::profile::Profile;
 use crate::simulator::Cnc;
-use crate::suite::kit::{Changes, Inventory};
+use crate::suite::kit::{Changes, Instance};
 
 /// A connection to a target, and the state that the cases of a run have found so far.
 #[derive(Debug)]
@@ -22,8 +23,10 @@ pub struct TargetState {
     pub profile: Profile,
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
-    /// What is known of its objects and elements.
-    pub(in crate::suite) inventory: Inventory,
+    /// Its objects, read when a case first needs them.
+    pub(in crate::suite) objects: Option<Vec<Object>>,
+    /// Its instances, read when a case first needs them.
+    pub(in crate::suite) instances: Option<Vec<Instance>>,
     /// The CNC itself, if it is in this process.
     pub(in crate::suite) cnc: Option<Arc<Cnc>>,
     /// Requests sent.
@@ -60,7 +63,8 @@ impl TargetState {
             client,
             profile,
             variables: BTreeMap::new(),
-            inventory: Inventory::default(),
+            objects: None,
+            instances: None,
             cnc: None,
             frames: 0,
             answered: Vec::new(),

@@ -8,7 +8,7 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
-use super::{Done, Fault, differs, lacks};
+use super::outcome::{Done, Fault, differs, lacks};
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{
     Repeat, Script, ScriptConfig, ServiceOutcome, ServiceRequest, Wait,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
 use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
-use super::{Done, Fault, differs, lacks};
+use super::outcome::{Done, Fault, differs, lacks};
 use crate::simulator::program::{Message, Pace, State, StreamingProgram};
 
 /// A CNC that a program is streamed to.

@@ -10,9 +10,10 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::streaming::Ack;
 use ads_cnc_vectors::{Requirement, ServiceSequence, StreamAck, StreamStep, Streaming};
 
+use super::outcome::{Done, Fault, differs};
 use super::service::{ServiceActor, fault_class, script};
 use super::streaming::StreamActor;
-use super::{Done, Fault, differs, service, streaming};
+use super::{service, streaming};
 use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, ServiceInterface};

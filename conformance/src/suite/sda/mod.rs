@@ -5,7 +5,7 @@ mod empty_places;
 mod platform;
 mod range;
 
-use super::{CaseRow, case};
+use super::row::{CaseRow, case};
 use crate::judge::Needs;
 
 #[rustfmt::skip]

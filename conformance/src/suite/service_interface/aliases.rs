@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, ONE, WIDE, read_variable, within, within_at, write_variable};
+use super::interface::{NONE, ONE, WIDE, read_variable, within, within_at, write_variable};
 use crate::judge::{Checks as _, Step};
 use crate::suite::kit::{Probe, service_channels};
 use crate::values::until_nul;

@@ -1,6 +1,7 @@
 //! Cases of the Service Interface: its variables, and what writing them leads to.
 
 mod aliases;
+mod interface;
 mod program;
 mod variables;
 
@@ -10,11 +11,12 @@ use ads_cnc::operation::{HandleByName, ReadByName, WriteByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
+use self::interface::{NONE, ONE, WIDE, read_variable, within, write_variable};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, Rule, Step, Stop, assumed};
 use crate::objects::ValueAddress;
-use crate::suite::kit::{Probe, WriteCheck, service_channels, with_reply};
-use crate::suite::{CaseRow, case};
+use crate::suite::kit::{Probe, WriteCheck, service_channels};
+use crate::suite::row::{CaseRow, case};
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -73,33 +75,6 @@ fn variables(probe: &mut Probe<'_>) -> Step {
     }
     Ok(())
 }
-
-fn read_variable(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    variable: ServiceVariable,
-) -> Step<Vec<u8>> {
-    let request = ReadByName::new(channel, variable.name())?;
-    let exchange = with_reply(probe.send(request)?)?;
-    let value = exchange.success();
-    Ok(value.unwrap_or_default().to_vec())
-}
-
-fn write_variable(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    variable: ServiceVariable,
-    value: &[u8],
-) -> Step<bool> {
-    let request = WriteByName::new(channel, variable.name(), value)?;
-    let exchange = with_reply(probe.send(request)?)?;
-    Ok(exchange.success().is_some())
-}
-
-const ONE: [u8; 4] = [1, 0, 0, 0];
-const NONE: [u8; 4] = [0; 4];
-/// Each byte another.
-const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
@@ -175,38 +150,6 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     let read = read_variable(probe, channel, ResponseState)?;
     probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", || Hex(read));
     Ok(())
-}
-
-/// Uses the interface of the first channel that has one from both sides, and leaves it as at the
-/// start.
-fn within(
-    probe: &mut Probe<'_>,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
-) -> Step {
-    let lacks = || Stop::not_applicable("no channel has the Service Interface");
-    let channel = service_channels(probe)?.into_iter().next().ok_or_else(lacks)?;
-    within_at(probe, channel, then)
-}
-
-/// As [`within`], of any channel.
-fn within_at(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
-) -> Step {
-    let cnc = probe.cnc()?;
-    let number = channel.number();
-    // What asks there of itself asks nothing meanwhile.
-    let script = cnc.with_script(number, |script| script.cloned())?;
-    let empty = || -> Step {
-        cnc.set_script(number, None)?;
-        Ok(cnc.with_service(number, |service| service.reset())?)
-    };
-    empty()?;
-    let done = then(probe, channel, &cnc);
-    empty()?;
-    cnc.set_script(number, script)?;
-    done
 }
 
 fn request_states(probe: &mut Probe<'_>) -> Step {

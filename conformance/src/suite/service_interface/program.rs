@@ -7,7 +7,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, read_variable, within, write_variable};
+use super::interface::{NONE, read_variable, within, write_variable};
 use crate::judge::{Checks as _, Step, Stop};
 use crate::simulator::program::{Repeat, Script, ScriptConfig, ScriptState, ServiceOutcome};
 use crate::suite::kit::Probe;

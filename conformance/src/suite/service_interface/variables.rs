@@ -5,7 +5,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, WIDE, read_variable, within, write_variable};
+use super::interface::{NONE, WIDE, read_variable, within, write_variable};
 use crate::judge::{Checks as _, Step};
 use crate::suite::kit::Probe;
 use crate::values::until_nul;

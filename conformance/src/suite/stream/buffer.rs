@@ -6,7 +6,6 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
-use super::comment;
 use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, ProgramConfig, Start, State, StreamingProgram};
@@ -237,4 +236,12 @@ pub(super) fn reset(probe: &mut Probe<'_>) -> Step {
         expect(probe, &["STM-11", "STM-14"], b"N10 Y1\r\n".to_vec(), stage.executed()?);
         Ok(())
     })
+}
+
+/// A comment of so many bytes, with its line end.
+pub(super) fn comment(len: usize) -> Vec<u8> {
+    let mut line = vec![b'('];
+    line.resize(len.saturating_sub(3), b'-');
+    line.extend(b")\r\n");
+    line
 }

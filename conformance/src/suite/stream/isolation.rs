@@ -1,7 +1,6 @@
 //! Room: each channel has its own, and what is refused takes none of it.
 
-use super::buffer::{expect, set_up, set_up_at, write_accepted};
-use super::comment;
+use super::buffer::{comment, expect, set_up, set_up_at, write_accepted};
 use crate::judge::{Checks as _, Step};
 use crate::simulator::program::{Pace, Start};
 use crate::suite::kit::{HELD_MAX, Probe, send};

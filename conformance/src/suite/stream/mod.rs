@@ -12,7 +12,8 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
-use super::{CaseRow, case};
+use self::buffer::comment;
+use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
 use crate::suite::kit::{HELD_MAX, Probe, send};
@@ -90,14 +91,6 @@ fn object(probe: &mut Probe<'_>) -> Step {
 
 /// How long a device may take before it has read what it holds.
 const PATIENCE: Duration = Duration::from_secs(30);
-
-/// A comment of so many bytes, with its line end.
-fn comment(len: usize) -> Vec<u8> {
-    let mut line = vec![b'('];
-    line.resize(len.saturating_sub(3), b'-');
-    line.extend(b")\r\n");
-    line
-}
 
 /// The first channel whose stream may be written. On the simulated CNC its program is configured anew, so
 /// that earlier lines have no effect.

@@ -10,8 +10,11 @@ use super::super::item::Objects;
 use super::super::variable::{At, Variables, handle_at};
 use super::super::{AxisModel, ChannelModel, ModelError};
 use super::variables::{self, handle_span};
-use super::{INSTANCES_MAX, items, parameters, programs};
+use super::{items, parameters, programs};
 use crate::edition::{CncVersion, Feature};
+
+/// Platform axes, spindles and places of a channel: what index groups and handles have room for.
+pub(super) const INSTANCES_MAX: usize = 255;
 
 /// What channels are built with.
 pub(super) struct Channels<'a> {

@@ -10,8 +10,11 @@ use super::super::error::Source;
 use super::super::item::{ClassModel, Elements, Initial, InitialValues, Item, Meaning, Objects};
 use super::super::types::{self, NamedType, ScalarType};
 use super::super::{ModelError, class_place};
-use super::text;
-use crate::simulator::{CONTENT_MAX, to_len};
+use super::parse::text;
+use crate::simulator::to_len;
+
+/// The most bytes of a content: what a frame has room for beside a result and a length.
+const CONTENT_MAX: usize = 0xFFF8;
 
 /// Bytes of a STRING whose size is not given (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;

@@ -4,26 +4,20 @@ mod channels;
 mod items;
 mod lists;
 mod parameters;
+mod parse;
 mod programs;
 mod variables;
 
 use std::collections::BTreeSet;
-use std::time::Duration;
 
-use ads_cnc::CncString;
-use toml::Spanned;
-
-use self::channels::Channels;
+use self::channels::{Channels, INSTANCES_MAX};
 pub(in crate::simulator) use self::parameters::kind as parameter_kind;
+use self::parse::text;
 use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
 use crate::edition::{CncVersion, Edition};
 use crate::simulator::to_len;
-use crate::text::duration;
-
-/// Platform axes, spindles and places of a channel: what index groups and handles have room for.
-const INSTANCES_MAX: usize = 255;
 
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
     let document: Document = toml::from_str(source.text).map_err(|error| {
@@ -108,19 +102,4 @@ fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, Mode
         axes.push(AxisModel { name, number });
     }
     Ok(axes)
-}
-
-/// CP1252.
-fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelError> {
-    text.get_ref().parse().map_err(|error| source.error(&text.span(), error))
-}
-
-/// A number and its unit.
-fn time(source: Source<'_>, given: &Spanned<String>) -> Result<Duration, ModelError> {
-    duration(given.get_ref()).map_err(|why| source.error(&given.span(), why))
-}
-
-/// Whether it encodes, whatever it is.
-fn encodes(what: &impl ads_cnc::Encode) -> Result<(), String> {
-    what.encode_to_vec().map(drop).map_err(|error| error.to_string())
 }

@@ -11,6 +11,7 @@ use super::super::document::ParameterRow;
 use super::super::error::Source;
 use super::super::item::Objects;
 use super::super::{ModelError, Parameter, Times};
+use super::parse::{text, time};
 
 /// The parameters of a channel that has these objects.
 pub(super) fn of_channel(
@@ -21,7 +22,7 @@ pub(super) fn of_channel(
     let (mut parameters, mut names) = (Vec::new(), BTreeSet::new());
     for row in rows {
         let span = row.name.span();
-        let name = super::text(source, &row.name)?;
+        let name = text(source, &row.name)?;
         let kind = kind(&name).map_err(|why| source.error(&span, why))?;
         let needs = row.r#while.as_ref().map(|object| {
             let named = |item: &&super::super::Item| item.name.to_string() == *object.get_ref();
@@ -43,7 +44,7 @@ pub(super) fn of_channel(
 
 fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
     let time = |given: &Option<Spanned<String>>| {
-        given.as_ref().map(|given| super::time(source, given)).transpose()
+        given.as_ref().map(|given| time(source, given)).transpose()
     };
     let (comes, goes, period) = (time(&row.comes)?, time(&row.goes)?, time(&row.period)?);
     let times = Times::new(comes.unwrap_or_default(), goes, period);

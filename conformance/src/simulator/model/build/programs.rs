@@ -8,6 +8,7 @@ use toml::{Spanned, Value};
 use super::super::ModelError;
 use super::super::document::{RequestRow, ServiceTable, StreamingTable};
 use super::super::error::Source;
+use super::parse::{text, time};
 use crate::simulator::program::{
     Pace, ParsePaceError, ProgramConfig, Repeat, Script, ScriptConfig, ServiceRequest, Start, Wait,
 };
@@ -64,7 +65,7 @@ pub(super) fn service(
         Some(times) => Repeat::Times(*times.get_ref()),
         None => Repeat::Endless,
     };
-    let pause = table.pause.as_ref().map(|given| super::time(source, given)).transpose()?;
+    let pause = table.pause.as_ref().map(|given| time(source, given)).transpose()?;
     let cycle = table
         .cycle
         .as_ref()
@@ -80,7 +81,7 @@ pub(super) fn service(
 fn request(source: Source<'_>, row: &RequestRow) -> Result<ServiceRequest, ModelError> {
     let uuid = ServiceId::new(row.uuid.get_ref());
     let uuid = uuid.map_err(|error| source.error(&row.uuid.span(), error))?;
-    let text = super::text(source, &row.request)?;
+    let text = text(source, &row.request)?;
     let wait = row.wait.as_ref().map(Spanned::get_ref);
     let request = ServiceRequest {
         uuid,

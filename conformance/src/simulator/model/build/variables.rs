@@ -16,8 +16,8 @@ use super::super::error::Source;
 use super::super::item::{Initial, InitialValues};
 use super::super::types;
 use super::super::variable::{Variable, Variables};
-use super::encodes;
 use super::items::DeclaredValue;
+use super::parse::text;
 use crate::simulator::{to_len, to_u32};
 
 /// Room for the axis's name after that of its variable.
@@ -26,7 +26,7 @@ const AXIS_NAME_MAX: usize = 64;
 /// A variable and where it is declared.
 fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelError> {
     let span = row.name.span();
-    let name: CncString = super::text(source, &row.name)?;
+    let name: CncString = text(source, &row.name)?;
     let path = VariablePath::from_text(name.as_cnc_str());
     let path = path.map_err(|error| source.error(&span, error))?;
     if !path.elements().is_empty() {
@@ -237,4 +237,9 @@ pub(super) fn handle_span(row: &VariableRow) -> std::ops::Range<usize> {
 
 fn starts_with(name: &CncString, kind: &str) -> bool {
     name.as_bytes().starts_with(kind.as_bytes())
+}
+
+/// Whether it encodes, whatever it is.
+fn encodes(what: &impl ads_cnc::Encode) -> Result<(), String> {
+    what.encode_to_vec().map(drop).map_err(|error| error.to_string())
 }

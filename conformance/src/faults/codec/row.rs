@@ -1,0 +1,180 @@
+//! A row of the tables of defects of a codec, and how a codec has each.
+
+use ads_cnc::layout::{FieldSpec, Stream, Type};
+use serde_json::Value as Json;
+
+use crate::codec::message::{Answer, Output, Question, Rejection};
+use crate::faults::{FieldChange, FieldDefect};
+use crate::judge::in_catalogue;
+
+pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
+
+/// How a codec does something wrong.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum CodecFault {
+    /// What it has to refuse for such a fault it accepts.
+    Accepts(&'static str, &'static str),
+    /// It refuses this stream if it is as long as it may be.
+    Longest(&'static str),
+    /// It takes two fields of a stream for each other.
+    Swaps(&'static str, &'static str, &'static str),
+    /// Each number of the stream has its bytes in reverse order.
+    BigEndian(Stream),
+    /// Values are changed on their way out and in: of the stream, the value.
+    Value(fn(&str, &mut Json)),
+    /// Bytes are changed on their way out.
+    Bytes(fn(&str, Vec<u8>) -> Vec<u8>),
+    /// Packets of NC text are changed on their way out.
+    Packets(fn(Vec<Vec<u8>>) -> Vec<Vec<u8>>),
+    /// NC text is changed on its way in.
+    Text(fn(&[u8]) -> Vec<u8>),
+    /// Anything.
+    Around(fn(Right<'_>, &Question) -> Answer),
+}
+
+impl CodecFault {
+    pub(crate) fn answer(self, right: Right<'_>, question: &Question) -> Answer {
+        let stream = question.stream.as_str();
+        match self {
+            Self::Accepts(class, of) => match right(question) {
+                Answer::Reject(reject)
+                    if of == stream && reject.class.as_deref() == Some(class) =>
+                {
+                    accepted()
+                }
+                answer => answer,
+            },
+            Self::Longest(of) => {
+                let longest = Stream::by_name(of).map(|stream| stream.layout().max);
+                let len = question.hex.as_ref().and_then(|hex| u32::try_from(hex.len()).ok());
+                if of == stream && question.op == "decode" && len == longest {
+                    refused("too-long")
+                } else {
+                    right(question)
+                }
+            }
+            Self::Swaps(of, one, other) => {
+                if of == stream {
+                    around_value(right, question, |value| swap(value, one, other))
+                } else {
+                    right(question)
+                }
+            }
+            Self::BigEndian(of) => {
+                if of.layout().name == stream {
+                    big_endian(right, question, of)
+                } else {
+                    right(question)
+                }
+            }
+            Self::Value(change) => around_value(right, question, |value| change(stream, value)),
+            Self::Bytes(change) => match right(question) {
+                Answer::Ok(Output { hex: Some(bytes), .. }) if question.op == "encode" => {
+                    Answer::Ok(Output { hex: Some(change(stream, bytes)), ..Output::default() })
+                }
+                answer => answer,
+            },
+            Self::Packets(change) => match right(question) {
+                Answer::Ok(Output { packets: Some(packets), .. }) => {
+                    Answer::Ok(Output { packets: Some(change(packets)), ..Output::default() })
+                }
+                answer => answer,
+            },
+            Self::Text(change) => {
+                let mut other = question.clone();
+                if question.op == "packets" {
+                    other.hex = question.hex.as_deref().map(change);
+                }
+                for packet in other.packets.iter_mut().flatten() {
+                    *packet = change(packet);
+                }
+                right(&other)
+            }
+            Self::Around(change) => change(right, question),
+        }
+    }
+}
+
+/// It is accepted, whatever it is.
+pub(super) fn accepted() -> Answer {
+    let value = Some(Json::Object(serde_json::Map::default()));
+    Answer::Ok(Output { value, ..Output::default() })
+}
+
+pub(super) fn refused(class: &str) -> Answer {
+    Answer::Reject(Rejection { class: Some(class.to_owned()), ..Rejection::default() })
+}
+
+/// With the value changed that comes out of `decode` and that goes into `encode`.
+fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
+    let mut other = question.clone();
+    if let Some(fields) = &question.value
+        && let Ok(mut value) = serde_json::to_value(fields)
+    {
+        change(&mut value);
+        match serde_json::from_value(value) {
+            Ok(fields) => other.value = Some(fields),
+            Err(error) => return Answer::Error { message: error.to_string() },
+        }
+    }
+    match right(&other) {
+        Answer::Ok(Output { value: Some(mut value), .. }) => {
+            change(&mut value);
+            Answer::Ok(Output { value: Some(value), ..Output::default() })
+        }
+        answer => answer,
+    }
+}
+
+/// Swaps two fields, in each record.
+fn swap(value: &mut Json, one: &str, other: &str) {
+    match value {
+        Json::Array(items) => items.iter_mut().for_each(|item| swap(item, one, other)),
+        Json::Object(fields) => match (fields.remove(one), fields.remove(other)) {
+            (Some(first), Some(second)) => {
+                fields.insert(one.to_owned(), second);
+                fields.insert(other.to_owned(), first);
+            }
+            _ => fields.values_mut().for_each(|field| swap(field, one, other)),
+        },
+        _ => {}
+    }
+}
+
+fn big_endian(right: Right<'_>, question: &Question, stream: Stream) -> Answer {
+    let all = FieldDefect::of_stream(stream);
+    let numbers = all.iter().filter(|one| one.change == FieldChange::SwapBytes && is_number(one));
+    let turn = |bytes: &[u8]| numbers.clone().fold(bytes.to_vec(), |bytes, one| one.apply(&bytes));
+    let mut other = question.clone();
+    other.hex = question.hex.as_deref().map(turn);
+    match right(&other) {
+        Answer::Ok(Output { hex: Some(bytes), .. }) => {
+            Answer::Ok(Output { hex: Some(turn(&bytes)), ..Output::default() })
+        }
+        answer => answer,
+    }
+}
+
+pub(super) fn is_number(defect: &FieldDefect) -> bool {
+    let number = |field: &FieldSpec| {
+        matches!(field.ty, Type::Uns16 | Type::Uns32 | Type::Unsigned | Type::Real64)
+    };
+    defect.field.spec().is_some_and(number)
+}
+
+/// A row of the tables of defects.
+pub(super) struct CodecSeed {
+    pub(super) id: &'static str,
+    pub(super) breaks: &'static [&'static str],
+    pub(super) what: &'static str,
+    pub(super) fault: CodecFault,
+}
+
+pub(super) const fn row(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    fault: CodecFault,
+) -> CodecSeed {
+    CodecSeed { id, breaks: in_catalogue(breaks), what, fault }
+}

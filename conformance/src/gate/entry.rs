@@ -1,0 +1,162 @@
+//! One thing that may be written.
+
+use std::fmt;
+
+use ads_cnc::address::{Addressing, Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
+use ads_cnc::operation::{ObjectList, Operation as _, Request};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{CncStr, CncString};
+
+/// One thing that may be written. Shown as the table that allows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// A variable by its name, or by a handle that was asked for by this name.
+    Variable {
+        channel: Channel,
+        /// Which axis, over the axis interface.
+        axis: Option<ChannelAxis>,
+        /// The name. Without an index it includes the elements.
+        name: CncString,
+    },
+    /// The content at an address: of a COM object or of an element.
+    Content { group: IndexGroup, offset: IndexOffset },
+    /// The content of the one COM object of this name in a list.
+    Object { list: AllowedList, name: CncString },
+    /// NC programs for a channel.
+    Stream(Channel),
+    /// What a host of the Service Interface writes to a channel.
+    Service(Channel),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AllowedList {
+    /// Of the platform.
+    Platform,
+    /// Of a channel.
+    Channel(Channel),
+    /// Of a platform axis.
+    Axis(PlatformAxis),
+}
+
+impl AllowedList {
+    /// The list as it is addressed.
+    pub fn list(self) -> ObjectList {
+        match self {
+            Self::Platform => ObjectList::PLATFORM,
+            Self::Channel(channel) => channel.into(),
+            Self::Axis(axis) => axis.into(),
+        }
+    }
+}
+
+impl Entry {
+    /// The entry that would allow a request; none for one that no entry of its own allows.
+    pub fn needed(request: &Request<'_>) -> Option<Self> {
+        Some(match request {
+            Request::WriteByName(op) if is_of_service(op.name) => Self::Service(op.channel),
+            Request::WriteByName(op) => {
+                Self::Variable { channel: op.channel, axis: None, name: op.name.into() }
+            }
+            Request::AxisWriteByName(op) => {
+                Self::Variable { channel: op.channel, axis: Some(op.axis), name: op.name.into() }
+            }
+            Request::WriteProgramStream(op) => Self::Stream(op.channel),
+            Request::WriteObject(op) => {
+                Self::Content { group: op.index_group(), offset: op.index_offset() }
+            }
+            Request::WriteElement(op) => {
+                Self::Content { group: op.index_group(), offset: op.index_offset() }
+            }
+            _ => return None,
+        })
+    }
+
+    /// Whether a variable of this name may be written.
+    pub(super) fn allows_variable(
+        &self,
+        of: Channel,
+        at: Option<ChannelAxis>,
+        asked: CncStr<'_>,
+    ) -> bool {
+        match self {
+            Self::Variable { channel, axis, name } => {
+                (*channel, *axis) == (of, at) && is_or_is_in(asked, name)
+            }
+            Self::Service(channel) => *channel == of && at.is_none() && is_of_service(asked),
+            _ => false,
+        }
+    }
+}
+
+/// What a host writes; the rest is the NC program's.
+const SERVICE: [ServiceVariable; 3] =
+    [ServiceVariable::RequestState, ServiceVariable::ResponseState, ServiceVariable::Response];
+
+fn is_of_service(name: CncStr<'_>) -> bool {
+    SERVICE.iter().any(|variable| name == *variable.name())
+}
+
+/// Whether the name is this one, or that of an element: nothing but indices follow.
+fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
+    let asked: Vec<u8> = asked.bytes().collect();
+    let Some(rest) = asked.strip_prefix(name.as_bytes()) else { return false };
+    let is_index = |part: &[u8]| match part {
+        [b'[', digits @ ..] => !digits.is_empty() && digits.iter().all(u8::is_ascii_digit),
+        _ => false,
+    };
+    match rest {
+        [] => true,
+        [indices @ .., b']'] => indices.split(|&byte| byte == b']').all(is_index),
+        _ => false,
+    }
+}
+
+/// As a file has it.
+impl fmt::Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Variable { channel, axis, name } => {
+                writeln!(f, "[[variable]]\n{}", at(*channel))?;
+                if let Some(axis) = axis {
+                    writeln!(f, "axis = {}", axis.index())?;
+                }
+                write!(f, "name = {}", quoted(name))
+            }
+            Self::Content { group, offset } => {
+                let is_com = group.get() & 0xFFFF < 0x300;
+                let table = if is_com { "object" } else { "element" };
+                write!(f, "[[{table}]]\ngroup = {group}\noffset = {offset}")
+            }
+            Self::Object { list, name } => {
+                let list = match list {
+                    AllowedList::Platform => "channel = 0".to_owned(),
+                    AllowedList::Channel(channel) => at(*channel),
+                    AllowedList::Axis(axis) => format!("axis = {}", axis.index()),
+                };
+                write!(f, "[[object]]\n{list}\nname = {}", quoted(name))
+            }
+            Self::Stream(channel) => write!(f, "[[stream]]\n{}", at(*channel)),
+            Self::Service(channel) => write!(f, "[[service]]\n{}", at(*channel)),
+        }
+    }
+}
+
+fn at(channel: Channel) -> String {
+    let key = match channel.addressing() {
+        Addressing::Logical => "channel",
+        Addressing::Index => "rank",
+    };
+    format!("{key} = {}", channel.number())
+}
+
+/// As a basic string of TOML.
+fn quoted(name: &CncString) -> String {
+    let escaped = name.as_cnc_str().chars().flat_map(|character| match character {
+        '"' | '\\' => vec!['\\', character],
+        character if character.is_control() => {
+            format!("\\u{:04x}", u32::from(character)).chars().collect()
+        }
+        character => vec![character],
+    });
+    format!("\"{}\"", escaped.collect::<String>())
+}

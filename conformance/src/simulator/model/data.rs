@@ -1,0 +1,85 @@
+//! The data model.
+
+use std::collections::HashMap;
+
+use ads_cnc::address::Class;
+use ads_cnc::{CncString, Descriptors};
+
+use super::{At, ClassModel, Objects, Parameter, Variables};
+use crate::edition::{CncVersion, Edition};
+use crate::simulator::program::{ProgramConfig, ScriptConfig};
+
+/// A checked data model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    pub(in crate::simulator) edition: Edition,
+    pub(in crate::simulator) version: Option<CncVersion>,
+    /// In the order of their numbers.
+    pub(in crate::simulator) channels: Vec<ChannelModel>,
+    /// In the configured order, which is that of their places on the platform.
+    pub(in crate::simulator) axes: Vec<AxisModel>,
+    pub(in crate::simulator) spindles: usize,
+    pub(in crate::simulator) platform: Objects,
+    /// Of each platform axis.
+    pub(in crate::simulator) platform_axis: Objects,
+    /// Of each place of each channel.
+    pub(in crate::simulator) channel_axis: Objects,
+    /// V.A.
+    pub(in crate::simulator) axis_variables: Variables,
+    pub(in crate::simulator) classes: [ClassModel; 6],
+    pub(in crate::simulator) platform_list: Descriptors,
+    pub(in crate::simulator) axis_lists: Vec<Descriptors>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::simulator) struct ChannelModel {
+    /// Logical number, from 1.
+    pub(in crate::simulator) number: u8,
+    /// At the start.
+    pub(in crate::simulator) active: bool,
+    /// Which axis is at which place at the start.
+    pub(in crate::simulator) places: Vec<Option<usize>>,
+    pub(in crate::simulator) objects: Objects,
+    pub(in crate::simulator) variables: Variables,
+    /// Of V.E and V.G, in the order of their indices.
+    pub(in crate::simulator) external: Vec<usize>,
+    pub(in crate::simulator) global: Vec<usize>,
+    pub(in crate::simulator) by_handle: HashMap<u32, At>,
+    pub(in crate::simulator) parameters: Vec<Parameter>,
+    pub(in crate::simulator) program: ProgramConfig,
+    /// Its program that asks services, if it has one.
+    pub(in crate::simulator) script: Option<ScriptConfig>,
+    /// Its objects and those of its places.
+    pub(in crate::simulator) list: Descriptors,
+    /// Those, and after them the platform's (COM-4).
+    pub(in crate::simulator) list_of_first: Descriptors,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::simulator) struct AxisModel {
+    /// Instance identifier, in names of V.A on the channel interface.
+    pub(in crate::simulator) name: CncString,
+    /// Logical axis number, not 0.
+    pub(in crate::simulator) number: u32,
+}
+
+/// What overrides the settings of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Settings {
+    /// The edition of the manual that the CNC follows.
+    pub edition: Option<Edition>,
+    /// The version that it claims to be.
+    pub version: Option<CncVersion>,
+}
+
+/// Where in an array with something for each class.
+pub(in crate::simulator) const fn class_place(class: Class) -> usize {
+    match class {
+        Class::PositionController => 0,
+        Class::Interpolator => 1,
+        Class::Decoder => 2,
+        Class::Hld => 3,
+        Class::PathPreparation => 4,
+        Class::Spindle => 5,
+    }
+}

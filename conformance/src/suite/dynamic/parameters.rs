@@ -1,0 +1,96 @@
+//! The dynamic parameters that the cases look at.
+
+use ads_cnc::address::Channel;
+use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
+use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, Request};
+use ads_cnc::{CncString, Decode as _};
+
+use crate::judge::{Rule, Step, Stop};
+use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
+
+/// The most parameters of a kind that are looked at.
+pub(super) const PARAMETERS_MAX: u32 = 1_000;
+
+/// What the names of a kind begin with, and its name.
+pub(super) const fn prefix(kind: DynamicKind) -> &'static str {
+    match kind {
+        DynamicKind::P => "P",
+        DynamicKind::VL => "V.L.",
+        DynamicKind::VP => "V.P.",
+        DynamicKind::VS => "V.S.",
+    }
+}
+
+/// How many there are, if the target says; that is judged elsewhere.
+pub(super) fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<u32> {
+    let count = probe.try_read::<DynamicCount>(CountDynamic::new(channel, kind))?;
+    Ok(count.map_or(0, |count| count.0))
+}
+
+/// Every kind of every channel that has a parameter.
+pub(super) fn each(
+    probe: &mut Probe<'_>,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, DynamicKind, u32) -> Step,
+) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        for kind in DynamicKind::ALL {
+            let count = number(probe, channel, kind)?.min(PARAMETERS_MAX);
+            if count > 0 {
+                any = true;
+                judge(probe, channel, kind, count)?;
+            }
+        }
+    }
+    if any { Ok(()) } else { Err(nothing()) }
+}
+
+pub(super) fn nothing() -> Stop {
+    Stop::not_applicable("there is no parameter at the moment")
+}
+
+/// The names of a kind up to the first index that is rejected; other cases judge that.
+pub(super) fn names_of(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    count: u32,
+) -> Step<Vec<(u32, CncString)>> {
+    let mut all = Vec::new();
+    for index in 1..=count {
+        let request = DynamicNameByIndex::new(channel, kind, index)?;
+        // Where one is not there, none is behind it.
+        let Some(data) = probe.try_ask(request)? else { break };
+        let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
+        // One that leaves no room for its NUL cannot be asked for.
+        let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
+        all.extend(name.map(|name| (index, name)));
+    }
+    Ok(all)
+}
+
+/// The first name of a kind. A program may have deleted it meanwhile.
+pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<CncString> {
+    let first = names_of(probe, channel, kind, 1)?.into_iter().next();
+    let lacks = || Stop::Inconclusive(format!("{}: no name of index 1", prefix(kind)));
+    first.map(|(_, name)| name).ok_or_else(lacks)
+}
+
+/// Sends what must be rejected, beside a request that differs by the fault only and is answered.
+pub(super) fn rejects_steadily<'a>(
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    what: &str,
+    (channel, kind): (Channel, DynamicKind),
+    bad: impl IntoRawCall<'a>,
+    good: Request<'_>,
+) -> Step {
+    let (rule, bad) = (rule.into(), bad.into_raw_call()?);
+    let count = CountDynamic::new(channel, kind).into();
+    steadily(probe, &[count, good], |probe, _| {
+        let exchange = probe.call(&bad)?;
+        let expected = || format!("an error number for {what}");
+        Ok(vec![PendingCheck::new(probe, rule, exchange.is_rejected(), expected, &exchange)])
+    })
+}
