@@ -247,11 +247,11 @@ pub(super) struct TopicRecord<'b> {
 
 impl TopicRecord<'_> {
     /// Something that may have been so or not: it was not captured.
-    pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Display) {
+    pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
         if let Some((_, record, _)) = &mut self.topic {
             let (verdict, expected) = (Verdict::Inconclusive, "all of it in the capture");
             let evidence = || Some(self.observation.evidence());
-            record.add(rule.into(), verdict, expected, || found, evidence);
+            record.add(rule.into(), verdict, expected, found, evidence);
         }
     }
 

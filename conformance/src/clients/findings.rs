@@ -1,13 +1,10 @@
 //! What is found of a client in one scenario.
 
-use std::fmt::Display;
-
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
-use ads_cnc_vectors::Level;
 
 use super::test_server::Turn;
-use crate::judge::{CLIENT, Evidence, Record, Rule};
+use crate::judge::{Describe, Evidence, Record, Rules};
 use crate::wire_service::{decode_reply, service_of};
 
 /// Checks made, and what came of them.
@@ -20,24 +17,13 @@ impl Findings {
     /// Judges one check; the turn is its evidence.
     pub(super) fn check(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         kept: bool,
         turn: Option<&Turn>,
-        expected: impl Display,
-        found: impl Display,
-    ) -> bool {
-        let mut rule = rule.into();
-        if rule.id == CLIENT {
-            // Not of the catalogue.
-            rule.level = Some(Level::Must);
-        }
-        let (expected, found) = if kept {
-            (String::new(), String::new())
-        } else {
-            (expected.to_string(), found.to_string())
-        };
-        self.record.add(rule, rule.verdict(kept), expected, found, || turn.map(evidence));
-        kept
+        expected: impl Describe,
+        found: impl Describe,
+    ) {
+        self.record.add_all(rules, kept, expected, found, || turn.map(evidence));
     }
 }
 

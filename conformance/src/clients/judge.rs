@@ -55,7 +55,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
                 |one: &Scenario| CaseOutcome::untried(one.case(), verdict, why.to_owned());
             let mut outcomes: Vec<CaseOutcome> = scenarios.iter().map(untried).collect();
             if over.is_none() {
-                manners.check(CLIENT, false, None, "an answer to hello", reaction);
+                manners.check(CLIENT, false, None, "an answer to hello", || reaction);
                 outcomes.push(of_manners(manners));
             }
             return JudgedClient { hello: None, outcomes, requests };
@@ -120,8 +120,9 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
     }
     if lost < LOST_MAX && actor.over().is_none() {
         let bye = actor.bye();
-        let found = bye.clone().err().unwrap_or_default();
-        manners.check(CLIENT, bye.is_ok(), None, "its end with exit code 0 after bye", found);
+        let kept = bye.is_ok();
+        let found = || bye.err().unwrap_or_default();
+        manners.check(CLIENT, kept, None, "its end with exit code 0 after bye", found);
     }
     one_line(actor, &mut manners);
     outcomes.push(of_manners(manners));
@@ -131,7 +132,8 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
 /// Judges that it says one line each time, and no more.
 fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
     for line in actor.unasked() {
-        manners.check(CLIENT, false, None, "one line for each action", format!("{line} as well"));
+        manners
+            .check(CLIENT, false, None, "one line for each action", || format!("{line} as well"));
     }
 }
 
@@ -229,7 +231,7 @@ fn judge_reaction(
     let kept = match reaction {
         ClientReaction::Answer(ActionResult::Unsupported(what)) => {
             // What it knows is in its hello; this it claimed.
-            let found = format!("unsupported: {what}");
+            let found = || format!("unsupported: {what}");
             findings.check(CLIENT, false, last, "what its hello claims", found);
             return Some(Stop::NotApplicable(format!("the client has no {what}")));
         }
@@ -253,9 +255,7 @@ fn judge_reaction(
         }
         ClientReaction::Broken(why) => return Some(Stop::Inconclusive(why.clone())),
     };
-    for rule in rules {
-        findings.check(rule, kept, last, &expected, reaction);
-    }
+    findings.check(&rules, kept, last, || &expected, || reaction);
     None
 }
 

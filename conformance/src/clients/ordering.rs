@@ -106,14 +106,16 @@ fn stream(scenario: &Scenario, turns: &[Turn], findings: &mut Findings) {
     }
     let expected = on_the_wire(scenario.program.as_deref().unwrap_or_default());
     let kept = arrived == expected;
-    let found = if arrived.len() == expected.len() {
-        "as many bytes in another order, or others".to_owned()
-    } else {
-        format!("{} bytes of it", arrived.len())
+    let found = || {
+        if arrived.len() == expected.len() {
+            "as many bytes in another order, or others".to_owned()
+        } else {
+            format!("{} bytes of it", arrived.len())
+        }
     };
     let last = packets.last().map(|(turn, _)| *turn);
-    let what = format!("the program line by line, {} bytes", expected.len());
-    findings.check("STM-15", kept, last, &what, &found);
+    let what = || format!("the program line by line, {} bytes", expected.len());
+    findings.check("STM-15", kept, last, what, found);
     if refused.is_some() || !scenario.refused.is_empty() {
         findings.check("STM-6", refused.is_none() && kept, last, what, found);
     }
@@ -184,7 +186,7 @@ fn host(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
         let len = value.len();
         findings.check("SVC-1", fits, Some(answer.turn), "at most 128 bytes", len);
         let right = until_nul(value) == REQUEST.as_bytes();
-        let found = String::from_utf8_lossy(until_nul(value)).into_owned();
+        let found = || String::from_utf8_lossy(until_nul(value));
         findings.check("SVC-1", right, Some(answer.turn), REQUEST, found);
     }
     if let Some(cleared) =
@@ -211,7 +213,7 @@ fn caller(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
     let before = all.get(..asked.unwrap_or(0)).unwrap_or_default();
     for variable in [Uuid, Request] {
         let kept = before.iter().any(|one| one.variable == variable && one.value.is_some());
-        let expected = format!("{variable:?} written before REQUEST_STATE");
+        let expected = || format!("{variable:?} written before REQUEST_STATE");
         findings.check("SVC-12", kept, turn, expected, "not before it");
     }
     let after = all.get(asked.unwrap_or(all.len())..).unwrap_or_default();

@@ -93,30 +93,30 @@ fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Finding
     });
     let Some((one, turn)) = nearest else {
         let found = match turns.last() {
-            None => "no request at all".to_owned(),
-            Some(_) => "nothing that could be it".to_owned(),
+            None => "no request at all",
+            Some(_) => "nothing that could be it",
         };
-        findings.check(ask.place, false, turns.last(), describe(ask), found);
+        findings.check(ask.place, false, turns.last(), || describe(ask), found);
         return;
     };
     let turn = Some(*turn);
-    let named = describe(ask);
-    let hex = |number: u32| format!("{number:#x}");
+    let hex = |number: u32| move || format!("{number:#x}");
+    let found = || format!("command {}", one.command);
     findings.check(
         ask.service_rule(),
         service(one),
         turn,
-        format!("command {}: {named}", ask.command),
-        format!("command {}", one.command),
+        || format!("command {}: {}", ask.command, describe(ask)),
+        found,
     );
     if !service(one) {
-        findings.check(ask.place, false, turn, &named, format!("command {}", one.command));
+        findings.check(ask.place, false, turn, || describe(ask), found);
         return;
     }
     // Which of SDA and GEO serves a class is specified of the decoder alone.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
-    findings.check("GEN-4", port, turn, format!("port {}", ask.port), one.port);
+    findings.check("GEN-4", port, turn, || format!("port {}", ask.port), || one.port);
     let group = one.group == ask.group;
     findings.check(ask.group_rule(), group, turn, hex(ask.group), hex(one.group));
     let offset = one.offset == ask.offset;
@@ -124,30 +124,25 @@ fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Finding
         ask.place,
         group && offset,
         turn,
-        format!("index group {:#x}, index offset {:#x}", ask.group, ask.offset),
-        format!("{:#x}, {:#x}", one.group, one.offset),
+        || format!("index group {:#x}, index offset {:#x}", ask.group, ask.offset),
+        || format!("{:#x}, {:#x}", one.group, one.offset),
     );
+    let (expected, found) = (|| Hex(ask.data.clone()), || Hex(one.data.clone()));
     if ask.tolerated.contains(&one.data) {
-        findings.check(
-            assumed(ask.stream),
-            false,
-            turn,
-            Hex(ask.data.clone()),
-            Hex(one.data.clone()),
-        );
+        findings.check(assumed(ask.stream), false, turn, expected, found);
     } else if !ask.data.is_empty() || !one.data.is_empty() {
-        let kept = is_data(one);
-        findings.check(ask.stream, kept, turn, Hex(ask.data.clone()), Hex(one.data.clone()));
+        findings.check(ask.stream, is_data(one), turn, expected, found);
     }
-    let (enough, wanted) = match ask.length {
-        Length::AtLeast(least) => (one.length >= least, format!("at least {least} bytes read")),
-        Length::Times(size) => (
-            one.length > 0 && one.length.checked_rem(size) == Some(0),
-            format!("a read length of {size} or a multiple"),
-        ),
+    let enough = match ask.length {
+        Length::AtLeast(least) => one.length >= least,
+        Length::Times(size) => one.length > 0 && one.length.checked_rem(size) == Some(0),
+    };
+    let expected = || match ask.length {
+        Length::AtLeast(least) => format!("at least {least} bytes read"),
+        Length::Times(size) => format!("a read length of {size} or a multiple"),
     };
     let rule = if matches!(ask.length, Length::Times(_)) { "COM-3" } else { ask.service_rule() };
-    findings.check(rule, enough, turn, wanted, format!("a read length of {}", one.length));
+    findings.check(rule, enough, turn, expected, || format!("a read length of {}", one.length));
 }
 
 fn describe(ask: &Ask) -> String {

@@ -1,5 +1,7 @@
 //! What a client sends, request by request: whether it is one that a CNC knows.
 
+use std::fmt;
+
 use ads_cnc::Error;
 use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
@@ -32,7 +34,7 @@ fn one(turn: &Turn, findings: &mut Findings) {
     let frame = match FrameRef::split(&turn.request, DATA_MAX) {
         Ok(Some((frame, _))) => frame,
         Ok(None) => {
-            let found = format!("{} bytes of a frame, and no more", turn.request.len());
+            let found = || format!("{} bytes of a frame, and no more", turn.request.len());
             findings.check("ADS-5", false, Some(turn), "a whole frame", found);
             return;
         }
@@ -42,37 +44,31 @@ fn one(turn: &Turn, findings: &mut Findings) {
         }
     };
     let header = frame.header();
-    let checks = [
-        (
-            header.state_flags == StateFlags::REQUEST,
-            "state flags 0x0004",
-            format!("{:#06x}", header.state_flags.0),
-        ),
-        (header.error == AdsError::NO_ERROR, "error 0", format!("{:#x}", header.error)),
-        (header.target.net_id == NET_ID, "the NetId it was told", header.target.net_id.to_string()),
-        (
-            (1..=9).contains(&header.command.0),
-            "a command from 1 to 9",
-            header.command.0.to_string(),
-        ),
-    ];
-    for (kept, expected, found) in checks {
+    let mut check = |kept: bool, expected: &str, found: fmt::Arguments<'_>| {
         findings.check("ADS-5", kept, Some(turn), expected, found);
-    }
+    };
+    let flags = header.state_flags;
+    check(flags == StateFlags::REQUEST, "state flags 0x0004", format_args!("{:#06x}", flags.0));
+    let error = header.error;
+    check(error == AdsError::NO_ERROR, "error 0", format_args!("{error:#x}"));
+    let net_id = header.target.net_id;
+    check(net_id == NET_ID, "the NetId it was told", format_args!("{net_id}"));
+    let command = header.command.0;
+    check((1..=9).contains(&command), "a command from 1 to 9", format_args!("{command}"));
     let port = header.target.port;
     let has_task = Task::from_port(port).is_some();
-    findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", port);
+    findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", || port);
     let service = service_of(header.command).map(wire_service::clause);
     match Call::from_frame(&frame) {
         Err(error) => {
-            let expected = format!("a request of {}", name(header.command));
+            let expected = || format!("a request of {}", name(header.command));
             findings.check(service.unwrap_or(CLIENT), false, Some(turn), expected, error);
         }
         Ok(None) => {
             let harmless = [Command::READ_DEVICE_INFO, Command::READ_STATE];
             let expected = "Read, Write, ReadWrite, ReadDeviceInfo or ReadState";
             let kept = harmless.contains(&header.command);
-            findings.check(CLIENT, kept, Some(turn), expected, name(header.command));
+            findings.check(CLIENT, kept, Some(turn), expected, || name(header.command));
         }
         Ok(Some(call)) => {
             findings.check(service.unwrap_or(CLIENT), true, Some(turn), "", "");
@@ -85,7 +81,8 @@ fn one(turn: &Turn, findings: &mut Findings) {
                 }
                 Err(refusal) => {
                     let rule = clause(&call, refusal);
-                    findings.check(rule, false, Some(turn), "a request that a CNC knows", refusal);
+                    findings
+                        .check(rule, false, Some(turn), "a request that a CNC knows", || refusal);
                 }
             }
         }

@@ -1,11 +1,11 @@
 //! Checks: the rule of each, and what came of it.
 
 use std::error::Error;
-use std::fmt::Display;
+use std::fmt::{self, Display};
 
 use ads_cnc_vectors::{Hex, Level, clause};
 
-use super::{Evidence, Verdict};
+use super::{CLIENT, Evidence, Verdict};
 use crate::text::shorten;
 
 /// How a step of a case goes on.
@@ -107,6 +107,10 @@ pub struct Rule {
 
 impl From<&'static str> for Rule {
     fn from(id: &'static str) -> Self {
+        if id == CLIENT {
+            // Not of the catalogue.
+            return Self { id, level: Some(Level::Must) };
+        }
         let clause = clause(id);
         let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
         Self { id, level: clause.map(|clause| clause.level()) }
@@ -165,7 +169,8 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
     }
 }
 
-/// What a check expected, or found. Only a check that fails formats it: for a pass no closure is called.
+/// What a check expected, or found. Only a check that fails formats it: for a pass no closure is called
+/// and no `format_args!` is formatted.
 pub trait Describe {
     /// As a report shows it.
     fn describe(self) -> String;
@@ -187,7 +192,7 @@ macro_rules! describe {
     )+};
 }
 
-describe! { &str, String, &String, Hex, u32, usize, ads_cnc::Error }
+describe! { &str, String, &String, fmt::Arguments<'_>, Hex, u32, usize, ads_cnc::Error }
 
 #[derive(Clone, Debug)]
 pub struct Judgement {

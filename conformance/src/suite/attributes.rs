@@ -107,8 +107,8 @@ fn within(probe: &mut Probe<'_>) -> Step {
         }
         let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
         let length = length.map(ElementLength::get).and_then(|length| usize::try_from(length).ok());
-        let (expected, found) =
-            (format!("a length of {}", held.value.len()), format!("{length:?} for {at}"));
+        let expected = || format!("a length of {}", held.value.len());
+        let found = || format!("{length:?} for {at}");
         probe.check("ADR-6", length == Some(held.value.len()), expected, found);
     }
     probe.finish("the CNC has no element")

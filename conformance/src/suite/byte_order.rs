@@ -1,5 +1,7 @@
 //! Cases of the order of the bytes of numbers.
 
+use std::fmt::Display;
+
 use ads_cnc::Handle;
 use ads_cnc::address::{Class, Group, IndexGroup};
 use ads_cnc::dynamic::DynamicKind;
@@ -66,7 +68,12 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
 }
 
 /// A number that makes no sense, but does from behind.
-fn in_order(probe: &mut Probe<'_>, what: &str, number: u32, makes_sense: impl Fn(u32) -> bool) {
+fn in_order(
+    probe: &mut Probe<'_>,
+    what: impl Display,
+    number: u32,
+    makes_sense: impl Fn(u32) -> bool,
+) {
     let swapped = !makes_sense(number) && makes_sense(number.swap_bytes());
     let found = || format!("{number:#x} for {what}");
     probe.check("GEN-1", !swapped, "the lowest byte first", found);
@@ -77,19 +84,23 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects().if_known()?.unwrap_or_default() {
         let name = object.name.to_string();
         let Some((group, _)) = object.address.content() else { continue };
-        in_order(probe, &format!("the group of {name}"), group.get(), is_com);
-        let size = format!("the size of {name}");
-        in_order(probe, &size, object.size(), |size| size <= 0x00FF_FFFF);
+        in_order(probe, format_args!("the group of {name}"), group.get(), is_com);
+        in_order(probe, format_args!("the size of {name}"), object.size(), |size| {
+            size <= 0x00FF_FFFF
+        });
     }
     for channel in probe.channels()? {
         for one in probe.variables(channel).if_known()?.unwrap_or_default() {
             let name = one.name.text.to_string();
-            let of_type = format!("the type of {name}");
-            in_order(probe, &of_type, one.var_type.0, |code| (1..=9).contains(&code));
-            let access = format!("the access of {name}");
-            in_order(probe, &access, one.access.0, |code| (1..=2).contains(&code));
-            let size = format!("the size of {name}");
-            in_order(probe, &size, one.size, |size| size <= 0x00FF_FFFF);
+            in_order(probe, format_args!("the type of {name}"), one.var_type.0, |code| {
+                (1..=9).contains(&code)
+            });
+            in_order(probe, format_args!("the access of {name}"), one.access.0, |code| {
+                (1..=2).contains(&code)
+            });
+            in_order(probe, format_args!("the size of {name}"), one.size, |size| {
+                size <= 0x00FF_FFFF
+            });
         }
         let number = u32::from(channel.number());
         let address = probe.address_of(Class::Decoder, number, 0).if_known()?.flatten();
@@ -97,8 +108,12 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
             let of_class = |group| {
                 matches!(IndexGroup::new(group).parts(), Some(Group::Class(_))) || group == 0
             };
-            let what = format!("the group of the decoder of channel {number}");
-            in_order(probe, &what, address.index_group.get(), of_class);
+            in_order(
+                probe,
+                format_args!("the group of the decoder of channel {number}"),
+                address.index_group.get(),
+                of_class,
+            );
         }
     }
     Ok(())

@@ -40,32 +40,34 @@ fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
 fn count(probe: &mut Probe<'_>) -> Step {
     for list in lists(probe)? {
         let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
-        let asked = number.min(OBJECTS_MAX);
-        let at = list.parts().index_group();
-        // Whichever of the two is wrong, the number or the list: they are one statement.
-        for rule in ["COM-1", "COM-2"] {
-            if asked == 0 {
-                let first = ReadDescriptors::new(list, 1, 1)?;
-                probe.refuses_alone(rule, "the first of no object", first)?;
-                continue;
-            }
-            let last = ReadDescriptors::new(list, asked, 1)?;
-            let there = probe.try_ask(last)?;
-            let there = there.is_some_and(|data| DescriptorsRef::decode(&data).is_ok());
-            let expected = || format!("object {asked}, as {at} has {number}");
-            if !probe.check(rule, there, expected, "no descriptor") || asked < number {
-                continue;
-            }
-            let beyond = ReadDescriptors::new(list, number.saturating_add(1), 1);
-            let what = format!("the object behind the last of {number}");
-            probe.refuses(rule, &what, beyond?, last)?;
-        }
+        ends(probe, list, number)?;
         // They are static, and nothing that was asked meanwhile changes that.
         let again: ObjectCount = probe.read("COM-1", CountObjects::new(list))?;
-        let found = || format!("{} objects of {at}", again.0);
+        let found = || format!("{} objects of {}", again.0, list.parts().index_group());
         probe.check("COM-1", again.0 == number, || format!("{number} as before"), found);
     }
     Ok(())
+}
+
+/// The last object is there, and none beyond it. Whichever of the two is wrong, the number or the list:
+/// they are one statement.
+fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
+    let rules = ["COM-1", "COM-2"];
+    let asked = number.min(OBJECTS_MAX);
+    if asked == 0 {
+        let first = ReadDescriptors::new(list, 1, 1)?;
+        return probe.refuses_alone(rules, "the first of no object", first);
+    }
+    let last = ReadDescriptors::new(list, asked, 1)?;
+    let there = probe.try_ask(last)?;
+    let there = there.is_some_and(|data| DescriptorsRef::decode(&data).is_ok());
+    let expected = || format!("object {asked}, as {} has {number}", list.parts().index_group());
+    if !probe.check(rules, there, expected, "no descriptor") || asked < number {
+        return Ok(());
+    }
+    let beyond = ReadDescriptors::new(list, number.saturating_add(1), 1)?;
+    let what = format!("the object behind the last of {number}");
+    probe.refuses(rules, &what, beyond, last)
 }
 
 fn descriptors(probe: &mut Probe<'_>) -> Step {

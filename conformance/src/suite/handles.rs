@@ -130,10 +130,8 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let numbers = [0, 1, 0x7FFF_FFFF, u32::MAX].into_iter().chain(near);
     for number in numbers.filter(|number| !taken.contains(number)) {
         let what = format!("the handle {number:#x}");
-        for rule in ["ADS-4", "VAR-11"] {
-            let unknown = whole(channel, Handle(number));
-            probe.refuses(rule, &what, unknown, whole(channel, known.handle))?;
-        }
+        let unknown = whole(channel, Handle(number));
+        probe.refuses(["ADS-4", "VAR-11"], &what, unknown, whole(channel, known.handle))?;
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use ads_cnc::{Kind, TextRef, U32List};
 
 use super::kit::{Probe, RawCall};
 use super::row::{CaseRow, case};
-use crate::judge::{Needs, OrStop as _, Rule, Step, assumed};
+use crate::judge::{Needs, OrStop as _, Rules, Step, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -45,25 +45,19 @@ impl<'p, 's> Spoilt<'p, 's> {
     }
 
     /// Sends other data in place of the good.
-    fn data(&mut self, rule: impl Into<Rule>, what: &str, data: &[u8]) -> Step {
-        self.call(rule, what, |call| call.data = data.to_vec())
+    fn data(&mut self, rules: impl Rules, what: &str, data: &[u8]) -> Step {
+        self.call(rules, what, |call| call.data = data.to_vec())
     }
 
     /// Sends data in which count and indices do not fit each other: as long as the count says it
     /// has to be, and what is not is found out.
     fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
-        self.data("VAR-24", what, data)?;
-        self.data("VAR-11", what, data)
+        self.data(["VAR-24", "VAR-11"], what, data)
     }
 
     /// Sends the good data elsewhere or otherwise.
-    fn call(
-        &mut self,
-        rule: impl Into<Rule>,
-        what: &str,
-        spoil: impl FnOnce(&mut RawCall),
-    ) -> Step {
-        self.probe.refuses(rule, what, self.good.with(spoil), &self.good)
+    fn call(&mut self, rules: impl Rules, what: &str, spoil: impl FnOnce(&mut RawCall)) -> Step {
+        self.probe.refuses(rules, what, self.good.with(spoil), &self.good)
     }
 }
 

@@ -87,6 +87,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
                 continue;
             }
+            probe.found_subject();
             let value = probe.try_ask(ReadByName { channel, name: name_of(&variable) })?;
             let Some(value) = value else { continue };
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);

@@ -104,6 +104,7 @@ mod tests {
 
     use super::*;
     use crate::client::{Client, Target};
+    use crate::faults::{self, Faulty};
     use crate::gate::{Allowed, Gate};
     use crate::judge::Step;
     use crate::net;
@@ -128,19 +129,42 @@ mod tests {
         })
     }
 
-    /// A case that panics has changed nothing in the end, and the next one is run.
-    #[test]
-    fn what_a_panic_leaves_is_restored() {
+    /// A CNC with a defect, if there is an ID of one, of which this variable may be written.
+    fn target(defect: Option<&str>, name: &str) -> (Server, TargetState) {
         let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
-        let cnc = Arc::new(Cnc::with_default_model().unwrap());
-        let server = Server::start(listener, cnc).unwrap();
+        let defect = defect.map(|id| faults::by_id(id).unwrap());
+        let cnc = Faulty::new(Cnc::with_default_model().unwrap(), defect);
+        let server = Server::start(listener, Arc::new(cnc)).unwrap();
         let file = format!(
             "target = \"{NET_ID}\"\nexpires = 2999-01-01T00:00:00Z\n\
-             [[variable]]\nchannel = 1\nname = \"{NAME}\"\n"
+             [[variable]]\nchannel = 1\nname = \"{name}\"\n"
         );
         let gate = Gate::queries().with_allowed(Some(Allowed::from_toml(&file).unwrap()));
         let client = Client::connect(Target::local(server.addr(), NET_ID), gate).unwrap();
-        let mut target = TargetState::new(client, Profile::DEVICE);
+        (server, TargetState::new(client, Profile::DEVICE))
+    }
+
+    /// A value of 2048 bytes cannot be written by name, so that nothing is observed of writes; but not
+    /// applicable is only what the target has nothing for.
+    #[test]
+    fn not_applicable_is_only_what_cannot_be_tried() {
+        let padded = Some("cnc.var.value-2048");
+        for (defect, name, verdict) in [
+            (None, NAME, Verdict::Pass),
+            (padded, NAME, Verdict::NotObserved),
+            (None, "V.E.none", Verdict::NotApplicable),
+        ] {
+            let (_server, mut target) = target(defect, name);
+            let case = crate::suite::cases().into_iter().find(|one| one.id == "write-by-name");
+            let outcomes = run(vec![case.unwrap()], Some(&mut target), None, 1);
+            assert_eq!(outcomes[0].verdict(), verdict, "{defect:?} {name}: {outcomes:?}");
+        }
+    }
+
+    /// A case that panics has changed nothing in the end, and the next one is run.
+    #[test]
+    fn what_a_panic_leaves_is_restored() {
+        let (_server, mut target) = target(None, NAME);
         let before = Probe::new(&mut target).value_at(&place()).unwrap();
         let case = || Case {
             id: "write-and-panic".to_owned(),

@@ -62,6 +62,7 @@ fn read_only(probe: &mut Probe<'_>) -> Step {
 
 fn read_only_changed(probe: &mut Probe<'_>) -> Step {
     each_read_only(probe, |probe, write_check, address| {
+        probe.found_subject();
         let Some(before) = probe.filled_value_at(address)? else {
             return Ok(());
         };
@@ -178,6 +179,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
         tried = tried.saturating_add(1);
         let whole = ValueAddress::of_handle(channel, *handle);
         let Some(value) = probe.value_at(&first)? else { return Ok(()) };
+        probe.found_subject();
         let other = changed_value(&value, false);
         let good = first.write(&value)?;
         let named = by_name(0)?;

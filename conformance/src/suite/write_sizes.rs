@@ -60,6 +60,7 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
         for at in write_addresses(probe, channel, variable)? {
             if probe.may_write(&at.address, &variable.name.text.to_string())? {
                 tried.push(sort);
+                probe.found_subject();
                 of_address(probe, channel, variable, &at)?;
             }
         }

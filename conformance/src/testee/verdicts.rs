@@ -8,11 +8,9 @@ use super::describe::{describe, evidence};
 use super::plan::{forms, questions};
 use super::{TesteeReaction, compare};
 use crate::codec::message::{Answer, Output, Question, TesteeHello};
-use crate::judge::{
-    Body, Case, CaseOutcome, CaseSubject, Evidence, Judgement, Stop, TEXT_MAX, Verdict,
-};
+use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Describe, Record, Rule, Stop, Verdict};
 use crate::show::show;
-use crate::text::{hex::compact, shorten};
+use crate::text::hex::compact;
 
 /// How a testee is asked.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +38,21 @@ pub(super) struct Verdicts<'v> {
     pub(super) gone: Option<Stop>,
 }
 
-struct Check {
+/// How an answer differs from what was expected.
+struct Deviation {
     verdict: Verdict,
-    /// The most that it can mean.
-    level: Level,
     expected: String,
     found: String,
-    evidence: Evidence,
+}
+
+impl Deviation {
+    fn new(verdict: Verdict, expected: impl Describe, found: impl Describe) -> Self {
+        Self { verdict, expected: expected.describe(), found: found.describe() }
+    }
+
+    fn fail(expected: impl Describe, found: impl Describe) -> Self {
+        Self::new(Verdict::Fail, expected, found)
+    }
 }
 
 impl Verdicts<'_> {
@@ -65,67 +71,93 @@ impl Verdicts<'_> {
             return Some(CaseOutcome::untried(case.clone(), Verdict::NotApplicable, note));
         }
         let mut stop = None;
-        let mut judgements = Vec::new();
+        let mut record = Record::default();
         for question in &claimed {
             let Some(reaction) = self.reactions.get(&(place, question.op.clone())) else {
                 stop.clone_from(&self.gone);
                 continue;
             };
-            let check = self.check(case, question, reaction);
-            if check.verdict == Verdict::Vacuous && self.gone.is_some() {
+            let deviation = self.deviation(case, question, reaction);
+            let is_vacuous = |one: &Deviation| one.verdict == Verdict::Vacuous;
+            if deviation.as_ref().is_some_and(is_vacuous) && self.gone.is_some() {
                 // What it is held against may not have been asked.
                 stop.clone_from(&self.gone);
                 continue;
             }
-            judgements.extend(case.requirements.iter().map(|&id| self.judgement(id, &check)));
+            self.record(&mut record, case, question, reaction, deviation);
         }
-        Some(CaseOutcome::tried(case.clone(), judgements, claimed.len(), stop))
+        Some(CaseOutcome::tried(case.clone(), record.judgements, claimed.len(), stop))
     }
 
-    fn judgement(&self, id: &'static str, check: &Check) -> Judgement {
-        let verdict = match check.verdict {
-            Verdict::Fail | Verdict::Vacuous if check.level != Level::Must => {
-                Verdict::missed(check.level)
-            }
+    /// Records what came of a question for each requirement of its case.
+    fn record(
+        &self,
+        record: &mut Record,
+        case: &Case,
+        question: &Question,
+        reaction: &TesteeReaction,
+        deviation: Option<Deviation>,
+    ) {
+        let verdict = deviation.as_ref().map_or(Verdict::Pass, |one| one.verdict);
+        let level = self.level(case, question, reaction, verdict);
+        let judged = match verdict {
+            Verdict::Fail | Verdict::Vacuous if level != Level::Must => Verdict::missed(level),
             verdict => verdict,
         };
         // What is compared may be told apart by less than the level of the case.
-        let level = if verdict == Verdict::Differs { Level::Info } else { check.level };
-        Judgement {
-            requirement: id,
-            level: Some(level),
-            verdict,
-            expected: check.expected.clone(),
-            found: check.found.clone(),
-            evidence: Some(check.evidence.clone()),
-            more: 0,
+        let level = Some(if verdict == Verdict::Differs { Level::Info } else { level });
+        let (expected, found) = match &deviation {
+            Some(one) => (one.expected.as_str(), one.found.as_str()),
+            None => Default::default(),
+        };
+        let canonical = match &case.body {
+            Body::Vector(vector) if question.op == "encode" => Some(*vector),
+            _ => None,
+        };
+        let evidence = || {
+            let canonical = canonical.map(|vector| vector.bytes());
+            Some(evidence(question, reaction, &case.id, canonical))
+        };
+        for &id in &case.requirements {
+            record.add(Rule { id, level }, judged, expected, found, evidence);
         }
     }
 
-    fn check(&self, case: &Case, question: &Question, reaction: &TesteeReaction) -> Check {
-        let (verdict, expected, found) = match &case.body {
+    fn deviation(
+        &self,
+        case: &Case,
+        question: &Question,
+        reaction: &TesteeReaction,
+    ) -> Option<Deviation> {
+        match &case.body {
             Body::Vector(vector) => self.vector(vector, question, reaction),
             Body::Sequence(sequence) => self.sequence(sequence, reaction),
-            _ => (Verdict::HarnessError, String::new(), "a case without a question".to_owned()),
-        };
-        let canonical = match &case.body {
-            Body::Vector(vector) if question.op == "encode" => Some(vector.bytes()),
-            _ => None,
-        };
-        let evidence = evidence(question, reaction, &case.id, canonical);
-        let (expected, found) = (shorten(&expected, TEXT_MAX), shorten(&found, TEXT_MAX));
+            _ => {
+                let found = "a case without a question";
+                Some(Deviation::new(Verdict::HarnessError, "", found))
+            }
+        }
+    }
+
+    /// The most that an answer with this verdict can mean.
+    fn level(
+        &self,
+        case: &Case,
+        question: &Question,
+        reaction: &TesteeReaction,
+        verdict: Verdict,
+    ) -> Level {
         // Only an answer can differ: a crash is one whatever was asked.
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
-        let level = if !lenient {
+        if !lenient {
             Level::Must
         } else if self.is_of_edition(&case.body) {
             level(&case.body, verdict, &question.op)
         } else {
             Level::Info
-        };
-        Check { verdict, level, evidence, expected, found }
+        }
     }
 
     /// Whether the edition by which the testee is judged says what a case expects.
@@ -144,52 +176,60 @@ impl Verdicts<'_> {
         vector: &Vector,
         question: &Question,
         reaction: &TesteeReaction,
-    ) -> (Verdict, String, String) {
+    ) -> Option<Deviation> {
         match (&vector.expect, question.op.as_str()) {
             (Expect::Accept(accept), "encode") => {
                 let forms = forms(vector, accept);
-                let shown: Vec<String> = forms.iter().map(|form| compact::show(form)).collect();
-                let expected = shown.join(" or ");
+                let expected = || {
+                    let shown: Vec<String> = forms.iter().map(|form| compact::show(form)).collect();
+                    shown.join(" or ")
+                };
                 match reaction {
                     TesteeReaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
-                        let found = compact::show(hex);
-                        let verdict =
-                            if forms.contains(hex) { Verdict::Pass } else { Verdict::Fail };
-                        (verdict, expected, found)
+                        let found = || compact::show(hex);
+                        (!forms.contains(hex)).then(|| Deviation::fail(expected, found))
                     }
-                    other => (Verdict::Fail, expected, describe(other)),
+                    other => Some(Deviation::fail(expected, || describe(other))),
                 }
             }
             (Expect::Accept(accept), _) => {
-                let expected = show(&accept.value);
+                let expected = || show(&accept.value);
                 let TesteeReaction::Answer(Answer::Ok(Output { value: Some(value), .. })) =
                     reaction
                 else {
-                    return (Verdict::Fail, expected, describe(reaction));
+                    return Some(Deviation::fail(expected, || describe(reaction)));
                 };
-                match compare::compare(&accept.value, value) {
-                    None => (Verdict::Pass, expected, String::new()),
-                    Some(compare::Difference::Other(what)) => (Verdict::Fail, expected, what),
-                    Some(compare::Difference::Untold(what)) if self.terms.strict => {
-                        (Verdict::Fail, expected, what)
-                    }
-                    Some(compare::Difference::Untold(what)) => (Verdict::Differs, expected, what),
-                }
+                let (verdict, what) = match compare::compare(&accept.value, value)? {
+                    compare::Difference::Other(what) => (Verdict::Fail, what),
+                    compare::Difference::Untold(what) if self.terms.strict => (Verdict::Fail, what),
+                    compare::Difference::Untold(what) => (Verdict::Differs, what),
+                };
+                Some(Deviation::new(verdict, expected, what))
             }
             (Expect::Reject(reject), _) => {
-                let place =
-                    format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
-                let expected = format!("refused: {place}");
-                match reaction {
-                    TesteeReaction::Answer(Answer::Reject(_)) => {
-                        match self.sibling(&vector.sibling, "decode") {
-                            Ok(()) => (Verdict::Pass, expected, String::new()),
-                            Err(why) => (Verdict::Vacuous, expected, why),
-                        }
-                    }
-                    other => (Verdict::Fail, expected, describe(other)),
-                }
+                let expected = || {
+                    let (class, offset, field) = (&reject.class, reject.offset, &reject.field);
+                    format!("refused: {class} at offset {offset} in {field}")
+                };
+                self.rejected(reaction, expected, &vector.sibling, "decode")
             }
+        }
+    }
+
+    /// Whether something was rejected, and its sibling accepted.
+    fn rejected(
+        &self,
+        reaction: &TesteeReaction,
+        expected: impl Describe,
+        sibling: &Option<String>,
+        op: &str,
+    ) -> Option<Deviation> {
+        match reaction {
+            TesteeReaction::Answer(Answer::Reject(_)) => {
+                let why = self.sibling(sibling, op).err()?;
+                Some(Deviation::new(Verdict::Vacuous, expected, why))
+            }
+            other => Some(Deviation::fail(expected, || describe(other))),
         }
     }
 
@@ -213,45 +253,28 @@ impl Verdicts<'_> {
         }
     }
 
-    fn sequence(
-        &self,
-        sequence: &Sequence,
-        reaction: &TesteeReaction,
-    ) -> (Verdict, String, String) {
+    fn sequence(&self, sequence: &Sequence, reaction: &TesteeReaction) -> Option<Deviation> {
         match (&sequence.expect, reaction) {
             (SequenceExpect::Accept(accept), TesteeReaction::Answer(Answer::Ok(output))) => {
-                let Some(packets) = &accept.packets else {
-                    return (Verdict::Pass, String::new(), String::new());
-                };
+                let packets = accept.packets.as_ref()?;
                 let stated: Vec<Vec<u8>> = packets.iter().map(|one| one.bytes()).collect();
                 let text = stated.concat();
-                match packets_fault(&text, output.packets.as_deref().unwrap_or_default()) {
-                    None => (Verdict::Pass, String::new(), String::new()),
-                    Some(found) => {
-                        let expected = format!(
-                            "{} bytes of whole lines in packets of at most 992",
-                            text.len()
-                        );
-                        (Verdict::Fail, expected, found)
-                    }
-                }
+                let given = output.packets.as_deref().unwrap_or_default();
+                let found = packets_fault(&text, given)?;
+                let len = text.len();
+                let expected = || format!("{len} bytes of whole lines in packets of at most 992");
+                Some(Deviation::fail(expected, found))
             }
             (SequenceExpect::Accept(_), other) => {
-                (Verdict::Fail, "accepted".to_owned(), describe(other))
+                Some(Deviation::fail("accepted", || describe(other)))
             }
             (SequenceExpect::Reject(reject), reaction) => {
-                let line = reject.line.map(|line| format!(" in line {line}")).unwrap_or_default();
-                let expected = format!("refused: {}{line}", reject.class);
-                match reaction {
-                    TesteeReaction::Answer(Answer::Reject(_)) => {
-                        let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
-                        match self.sibling(&sequence.sibling, op) {
-                            Ok(()) => (Verdict::Pass, expected, String::new()),
-                            Err(why) => (Verdict::Vacuous, expected, why),
-                        }
-                    }
-                    other => (Verdict::Fail, expected, describe(other)),
-                }
+                let expected = || {
+                    let line = reject.line.map(|line| format!(" in line {line}"));
+                    format!("refused: {}{}", reject.class, line.unwrap_or_default())
+                };
+                let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
+                self.rejected(reaction, expected, &sequence.sibling, op)
             }
         }
     }

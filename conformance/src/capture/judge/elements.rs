@@ -60,8 +60,8 @@ impl Bench<'_> {
         match (request, reply) {
             (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
                 let name = text.text.text();
-                let found = format!("{name:?}");
-                page.check(assumed("SDA-7"), is_known(name), "a type of the manual", &found);
+                let found = || format!("{name:?}");
+                page.check(assumed("SDA-7"), is_known(name), "a type of the manual", found);
                 page.check("SDA-7", !name.is_empty(), "the name of a type", found);
                 element.data_type = DataType::by_name(name);
             }
@@ -76,8 +76,8 @@ impl Bench<'_> {
             (Request::ReadElement(_), Some(Reply::Content(content))) => {
                 let given = u32::try_from(content.bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length.filter(|length| call.read_length >= *length) {
-                    let expected = format!("the {length} bytes it says to have");
-                    page.check("SDA-8", given == length, expected, format!("{given} bytes"));
+                    let expected = || format!("the {length} bytes it says to have");
+                    page.check("SDA-8", given == length, expected, || format!("{given} bytes"));
                 }
                 return;
             }
@@ -87,9 +87,9 @@ impl Bench<'_> {
                 page.check(assumed("SDA-9"), kept, expected, "a success");
                 let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length {
-                    let expected = format!("the {length} bytes of the element");
+                    let expected = || format!("the {length} bytes of the element");
                     let mut page = self.records.on(Topic::ClientSda, observation);
-                    page.check("SDA-8", given == length, expected, format!("{given} bytes"));
+                    page.check("SDA-8", given == length, expected, || format!("{given} bytes"));
                 }
                 return;
             }
@@ -98,8 +98,8 @@ impl Bench<'_> {
         // The length and the type, as soon as both are known.
         let (Some(data_type), Some(length)) = (element.data_type, element.length) else { return };
         let Some(size) = data_type.size() else { return };
-        let found = format!("a length of {length}");
-        let expected = format!("the {size} bytes of {}", data_type.name());
+        let found = || format!("a length of {length}");
+        let expected = || format!("the {size} bytes of {}", data_type.name());
         page.check(size_rule(data_type), length == size, expected, found);
     }
 
@@ -116,17 +116,17 @@ impl Bench<'_> {
             page.pass("SDA-2");
             return;
         }
-        let found = format!("({}, {})", address.index_group, address.index_offset);
+        let found = || format!("({}, {})", address.index_group, address.index_offset);
         let Some(Group::Class(group)) = address.index_group.parts() else {
             page.check("ADR-5", false, "the group of a class", found);
             return;
         };
         let of_class = group.class == class && group.attribute == Attribute::Content;
-        page.check("ADR-5", of_class, format!("the content of {class:?}"), &found);
+        page.check("ADR-5", of_class, || format!("the content of {class:?}"), found);
         // By index the rank may be another number than the one that was asked for.
         if group.addressing == Addressing::Logical || class == Class::Spindle {
             let same = u32::from(group.instance) == query.channel;
-            page.check("ADR-5", same, format!("the group of instance {}", query.channel), &found);
+            page.check("ADR-5", same, || format!("the group of instance {}", query.channel), found);
         }
         let of = |stride| IndexOffset::for_axis(stride, query.axis, 0).ok();
         let (rule, expected) = match (class, query.axis) {
@@ -135,7 +135,7 @@ impl Bench<'_> {
             _ => (assumed("ADR-7"), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
         };
         let kept = expected.contains(&Some(address.index_offset));
-        page.check(rule, kept, format!("the first element of axis {}", query.axis), found);
+        page.check(rule, kept, || format!("the first element of axis {}", query.axis), found);
     }
 }
 

@@ -14,7 +14,7 @@ use super::pair::REORDERED_MAX;
 use super::{
     CapturedFrame, Lost, PATIENCE, TrafficJudge, is_cnc, is_reply, location, service_clause,
 };
-use crate::judge::Checks as _;
+use crate::judge::{Checks as _, Describe};
 
 impl TrafficJudge {
     pub(super) fn broken(
@@ -46,7 +46,7 @@ impl TrafficJudge {
     pub(super) fn cut(&mut self, bytes: &[u8], way: &SegmentDirection, span: Span) {
         let observation = Observation::Bytes(bytes, location(way, Some(span), None));
         let there = bytes.len();
-        let found = format!("{there} bytes of a frame whose rest was not captured");
+        let found = || format!("{there} bytes of a frame whose rest was not captured");
         let begin = FrameRef::HEADERS_LEN.saturating_sub(AMS_HEADER_LEN);
         let header = bytes.get(begin..FrameRef::HEADERS_LEN).map(AmsHeader::decode);
         let Some(Ok(header)) = header else {
@@ -71,8 +71,8 @@ impl TrafficJudge {
         let asked = asked.filter(|asked| is_cnc(asked.header.target.port));
         let Some(asked) = asked else { return };
         let rule = service_clause(asked.header.command);
-        self.open_service(Topic::CncServices, Topic::CncFrames, &observation, rule, &found);
-        self.open_function(&asked, &observation, &found);
+        self.open_service(Topic::CncServices, Topic::CncFrames, &observation, rule, found);
+        self.open_function(&asked, &observation, found);
     }
 
     fn open_service(
@@ -81,14 +81,19 @@ impl TrafficJudge {
         frames: Topic,
         observation: &Observation<'_>,
         rule: &'static str,
-        found: impl std::fmt::Display,
+        found: impl Describe,
     ) {
         let topic = if rule == "ADS-5" { frames } else { topic };
         self.records.on(topic, observation).open(rule, found);
     }
 
     /// What a lost answer leaves open: the requirement of the function that was asked.
-    fn open_function(&mut self, asked: &CapturedFrame, observation: &Observation<'_>, found: &str) {
+    fn open_function(
+        &mut self,
+        asked: &CapturedFrame,
+        observation: &Observation<'_>,
+        found: impl Describe,
+    ) {
         let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some(call)) = Call::from_frame(&frame) else { return };
         let Ok(request) = call.dispatch() else { return };
@@ -106,7 +111,7 @@ impl TrafficJudge {
         self.lose();
         let span = Span { first: mark, last: mark, end: 0 };
         let observation = Observation::Bytes(&[], location(way, Some(span), None));
-        let found = format!("{length} bytes before this packet were not captured");
+        let found = || format!("{length} bytes before this packet were not captured");
         let topic = self.side(way);
         self.records.on(topic, &observation).open("ADS-5", found);
     }
@@ -171,7 +176,7 @@ impl TrafficJudge {
         let followed = ending.unseen.is_none() && ending.last > packet;
         if waited > PATIENCE && !lost.joined && followed {
             let rule = service_clause(asked.header.command);
-            let found = format!("none within {} s", waited.as_secs());
+            let found = || format!("none within {} s", waited.as_secs());
             let topic = if rule == "ADS-5" { Topic::CncFrames } else { Topic::CncServices };
             self.records.on(topic, &observation).check(rule, false, "an answer", found);
         }

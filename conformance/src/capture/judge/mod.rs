@@ -27,7 +27,7 @@ use super::time::Time;
 use super::vectors::Collector;
 use crate::client::{answer, violations};
 use crate::exchange::{Exchange, ExchangeError};
-use crate::judge::{CaseOutcome, Checks as _, assumed};
+use crate::judge::{CaseOutcome, Checks as _, Describe, assumed};
 use crate::wire_service;
 
 /// CNCs that are told apart.
@@ -337,7 +337,8 @@ impl Bench<'_> {
         observation: &Observation<'_>,
         request: &Request<'_>,
         rule: &'static str,
-        (expected, found): (&str, &str),
+        expected: impl Describe,
+        found: impl Describe,
     ) {
         let topic = Topic::of_request(request.function());
         self.records.on(topic, observation).check(assumed(rule), false, expected, found);

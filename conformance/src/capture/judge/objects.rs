@@ -62,12 +62,10 @@ impl Bench<'_> {
                 if full {
                     let given = content.bytes.len();
                     let sized = u32::try_from(given) == Ok(known.size);
-                    let expected = format!("the {} bytes of its descriptor", known.size);
-                    let found = format!("{given} bytes of {}", known.name);
+                    let expected = || format!("the {} bytes of its descriptor", known.size);
+                    let found = || format!("{given} bytes of {}", known.name);
                     let mut page = self.records.on(Topic::CncCom, observation);
-                    for rule in ["COM-5", "COM-2"] {
-                        page.check(rule, sized, &expected, &found);
-                    }
+                    page.check(["COM-5", "COM-2"], sized, expected, found);
                 }
             }
             (Request::WriteObject(write), reply) => {
@@ -75,14 +73,14 @@ impl Bench<'_> {
                 let given = write.content().bytes.len();
                 if known.type_size.is_some() {
                     let sized = u32::try_from(given) == Ok(known.size);
-                    let expected = format!("the {} bytes of {}", known.size, known.name);
-                    let found = format!("{given} bytes");
+                    let expected = || format!("the {} bytes of {}", known.size, known.name);
+                    let found = || format!("{given} bytes");
                     self.records
                         .on(Topic::ClientCom, observation)
                         .check("COM-5", sized, expected, found);
                 }
                 let kept = known.writable || reply.is_none();
-                let expected = format!("an error number: {} may not be written", known.name);
+                let expected = || format!("an error number: {} may not be written", known.name);
                 let mut page = self.records.on(Topic::CncCom, observation);
                 page.check(assumed("COM-2"), kept, expected, "a success");
             }
@@ -103,7 +101,7 @@ impl Bench<'_> {
         list.count = Some(count);
         let beyond = list.known.last_key_value().map_or(0, |(&last, _)| last);
         let kept = beyond <= count;
-        let found = format!("{count} objects, but a descriptor of object {beyond}");
+        let found = || format!("{count} objects, but a descriptor of object {beyond}");
         let mut page = self.records.on(Topic::CncCom, observation);
         page.check("COM-1", kept, "the number of objects", found);
     }
@@ -120,15 +118,11 @@ impl Bench<'_> {
         let first = read.first();
         let count = self.cnc.objects.lists.get(&group).and_then(|list| list.count);
         if let Some(count) = count.filter(|count| first > *count) {
-            let asked = format!("object {first}");
-            self.beyond(
-                observation,
-                request,
-                "COM-2",
-                (&format!("one of {count} objects"), &asked),
-            );
-            let expected = format!("an error number: there are {count} objects");
-            let found = format!("a descriptor of {asked}");
+            let expected = || format!("one of {count} objects");
+            let asked = || format!("object {first}");
+            self.beyond(observation, request, "COM-2", expected, asked);
+            let expected = || format!("an error number: there are {count} objects");
+            let found = || format!("a descriptor of object {first}");
             let mut page = self.records.on(Topic::CncCom, observation);
             page.check("COM-2", given.is_none_or(|given| given.is_empty()), expected, found);
             return;
@@ -143,7 +137,7 @@ impl Bench<'_> {
             // Where the list ends, and for another length, it is assumed.
             let rule: Rule = if exact && asked <= left { "COM-3".into() } else { assumed("COM-3") };
             let kept = u32::try_from(given.len()) == Ok(expected);
-            let expected = format!("{expected} descriptors from object {first} on");
+            let expected = || format!("{expected} descriptors from object {first} on");
             self.records.on(Topic::CncCom, observation).check(rule, kept, expected, given.len());
         }
         let alone = given.len() == 1;
@@ -153,7 +147,7 @@ impl Bench<'_> {
             let list = self.cnc.objects.lists.entry(group).or_default();
             let other = list.ids.get(&object.id()).copied().filter(|other| *other != index);
             let found =
-                format!("ID {} of object {index}, and of {}", object.id(), other.unwrap_or(0));
+                || format!("ID {} of object {index}, and of {}", object.id(), other.unwrap_or(0));
             let known = list.known.get(&index).copied();
             if list.ids.contains_key(&object.id()) || self.room.take(0) {
                 list.ids.insert(object.id(), index);
@@ -166,7 +160,7 @@ impl Bench<'_> {
             if let Some((known, was_alone)) = known {
                 // One by one or in sequence it is the same list.
                 let rule: Rule = if alone == was_alone { assumed("COM-2") } else { "COM-3".into() };
-                let found = format!("another descriptor of object {index} than before");
+                let found = || format!("another descriptor of object {index} than before");
                 page.check(rule, known == owned, "the same descriptor", found);
             }
             let place = (object.index_group().get(), object.index_offset().get());

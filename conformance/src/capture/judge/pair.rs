@@ -260,9 +260,10 @@ impl TrafficJudge {
         let observation =
             Observation::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
         let mut page = self.records.on(Topic::CncFrames, &observation);
-        let found = format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
+        let found = || format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
         if is_open {
-            page.open("ADS-5", format!("{found}, whose request may not have been captured"));
+            let found = || format!("{}, whose request may not have been captured", found());
+            page.open("ADS-5", found);
         } else {
             let expected = "an answer to a request that still waits for one";
             page.check("ADS-5", false, expected, found);

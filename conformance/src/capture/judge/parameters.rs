@@ -50,11 +50,12 @@ impl Bench<'_> {
             return;
         };
         if index > count {
-            let asked = format!("index {index}");
-            self.beyond(observation, request, "DYN-5", (&format!("one of 1 to {count}"), &asked));
+            let expected = || format!("one of 1 to {count}");
+            let found = || format!("index {index}");
+            self.beyond(observation, request, "DYN-5", expected, found);
         }
         let kept = index <= count || reply.is_none();
-        let expected = format!("an error number for index {index} of {count}");
+        let expected = || format!("an error number for index {index} of {count}");
         self.records.on(Topic::CncDyn, observation).check("DYN-5", kept, expected, "a success");
         let name = match reply {
             Some(Reply::DynamicName(name)) => name.name.text(),
@@ -63,6 +64,6 @@ impl Bench<'_> {
         let prefix = kind.to_string();
         let of_kind = name.to_string().starts_with(&prefix);
         let mut page = self.records.on(Topic::CncDyn, observation);
-        page.check("DYN-2", of_kind, format!("a name of {prefix}"), format!("{name:?}"));
+        page.check("DYN-2", of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
     }
 }

@@ -42,8 +42,8 @@ pub(super) fn service<'e>(
             let given = answer.data.as_ref().map_or(0, Vec::len);
             let kept = usize::try_from(exchange.read_length).is_ok_and(|read| given <= read);
             let expected =
-                format!("at most the {} bytes that were asked for", exchange.read_length);
-            page.check(clause, kept, expected, format!("{given} bytes of data"));
+                || format!("at most the {} bytes that were asked for", exchange.read_length);
+            page.check(clause, kept, expected, || format!("{given} bytes of data"));
             short_error(records, observation, answer, header);
             Some(answer)
         }
@@ -92,7 +92,7 @@ pub(super) fn judge(
             let given = data.is_some_and(|data| !data.is_empty() || call.service == Service::Write);
             let mut page = bench.records.on(topic, observation);
             if given && page.knows(clause) {
-                page.check(rule, false, format!("an error number for {error}"), "a success");
+                page.check(rule, false, || format!("an error number for {error}"), "a success");
             }
             return;
         }
@@ -119,7 +119,7 @@ pub(super) fn judge(
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
             let mut page = bench.records.on(Topic::of_reply(request.function()), observation);
             let clause = if page.knows(clause) { clause } else { spec.clause };
-            page.check(clause, false, format!("what {} gives", spec.name), error);
+            page.check(clause, false, || format!("what {} gives", spec.name), error);
             return;
         }
     };

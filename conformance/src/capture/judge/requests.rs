@@ -20,13 +20,14 @@ pub(super) fn headers(
 ) {
     let mut page = records.on(Topic::ClientFrames, observation);
     let flags = header.state_flags;
-    let found = format!("state flags {:#06x}", flags.0);
+    let found = || format!("state flags {:#06x}", flags.0);
     page.check("ADS-5", flags == StateFlags::REQUEST, "state flags 0x0004", found);
     let rule = assumed("ADS-5");
     let none = header.error == AdsError::NO_ERROR;
-    page.check(rule, none, "no AMS error in a request", format!("AMS error {:#x}", header.error));
+    let found = || format!("AMS error {:#x}", header.error);
+    page.check(rule, none, "no AMS error in a request", found);
     if let Some(again) = again {
-        let found = format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
+        let found = || format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
         page.check(rule, !again, "an invoke ID of its own", found);
     }
 }
@@ -57,7 +58,7 @@ pub(super) fn judge(
                     ErrorKind::BufferTooSmall => assumed("COM-3"),
                     _ => Rule::from(known.unwrap_or(spec.clause)),
                 };
-                let expected = format!("what {} takes", spec.name);
+                let expected = || format!("what {} takes", spec.name);
                 records
                     .on(Topic::of_request(function), observation)
                     .check(rule, false, expected, error);
@@ -69,9 +70,9 @@ pub(super) fn judge(
             let elsewhere = Call { port: other, ..*call }.dispatch();
             if let Ok(request) = elsewhere {
                 let spec = request.function().spec();
-                let expected = format!("port {} for {}", spec.task.port(), spec.name);
+                let expected = || format!("port {} for {}", spec.task.port(), spec.name);
                 let mut page = records.on(Topic::ClientPorts, observation);
-                page.check(port_rule(other), false, expected, format!("port {}", call.port));
+                page.check(port_rule(other), false, expected, || format!("port {}", call.port));
                 return None;
             }
             if matches!(refusal, DispatchError::Service { .. }) {
@@ -117,7 +118,7 @@ fn wrong_service(
         return Some(format!("{service} {index_group}, {index_offset} at {port}"));
     }
     let mut page = records.on(Topic::of_request(function), observation);
-    page.check(spec.clause, false, format!("{} for {}", spec.service, spec.name), || refusal);
+    page.check(spec.clause, false, || format!("{} for {}", spec.service, spec.name), || refusal);
     None
 }
 
@@ -149,7 +150,8 @@ fn documented(
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
         let mut page = records.on(Topic::ClientServices, observation);
-        page.check(rule, asked >= least, format!("room for {least} bytes"), format!("for {asked}"));
+        let (expected, found) = (|| format!("room for {least} bytes"), || format!("for {asked}"));
+        page.check(rule, asked >= least, expected, found);
     }
     let mut page = records.on(topic, observation);
     if let Some(name) = name_of(function, call) {

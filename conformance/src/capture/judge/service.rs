@@ -91,7 +91,7 @@ impl Bench<'_> {
 /// Texts have room for 128 bytes, states are UNS32.
 fn form(page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
-    let found = format!("{length} bytes of {}", variable.name());
+    let found = || format!("{length} bytes of {}", variable.name());
     match variable {
         ServiceVariable::RequestState | ServiceVariable::ResponseState => {
             page.check("SVC-1", length == 4, "an UNS32", found);

@@ -54,7 +54,7 @@ impl Bench<'_> {
         let mut page = self.records.on(Topic::ClientStream, observation);
         let length = data.len();
         let kept = length <= STREAM_PACKET_MAX;
-        page.check("STM-2", kept, "at most 992 bytes", format!("{length} bytes"));
+        page.check("STM-2", kept, "at most 992 bytes", || format!("{length} bytes"));
         let whole = data.ends_with(b"\r\n");
         page.check("STM-4", whole, "whole lines, each with CR LF", "an open line at the end");
         // NcText takes lines with any end: what is open was judged, the rest is told apart here.
@@ -84,7 +84,7 @@ impl Bench<'_> {
                 _ => Duration::ZERO,
             };
             if waited < GIVEN_UP {
-                let expected = format!("the {} bytes that were refused before", refused.len());
+                let expected = || format!("the {} bytes that were refused before", refused.len());
                 page.check("STM-6", refused == data, expected, "other data");
             }
         }

@@ -49,42 +49,42 @@ impl Bench<'_> {
         let indices = target.indices.len();
         let fits = target.has_valid_index_count();
         let mut page = self.records.on(Topic::ClientVar, observation);
-        let found = format!("{indices} indices of {name}");
+        let found = || format!("{indices} indices of {name}");
         let rule = assumed(if by_handle { "VAR-11" } else { "VAR-20" });
-        page.check(rule, fits, format!("none, or {dimensions} indices"), &found);
+        page.check(rule, fits, || format!("none, or {dimensions} indices"), found);
         if let (Some(written), Some(size), true) = (written, target.size(), fits) {
             let given = written.len();
             let sized = u32::try_from(given) == Ok(size);
-            let expected = format!("the {size} bytes of {name}");
-            page.check(clause, sized, expected, format!("{given} bytes"));
+            let expected = || format!("the {size} bytes of {name}");
+            page.check(clause, sized, expected, || format!("{given} bytes"));
         }
         let mut page = self.records.on(Topic::CncVar, observation);
         if !fits {
-            let expected = format!("an error number: {name} has {dimensions} dimensions");
+            let expected = || format!("an error number: {name} has {dimensions} dimensions");
             page.check(rule, reply.is_none(), expected, "a success");
             return;
         }
         if !target.is_inside() {
             let rule = if by_handle { "VAR-11" } else { "VAR-20" };
-            let expected = format!("an error number: {name} has not {:?}", target.indices);
+            let expected = || format!("an error number: {name} has not {:?}", target.indices);
             page.check(rule, reply.is_none(), expected, "a success");
             return;
         }
         if written.is_some() {
             let only_read = target.description.access == VariableAccess::READ_ONLY;
             let kept = !only_read || reply.is_none();
-            let expected = format!("an error number: {name} may only be read");
+            let expected = || format!("an error number: {name} may only be read");
             page.check(assumed("VAR-6"), kept, expected, "a success");
             return;
         }
         let Some(Reply::Value(value)) = reply else { return };
         let given = value.bytes.len();
-        let found = format!("{given} bytes of {name}");
+        let found = || format!("{given} bytes of {name}");
         if let Some(size) = target.size() {
             let sized = u32::try_from(given) == Ok(size);
-            page.check("VAR-14", sized, format!("the {size} bytes of its description"), found);
+            page.check("VAR-14", sized, || format!("the {size} bytes of its description"), found);
         } else if target.description.var_type == VariableType::STRING && dimensions == 0 {
-            let expected = format!("a text of at most {TEXT_MAX} bytes");
+            let expected = || format!("a text of at most {TEXT_MAX} bytes");
             page.check("VAR-25", given <= TEXT_MAX, expected, found);
         }
     }

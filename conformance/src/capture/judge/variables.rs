@@ -111,10 +111,10 @@ impl Bench<'_> {
                 let known = self.bound(call, &kind).filter(|count| describe.index >= *count);
                 if let Some(count) = known {
                     let (index, none) = (describe.index, reply.is_none());
-                    let asked = format!("index {index}");
-                    let expected = format!("an index below {count}");
-                    self.beyond(observation, request, "VAR-2", (&expected, &asked));
-                    let expected = format!("an error number for index {index} of {count}");
+                    let expected = || format!("an index below {count}");
+                    let found = || format!("index {index}");
+                    self.beyond(observation, request, "VAR-2", expected, found);
+                    let expected = || format!("an error number for index {index} of {count}");
                     let mut page = self.records.on(Topic::CncVar, observation);
                     page.check("VAR-2", none, expected, "a description");
                     return;
@@ -146,9 +146,9 @@ impl Bench<'_> {
                         && given.access == known.access
                         && given.size == known.size
                         && given.dimensions.iter().eq(known.dimensions.iter().copied());
-                    let found = format!("{given:?}");
+                    let found = || format!("{given:?}");
                     let mut page = self.records.on(Topic::CncVar, observation);
-                    page.check("VAR-28", same, format!("as by index: {known:?}"), found);
+                    page.check("VAR-28", same, || format!("as by index: {known:?}"), found);
                 }
             }
             _ => {}
@@ -179,7 +179,7 @@ impl Bench<'_> {
         let of = |kind: &str| counts.get(kind).copied();
         if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
             let sum = g.saturating_add(e).saturating_add(a);
-            let expected = format!("{sum} variables of all kinds");
+            let expected = || format!("{sum} variables of all kinds");
             self.records.on(Topic::CncVar, observation).check("VAR-1", all == sum, expected, all);
         }
     }
@@ -199,13 +199,13 @@ impl Bench<'_> {
         let handle = variable.handle.0;
         if let Some((known, of, at)) = channel.described.get(&name) {
             let unique = *of == kind && *at == index;
-            let found = format!("{name} at index {index}, and at {at}");
+            let found = || format!("{name} at index {index}, and at {at}");
             page.check("VAR-3", unique, "another variable at each index", found);
-            let found = format!("{variable:?}");
+            let found = || format!("{variable:?}");
             page.check(assumed("VAR-4"), !unique || *known == variable, "as before", found);
         }
         let other = channel.handles.get(&handle).filter(|other| **other != name);
-        let found = format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
+        let found = || format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
         page.check(assumed("VAR-10"), other.is_none(), "a handle of its own", found);
         channel.handle(handle, &name, self.room);
         let length = name.len().saturating_add(variable.dimensions.len()).saturating_mul(4);
@@ -225,22 +225,18 @@ impl Bench<'_> {
         let mut page = self.records.on(Topic::CncVar, observation);
         // In both editions; V.P, V.L and V.S in one of them.
         let barred = text.starts_with("V.CYC");
-        page.check(
-            "VAR-18",
-            !barred,
-            "an error number: V.CYC has no handles",
-            format!("{handle:#x}"),
-        );
+        let expected = "an error number: V.CYC has no handles";
+        page.check("VAR-18", !barred, expected, || format!("{handle:#x}"));
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let before = channel.names.get(&text).copied();
         let rule = assumed("VAR-10");
         if let Some(before) = before {
-            let expected = format!("{before:#x}, as before for {text}");
-            page.check(rule, before == handle, expected, format!("{handle:#x}"));
+            let expected = || format!("{before:#x}, as before for {text}");
+            page.check(rule, before == handle, expected, || format!("{handle:#x}"));
         }
         let other = channel.handles.get(&handle).filter(|other| **other != text).cloned();
-        let found = format!("the handle of {}", other.as_deref().unwrap_or_default());
-        page.check(rule, other.is_none(), format!("a handle of {text} alone"), found);
+        let found = || format!("the handle of {}", other.as_deref().unwrap_or_default());
+        page.check(rule, other.is_none(), || format!("a handle of {text} alone"), found);
         channel.handle(handle, &text, self.room);
     }
 
@@ -250,11 +246,11 @@ impl Bench<'_> {
             ("V.E", Some(extended)) => {
                 let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
                 let kept = known.contains(&extended.synchronisation);
-                let found = format!("{:?}", extended.synchronisation);
+                let found = || format!("{:?}", extended.synchronisation);
                 page.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
                 let known = [Validity::CHANNEL, Validity::GLOBAL];
                 let kept = known.contains(&extended.validity);
-                let found = format!("{:?}", extended.validity);
+                let found = || format!("{:?}", extended.validity);
                 page.check("VAR-15", kept, "a validity of 1 or 2", found);
             }
             ("V.E", None) => {

@@ -40,6 +40,8 @@ pub struct Probe<'s> {
     pub(crate) interrupted: bool,
     /// Why something that the file names is not written.
     doubt: Option<String>,
+    /// Whether the target has something to try the case on.
+    has_subject: bool,
     deadline: Option<Deadline>,
 }
 
@@ -52,6 +54,7 @@ impl<'s> Probe<'s> {
             requests: 0,
             interrupted: false,
             doubt: None,
+            has_subject: false,
             deadline: None,
         }
     }
@@ -101,9 +104,16 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Ends a case that has gone through all it could try: not applicable unless it judged anything.
+    /// Notes that the target has something to try the case on, for [`finish`](Self::finish): there may
+    /// still be no check of it, such as where a value has no form that can be written.
+    pub(crate) fn found_subject(&mut self) {
+        self.has_subject = true;
+    }
+
+    /// Ends a case that has tried everything there is: not applicable if the target has nothing to try
+    /// it on. Every check shows that the target has something.
     pub(crate) fn finish(&self, why: &str) -> Step {
-        applicable(self.record.checks > 0, why)
+        applicable(self.has_subject || self.record.checks > 0, why)
     }
 
     /// The CNC itself, to do to it from within what nobody can ask for.

@@ -126,6 +126,7 @@ impl Probe<'_> {
         address: &ValueAddress,
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
+        self.found_subject();
         let Some(before) = self.filled_value_at(address)? else {
             return Ok(());
         };
@@ -195,6 +196,7 @@ impl Probe<'_> {
         address: &ValueAddress,
         sibling: Option<&ValueAddress>,
     ) -> Step {
+        self.found_subject();
         if let Some(sibling) = sibling {
             let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
             let Some(write) = sibling.write(&taken).ok().filter(is_sendable) else {

@@ -45,6 +45,7 @@ impl Probe<'_> {
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
+        self.found_subject();
         self.check_time_to_restore()?;
         let by_name = match (address, write_check.name) {
             (ValueAddress::Handle { channel, indices, .. }, Some(name)) => {

@@ -214,9 +214,7 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                 let there = CountElements::new(one.first)?;
                 let far = CountElements::new(ElementAddress::new(group, offset));
                 let what = format!("an axis {:#x} beyond {one}", bit >> 16);
-                for rule in ["ADR-7", "SDA-5"] {
-                    probe.refuses(rule, &what, far?, there)?;
-                }
+                probe.refuses(["ADR-7", "SDA-5"], &what, far?, there)?;
             }
         }
         // The axis of a spindle has no meaning.

@@ -65,8 +65,7 @@ fn ends_streaming(probe: &mut Probe<'_>, rules: &[&'static str], text: &str, end
         let state = stage.state()?;
         let kept = matches!(state, State::Aborted(_)) == ends && (ends || state == State::Dry);
         let expected = if ends { "the end of streaming" } else { "every line run" };
-        let (expected, found) = (format!("{expected}: {text:?}"), format!("{state:?}"));
-        probe.check(rules, kept, expected, found);
+        probe.check(rules, kept, || format!("{expected}: {text:?}"), || format!("{state:?}"));
         Ok(())
     })
 }

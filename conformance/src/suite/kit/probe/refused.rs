@@ -3,7 +3,7 @@
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Level;
 
-use crate::judge::{Checks as _, Rule, Step, Stop, Verdict};
+use crate::judge::{Checks as _, Rule, Rules, Step, Stop, Verdict};
 use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
@@ -12,12 +12,12 @@ impl Probe<'_> {
     /// A success without data counts as an error: it returns no value of an object that does not exist.
     pub(crate) fn refuses<'a, 'b>(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         what: &str,
         request: impl IntoRawCall<'a>,
         sibling: impl IntoRawCall<'b>,
     ) -> Step {
-        let rule = rule.into();
+        let rules: Vec<Rule> = rules.rules().collect();
         let (request, sibling) = (request.into_raw_call()?, sibling.into_raw_call()?);
         let accepted = self.call(&sibling)?;
         let (is_vacuous, shown) = (accepted.success().is_none(), self.last.clone());
@@ -26,34 +26,40 @@ impl Probe<'_> {
         let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
         match given {
             Some([]) if is_vacuous => {
-                // What is assumed of the sibling may well be done otherwise.
-                let verdict = match rule.level {
-                    Some(Level::Must) => Verdict::Vacuous,
-                    Some(level) => Verdict::missed(level),
-                    None => Verdict::HarnessError,
-                };
                 self.last = shown;
+                let expected = || format!("{} only", expected());
                 let found =
                     || format!("what differs by that alone is refused too: {}", accepted.result());
-                self.record(rule, verdict, || format!("{} only", expected()), found);
+                for rule in rules {
+                    // What is assumed of the sibling may well be done otherwise.
+                    let verdict = match rule.level {
+                        Some(Level::Must) => Verdict::Vacuous,
+                        Some(level) => Verdict::missed(level),
+                        None => Verdict::HarnessError,
+                    };
+                    self.record(rule, verdict, expected, found);
+                }
             }
             Some(data) => {
                 if exchange.is_error() {
                     let refusals = &mut self.target.refusals;
                     refusals.by_number = refusals.by_number.saturating_add(1);
-                } else if data.is_empty() && rule.level == Some(Level::Must) {
+                } else if data.is_empty()
+                    && rules.iter().any(|rule| rule.level == Some(Level::Must))
+                {
                     let (rule, last) = (Rule::from("ADS-7"), &self.last);
                     let found = "a success that gives nothing";
                     let by_nothing = &mut self.target.refusals.by_nothing;
                     let verdict = rule.verdict(false);
                     by_nothing.add(rule, verdict, "an error number", found, || last.clone());
                 }
-                self.check(rule, data.is_empty(), expected, &exchange);
+                self.check(&rules, data.is_empty(), expected, &exchange);
             }
             None => {
                 // Silence is no way to refuse, however little is documented of the request.
-                let rule = Rule { id: rule.id, level: Some(Level::Must) };
-                self.check(rule, false, expected, &exchange);
+                let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
+                let rules: Vec<Rule> = rules.into_iter().map(must).collect();
+                self.check(&rules, false, expected, &exchange);
                 if self.target.silences > 1 {
                     return Err(Stop::Judged);
                 }
@@ -66,13 +72,13 @@ impl Probe<'_> {
     /// sibling to differ from nobody knows.
     pub fn refuses_alone<'a>(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         what: &str,
         request: impl Into<Request<'a>>,
     ) -> Step {
         let exchange = self.send(request)?;
         let expected = || format!("an error number for {what}");
-        self.check(rule.into(), exchange.is_rejected(), expected, &exchange);
+        self.check(rules, exchange.is_rejected(), expected, &exchange);
         Ok(())
     }
 
