@@ -27,7 +27,7 @@ Examples:
 Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
 impl Completions {
-    /// Writes the script, and says how the process ends.
+    /// Writes the script and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let mut script = Vec::new();
         let mut command = Cli::command();

@@ -43,7 +43,7 @@ struct Cli {
     #[arg(long, global = true, value_name = "LEVEL|FILTER")]
     log: Option<log::Filter>,
 
-    /// `run` if none is given.
+    /// `run` if none is specified.
     #[command(subcommand)]
     command: Option<Subcommands>,
 }
@@ -69,7 +69,7 @@ enum Subcommands {
 }
 
 impl Subcommands {
-    /// What is logged unless told otherwise.
+    /// The filter of --log, or the default of the command.
     fn log(&self) -> Option<log::Filter> {
         match self {
             Self::Serve(_) => "info".parse().ok(),
@@ -83,7 +83,7 @@ pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version are no errors: they have the code 0.
+            // Help and version come as errors with the exit code 0.
             let code = u8::try_from(error.exit_code()).unwrap_or(Exit::Usage.code());
             let _unprinted = error.print();
             return ExitCode::from(code);
@@ -113,26 +113,26 @@ impl Cli {
             Some(Subcommands::Selftest(selftest)) => selftest.execute().into(),
             Some(Subcommands::Client(client)) => client.execute().into(),
             Some(Subcommands::Serve(args)) => serve::serve(&args),
-            // The suite against the simulated CNC, its options as they are by default.
+            // `run` with its default options: the suite against the simulated CNC.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
     }
 }
 
-/// Says what is wrong on stderr; if nobody listens there, that is no more to be helped.
+/// Writes an error to stderr; a failure to do so is ignored.
 fn complain(why: impl std::fmt::Display) {
-    // Devices, files and testees are quoted in it.
+    // The text may quote a device, a file or a testee.
     let why = crate::text::escape_lines(&why.to_string());
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
 }
 
-/// Says what is wrong and how the process ends.
+/// Writes an error to stderr and returns the exit code.
 fn refuse(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
     complain(why);
     exit.into()
 }
 
-/// A number, decimal or in hex with 0x.
+/// Parses a number, decimal or in hex with 0x.
 fn number(text: &str) -> Result<u32, String> {
     let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
     let number = match hex {
@@ -143,12 +143,12 @@ fn number(text: &str) -> Result<u32, String> {
     number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
 }
 
-/// The defect with this ID, if one is asked for.
+/// The defect with this ID, if an ID is given.
 fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
     let Some(id) = id else { return Ok(None) };
     faults::by_id(id).cloned().map(Some).ok_or_else(|| {
         let all = faults::all();
-        // One of each stream or area is enough to show what IDs look like.
+        // One ID of each stream or area, as examples.
         let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
         some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());
         let (some, all) = (some.join("\n  "), all.len());

@@ -1,4 +1,5 @@
-//! `ads-cnc run --dry-run`: what a run would ask. The requests themselves depend on the answers.
+//! `ads-cnc run --dry-run`: lists functions, not requests, because requests depend on earlier
+//! replies.
 
 use std::io::{self, Write};
 
@@ -7,7 +8,7 @@ use ads_cnc::operation::{Effect, Function};
 use crate::gate::Allowed;
 use crate::profile::{Claim, Profile};
 
-/// Lists the functions that a device with this profile is asked, and what may be written to it.
+/// Lists the functions that a run requests from a device with this profile, and what it may write.
 pub(super) fn list(
     profile: &Profile,
     allowed: Option<&Allowed>,

@@ -11,10 +11,10 @@ use crate::report::TargetReport;
 use crate::testee::{Finding, JudgedTestee, Terms, TesteeProcess, check_protocol, judge};
 use crate::text::shorten;
 
-/// The last of stderr that a report keeps.
+/// Maximum number of bytes of stderr, its end, in a report.
 const STDERR_SHOWN: usize = 4000;
 
-/// The most characters of a name that a report keeps.
+/// Maximum number of characters of a name in a report.
 const GIVEN_MAX: usize = 200;
 
 pub(super) struct OfTestee {
@@ -22,7 +22,7 @@ pub(super) struct OfTestee {
     pub(super) outcomes: Vec<CaseOutcome>,
 }
 
-/// Asks the testee that this command starts all of these cases.
+/// Runs these cases on the testee that a command starts.
 pub(super) fn run(
     command: &str,
     timeout: Duration,
@@ -38,8 +38,7 @@ pub(super) fn run(
     OfTestee { target: target("testee", command, identity, &process.stderr()), outcomes }
 }
 
-/// What a report says of a program that a command started: the name, version and language it gave,
-/// and the last of stderr.
+/// The program of a command in a report: its name, version and language, and the end of stderr.
 pub(super) fn target(
     kind: &str,
     command: &str,
@@ -61,7 +60,7 @@ pub(super) fn target(
     }
 }
 
-/// Goes through the protocol step by step, and says of each what is wrong and how it should be.
+/// Goes through the protocol step by step and prints what is wrong and what is expected.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = TesteeProcess::new(command, timeout);
     let mut faults = 0_usize;
