@@ -28,7 +28,7 @@ fn refused(id: &str, title: &str, text: &[u8], rule: &'static str) -> Scenario {
     scenario
 }
 
-/// Lines of all lengths, so that no packet ends where a line does by chance.
+/// Lines of all lengths, so that the end of a packet is never the end of a line by chance.
 fn lines(count: usize, end: &str) -> Vec<u8> {
     let line = |number: usize| {
         let block = number.saturating_mul(10);

@@ -5,18 +5,18 @@ use serde_json::{Value, json};
 use crate::clients::Scenario;
 use crate::clients::scenario::{Ask, both, read, write};
 
-/// Group of the decoder of channel 1, where variables are.
+/// Index group of the decoder of channel 1, which has the variables.
 const GROUP: u32 = 0x12_2301;
 
 fn named(offset: u32, name: &[u8], least: u32) -> Ask {
     let ask = both(GROUP, offset, &[name, b"\0"].concat(), least).of("VAR-14", "VAR-9");
-    // A name field may be padded to its 256 bytes.
+    // A name may be padded to 256 bytes.
     let mut padded = name.to_vec();
     padded.resize(256, 0);
     ask.also(&padded)
 }
 
-/// A value that is read by its name.
+/// A scenario that reads a value by its name.
 fn value(id: &str, title: &str, name: &str, wire: &[u8], ty: &str, size: u32) -> Scenario {
     Scenario::new(format!("client-read-{id}"), title, format!("read-by-name 1 {name} {ty}"))
         .asks(named(0x48, wire, size))
@@ -210,7 +210,7 @@ fn by_name() -> Vec<Scenario> {
     ]
 }
 
-/// A text: its NUL after it, or filled up, or nothing; nobody documents which.
+/// A scenario that writes a text: with NUL, padded or without; no manual specifies which.
 fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let front = [name.as_bytes(), b"\0", bytes].concat();
     let with = |zeros: usize| {
