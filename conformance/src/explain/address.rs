@@ -1,4 +1,4 @@
-//! Index groups and offsets taken apart, and the function they lead to.
+//! Explains index groups and offsets, and the function at an address.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable, Group,
@@ -15,7 +15,7 @@ use super::part;
 use crate::edition::Feature;
 use crate::values::ValueFormat;
 
-/// Data of a service at a place.
+/// Data of a service at an address.
 pub(super) fn of_place(
     place: &ServiceAddress,
     bytes: &[u8],
@@ -24,7 +24,7 @@ pub(super) fn of_place(
     of_data(place, 0, bytes, values)
 }
 
-/// Data of a service at a place, from byte `at` of those given.
+/// Data of a service at an address; the data begins at `at` of the input.
 pub(super) fn of_data(
     place: &ServiceAddress,
     at: usize,
@@ -46,9 +46,9 @@ pub(super) fn of_data(
     part
 }
 
-/// A place, without data.
+/// An address without data.
 pub(super) fn alone(place: &ServiceAddress) -> ExplainedStream {
-    // Of a content that is read and written, reading is the one that does no harm.
+    // For a content, which can be read and written, the read is explained.
     let reading = ServiceAddress { reply: true, ..*place };
     let found = find(if place.service.is_none() { &reading } else { place });
     ExplainedStream { address: Some(report(place, found)), ..ExplainedStream::default() }
@@ -65,7 +65,7 @@ fn no_data(
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
     if !place.reply {
-        // VAR-17 is about what comes back.
+        // VAR-17 specifies the reply.
         (part.clause, part.sources) = (None, Vec::new());
     }
     let (service, what) =
@@ -77,7 +77,7 @@ fn no_data(
     part
 }
 
-/// The function that is meant.
+/// The function at the address.
 fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
     if let Some(port) = place.port {
         Task::from_port(port).ok_or(DispatchError::Port(port))?;
@@ -97,13 +97,13 @@ fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
         let takes = spec.service;
         match place.service {
             Some(asked) if asked == takes => return Ok(function),
-            // No content is where a function is (SDA-12).
+            // A function takes precedence over content at the same address (SDA-12).
             Some(asked) if !spec.is_content() => {
                 return Err(DispatchError::Service { expected: takes, found: asked });
             }
             Some(asked) => refusal = DispatchError::Service { expected: takes, found: asked },
             None if !spec.is_content() => return Ok(function),
-            // Of a content, what is read comes back, and what is written goes in.
+            // The direction decides between the read and the write of a content.
             None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
             None => {}
         }
@@ -111,8 +111,8 @@ fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
     content.ok_or(refusal)
 }
 
-/// Whether the port, if it is known, is that of the function's task; SDA and GEO stand in for
-/// each other (ADR-10, assumed).
+/// Whether the port, if known, belongs to the function's task; SDA and GEO are interchangeable
+/// (ADR-10, assumed).
 fn serves(place: &ServiceAddress, spec: &FunctionSpec) -> bool {
     let task = place.port.and_then(Task::from_port);
     task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
@@ -143,7 +143,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     let effect = match spec.effect {
         Effect::Query => "query",
         Effect::Write => "write",
-        // What is not known to be harmless is taken to move.
+        // An effect that is not known to be harmless is shown as motion.
         _ => "motion",
     };
     let numbered = spec.section.starts_with(|first: char| first.is_ascii_digit());
@@ -165,7 +165,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     }
 }
 
-/// What else is at the place of a function, and what has to be known of it.
+/// Other functions at the address, and notes about the function.
 fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
     let spec = function.spec();
     if place.port.is_some_and(|port| port != spec.task.port()) {
@@ -218,7 +218,7 @@ fn of_axis(axis: u32) -> String {
     if axis == 0 { String::new() } else { format!("axis {axis}, ") }
 }
 
-/// What the offset addresses.
+/// Explains the index offset.
 fn offset(place: &ServiceAddress, function: Option<Function>, notes: &mut Vec<String>) -> String {
     let (offset, rule) = (place.offset, function.map(|function| function.spec().offset));
     match (rule, place.group.parts()) {
@@ -267,7 +267,7 @@ fn split(offset: IndexOffset, stride: AxisStride) -> String {
     }
 }
 
-/// What an index group addresses, in words.
+/// Describes an index group in words.
 ///
 /// ```
 /// use ads_cnc::address::IndexGroup;
@@ -288,7 +288,7 @@ pub fn describe(group: IndexGroup) -> String {
     }
 }
 
-/// After the name of a group that is by index.
+/// Appended for a group with addressing by index.
 const BY_INDEX: &str = "; by index, which moves when a channel is deactivated (ADR-11)";
 
 fn channel(addressing: Addressing, instance: u8) -> String {
