@@ -1,4 +1,4 @@
-//! What a CNC may do otherwise: nothing of it is wrong.
+//! Valid variants of a CNC: different from the simulated CNC, but permitted.
 
 mod elements;
 mod models;
@@ -15,7 +15,7 @@ use super::cnc::{
     text, u32_at, within_length,
 };
 
-/// A row about something that does not answer as printed.
+/// A row whose printed examples are answered otherwise.
 const fn unprinted(mut row: CncSeed) -> CncSeed {
     row.printed = false;
     row
@@ -29,7 +29,7 @@ const fn sent(
     fault(id, &[], what, CncFault::Frame(frame))
 }
 
-/// The handles of replies and, back, of requests made others.
+/// Changes the handles in replies, and back in requests.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     let spec = function(call).map(Function::spec);
     match spec.map(|spec| (first(spec.request), first(spec.reply))) {
@@ -44,14 +44,14 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
     }
 }
 
-/// The text at the end of a reply, from a place on, padded with NULs to a length.
+/// The text at the end of a reply, from an offset on, padded with NULs to a length.
 fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);
     bytes
 }
 
-/// If it is too long for the client, as it was.
+/// The unpadded answer if the padded one exceeds the requested length.
 fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: ReplyData) -> ReplyData {
     within_length(call, answer).or_else(|_| cnc.answer(call))
 }

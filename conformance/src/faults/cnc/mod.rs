@@ -1,4 +1,4 @@
-//! What a CNC can get wrong: how it answers is changed around the simulated one.
+//! Defects of a CNC, as middleware around the simulated CNC.
 
 mod address;
 mod ads;
@@ -58,20 +58,20 @@ use crate::judge::in_catalogue;
 pub(in crate::faults) use crate::simulator::ReplyData;
 use crate::simulator::program::Policy;
 
-/// How a CNC does something wrong, or otherwise.
+/// How a defect or valid variant of a CNC works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CncFault {
-    /// Around each request.
+    /// Handles each request.
     Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Around each request for one of these functions.
+    /// Handles each request for one of these functions.
     Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// After each frame that answers one: what is sent instead.
+    /// Changes the frame of each reply.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
-    /// Bytes are sent in pieces of at most this size.
+    /// Frames are sent in pieces of at most this size.
     Pieces(usize),
-    /// In its NC programs.
+    /// Changes the execution of NC programs.
     Program(Policy),
-    /// It is another CNC: one with this model.
+    /// Uses this model.
     Model(&'static str),
 }
 
@@ -81,13 +81,13 @@ pub(super) struct CncSeed {
     pub(super) breaks: &'static [&'static str],
     pub(super) what: &'static str,
     pub(super) fault: CncFault,
-    /// The edition it shows in, if it does not in any.
+    /// The only edition in which it is detectable; `None` for both.
     pub(super) edition: Option<Edition>,
-    /// Whether printed examples are answered as printed, as far as it is about.
+    /// Whether the printed examples that it concerns are still answered literally.
     pub(super) printed: bool,
 }
 
-/// A row about requests.
+/// A row that handles requests.
 pub(super) const fn row(
     id: &'static str,
     breaks: &'static [&'static str],
@@ -97,7 +97,7 @@ pub(super) const fn row(
     fault(id, breaks, what, CncFault::Answer(answer))
 }
 
-/// A row about requests for functions.
+/// A row that handles requests for functions.
 pub(super) const fn on(
     id: &'static str,
     breaks: &'static [&'static str],
@@ -108,7 +108,7 @@ pub(super) const fn on(
     fault(id, breaks, what, CncFault::Function(functions, answer))
 }
 
-/// A row about something else.
+/// A row with another fault.
 pub(super) const fn fault(
     id: &'static str,
     breaks: &'static [&'static str],
@@ -118,7 +118,7 @@ pub(super) const fn fault(
     CncSeed { id, breaks: in_catalogue(breaks), what, fault, edition: None, printed: true }
 }
 
-/// A row about the NC program.
+/// A row about NC programs.
 pub(super) const fn program(
     id: &'static str,
     breaks: &'static [&'static str],

@@ -1,4 +1,4 @@
-//! What a codec can get wrong: its answers to the testee protocol are changed around the right ones.
+//! Defects of a codec, as middleware around the right answers to the testee protocol.
 
 mod address;
 mod json;
@@ -21,26 +21,26 @@ use crate::judge::in_catalogue;
 
 pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
 
-/// How a codec does something wrong.
+/// How a defect of a codec works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CodecFault {
-    /// What it has to refuse for such a fault it accepts.
+    /// Accepts input that must be rejected with an error of this class in this stream.
     Accepts(&'static str, &'static str),
-    /// It refuses this stream if it is as long as it may be.
+    /// Rejects this stream at its maximum length.
     Longest(&'static str),
-    /// It takes two fields of a stream for each other.
+    /// Exchanges two fields of a stream.
     Swaps(&'static str, &'static str, &'static str),
-    /// Each number of the stream has its bytes in reverse order.
+    /// Encodes and decodes the numbers of the stream in big-endian order.
     BigEndian(Stream),
-    /// Values are changed on their way out and in: of the stream, the value.
+    /// Changes values after decoding and before encoding; arguments are the stream and the value.
     Value(fn(&str, &mut Json)),
-    /// Bytes are changed on their way out.
+    /// Changes encoded bytes.
     Bytes(fn(&str, Vec<u8>) -> Vec<u8>),
-    /// Packets of NC text are changed on their way out.
+    /// Changes packets of NC text.
     Packets(fn(Vec<Vec<u8>>) -> Vec<Vec<u8>>),
-    /// NC text is changed on its way in.
+    /// Changes NC text before it is processed.
     Text(fn(&[u8]) -> Vec<u8>),
-    /// Anything.
+    /// Any other change.
     Around(fn(Right<'_>, &Question) -> Answer),
 }
 
@@ -107,7 +107,7 @@ impl CodecFault {
     }
 }
 
-/// It is accepted, whatever it is.
+/// The answer that accepts anything.
 pub(super) fn accepted() -> Answer {
     let value = Some(Json::Object(serde_json::Map::default()));
     Answer::Ok(Output { value, ..Output::default() })
@@ -117,7 +117,7 @@ pub(super) fn refused(class: &str) -> Answer {
     Answer::Reject(Rejection { class: Some(class.to_owned()), ..Rejection::default() })
 }
 
-/// With the value changed that comes out of `decode` and that goes into `encode`.
+/// Changes the value after `decode` and before `encode`.
 fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
     let mut other = question.clone();
     if let Some(fields) = &question.value
@@ -138,7 +138,7 @@ fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json
     }
 }
 
-/// Swaps two fields, in each record.
+/// Exchanges two fields, in each record.
 fn swap(value: &mut Json, one: &str, other: &str) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| swap(item, one, other)),
@@ -212,7 +212,7 @@ pub(super) fn seeds() -> Vec<Seed> {
     seeds
 }
 
-/// What these vectors cite, each once.
+/// The requirements that these vectors cite, each once.
 fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     let known = |id: &String| ads_cnc_vectors::clause(id).map(|clause| clause.id());
     let mut all: Vec<&'static str> =
@@ -222,14 +222,14 @@ fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     all
 }
 
-/// Those of the strongest level among them.
+/// The vectors of the strongest level.
 fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     let level = vectors.iter().map(|vector| vector.level()).min();
     vectors.retain(|vector| Some(vector.level()) == level);
     vectors
 }
 
-/// A check of each class and stream that there is a vector for.
+/// A missing check for each class and stream that has a vector.
 fn forgotten_checks() -> Vec<Seed> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -239,7 +239,7 @@ fn forgotten_checks() -> Vec<Seed> {
     }
     let each = |((stream, class), those): ((&'static str, &'static str), Vec<&'static Vector>)| {
         let those = strongest(those);
-        // The classes of vectors are advisory: what the codec calls it is what is forgotten.
+        // The classes of vectors are advisory: the defect ignores the class of this codec's error.
         let refusal = |vector: &&'static Vector| match codec::decode_stream(
             stream,
             &vector.context,
@@ -256,7 +256,7 @@ fn forgotten_checks() -> Vec<Seed> {
     pairs.into_iter().filter_map(each).collect()
 }
 
-/// Streams of which there is one as long as may be.
+/// Streams that have a vector of maximum length.
 fn too_strict() -> Vec<Seed> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
@@ -280,7 +280,7 @@ fn too_strict() -> Vec<Seed> {
     Stream::all().filter_map(each).collect()
 }
 
-/// Neighbours of the same type.
+/// Adjacent fields of the same type.
 fn swapped() -> Vec<Seed> {
     let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
         let layout = stream.layout();
@@ -289,7 +289,7 @@ fn swapped() -> Vec<Seed> {
             .filter(|(one, other)| one.ty == other.ty)
             .map(move |(one, other)| (layout, one, other))
     });
-    // What only counts is no field of a value.
+    // Counters are not fields of a value.
     let is_value = |stream: &str, field: &str| {
         let accepted = |vector: &&Vector| vector.stream == stream && vector.is_accepted();
         vectors().iter().filter(accepted).any(|vector| match &vector.expect {
@@ -315,7 +315,7 @@ fn swapped() -> Vec<Seed> {
         .collect()
 }
 
-/// Streams with numbers.
+/// Streams with numbers of several bytes.
 fn turned() -> Vec<Seed> {
     let each = |stream: Stream| {
         let layout = stream.layout();
