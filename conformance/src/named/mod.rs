@@ -1,4 +1,4 @@
-//! Finds what has a name: a variable, an element of one, a parameter, an object.
+//! Finds a variable, an element, a parameter or an object by its name.
 
 mod object;
 mod variable;
@@ -20,17 +20,17 @@ use crate::session::{Session, Trouble};
 pub struct Lookup {
     pub name: String,
     pub channel: Channel,
-    /// Which place, over the axis interface; of V.A only.
+    /// The axis, for access through the axis interface; V.A only.
     pub axis: Option<ChannelAxis>,
-    /// Which lists of objects, if several have the name.
+    /// The lists of objects to search, if several have the name.
     pub lists: Option<Pattern>,
-    /// At which offset, if a list has the name several times.
+    /// The index offset, if a list has the name several times.
     pub offset: Option<u32>,
-    /// What to take it for, whatever the CNC says.
+    /// The type, in place of that of the description.
     pub ty: Option<DataType>,
 }
 
-/// Finds it.
+/// Finds an object by its name.
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -56,7 +56,7 @@ pub struct Lookup {
 /// ```
 ///
 /// # Errors
-/// That there is nothing of this name, or several, and what to do about it.
+/// If no object or several objects have this name, with advice.
 pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
@@ -65,17 +65,17 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     }
 }
 
-/// What is asked for, if its name alone says where it is. Its type is what somebody takes it for.
+/// The object, if its name alone determines its address; its type is the one the caller gives.
 ///
 /// # Errors
-/// A name that has no form on the wire.
+/// A name that cannot be encoded.
 pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, Trouble> {
     let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
     is_variable.then(|| variable::unasked(lookup)).transpose()
 }
 
 impl Lookup {
-    /// What has this name, in a channel.
+    /// Looks for a name in a channel.
     pub fn new(name: &str, channel: Channel) -> Self {
         let name = name.to_owned();
         Self { name, channel, axis: None, lists: None, offset: None, ty: None }
