@@ -1,9 +1,8 @@
-//! The simulated CNC: a data model, the answers it gives, and an AMS/TCP server around them.
+//! The simulated CNC: data model, answers, and AMS/TCP server.
 //!
-//! [`Cnc::answer`] takes an ADS request and gives data or an error number, [`Cnc::respond`] does
-//! the same with whole frames, [`Server`] with TCP connections: of a [`Cnc`] or of any other
-//! [`Responder`]. What is unknown or does not fit is refused with an error number: never with
-//! silence, never with a panic.
+//! [`Cnc::answer`] answers an ADS request with data or an error number, [`Cnc::respond`] answers
+//! frames, and [`Server`] TCP connections, for a [`Cnc`] or any other [`Responder`]. Unknown or
+//! invalid requests are answered with an error number, never ignored, and never cause a panic.
 //!
 //! ```
 //! use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -51,7 +50,7 @@ pub(crate) use respond::{FRAME_MAX, INFO, respond};
 pub use responder::{ReplyData, Responder};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 
-/// The most bytes of a content: what a frame has room for beside a result and a length.
+/// Maximum size of a content in bytes, so that it fits into a frame after result and length.
 const CONTENT_MAX: usize = 0xFFF8;
 
 fn to_u32(len: usize) -> u32 {

@@ -30,7 +30,7 @@ use crate::edition::{CncVersion, Edition};
 pub(super) use build::parameter_kind;
 use error::Source;
 
-/// The default model, as it is read: what the manuals print, and something of everything else.
+/// The default model: the values of the manuals' examples, and an example of every other feature.
 pub const DEFAULT_MODEL: &str = include_str!("default.toml");
 
 /// A checked data model.
@@ -40,15 +40,15 @@ pub struct Model {
     pub(super) version: Option<CncVersion>,
     /// In the order of their numbers.
     pub(super) channels: Vec<ChannelModel>,
-    /// In the configured order, which is that of their places on the platform.
+    /// In the configured order, which is that of the platform axes.
     pub(super) axes: Vec<AxisModel>,
     pub(super) spindles: usize,
     pub(super) platform: Objects,
-    /// Of each platform axis.
+    /// Objects of each platform axis.
     pub(super) platform_axis: Objects,
-    /// Of each place of each channel.
+    /// Objects of each axis of a channel.
     pub(super) channel_axis: Objects,
-    /// V.A.
+    /// The variables of V.A.
     pub(super) axis_variables: Variables,
     pub(super) classes: [ClassModel; 6],
     pub(super) platform_list: Descriptors,
@@ -59,35 +59,35 @@ pub struct Model {
 pub(super) struct ChannelModel {
     /// Logical number, from 1.
     pub(super) number: u8,
-    /// At the start.
+    /// Initially.
     pub(super) active: bool,
-    /// Which axis is at which place at the start.
+    /// The axis at each place, initially.
     pub(super) places: Vec<Option<usize>>,
     pub(super) objects: Objects,
     pub(super) variables: Variables,
-    /// Of V.E and V.G, in the order of their indices.
+    /// Indices of V.E and V.G in `variables`, in the order of the lists.
     pub(super) external: Vec<usize>,
     pub(super) global: Vec<usize>,
     pub(super) by_handle: HashMap<u32, At>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) program: ProgramConfig,
-    /// Its program that asks services, if it has one.
+    /// Its NC program that sends requests to services, if any.
     pub(super) script: Option<ScriptConfig>,
-    /// Its objects and those of its places.
+    /// The list of its own objects and those of its axes.
     pub(super) list: Descriptors,
-    /// Those, and after them the platform's (COM-4).
+    /// The same list followed by the platform's objects (COM-4).
     pub(super) list_of_first: Descriptors,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct AxisModel {
-    /// Instance identifier, in names of V.A on the channel interface.
+    /// The axis name in names of V.A on the channel interface.
     pub(super) name: CncString,
     /// Logical axis number, not 0.
     pub(super) number: u32,
 }
 
-/// What overrides the settings of a file.
+/// Settings that override those of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
     /// The edition of the manual that the CNC follows.
@@ -105,16 +105,16 @@ impl Model {
         Self::from_toml(DEFAULT_MODEL, "the default model")
     }
 
-    /// A model from TOML; `file` is what errors name it by.
+    /// Parses a model from TOML; `file` is its name in errors.
     ///
     /// # Errors
-    /// [`ModelError`] for what is no TOML, unknown keys, and whatever does not fit together or
-    /// into the streams.
+    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do
+    /// not fit into the streams.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
         Self::with_settings(text, file, Settings::default())
     }
 
-    /// [`from_toml`](Self::from_toml), with other settings than the file has.
+    /// [`from_toml`](Self::from_toml) with settings that override those of the file.
     ///
     /// # Errors
     /// Those of [`from_toml`](Self::from_toml).
@@ -122,7 +122,7 @@ impl Model {
         build::build(Source { file, text }, settings)
     }
 
-    /// [`with_settings`](Self::with_settings) of a file.
+    /// [`with_settings`](Self::with_settings) for a file.
     ///
     /// # Errors
     /// Those of [`from_toml`](Self::from_toml), and a file that cannot be read.
@@ -140,29 +140,29 @@ impl Model {
         self.edition
     }
 
-    /// The version that it claims to be; none has everything.
+    /// The version that it claims to be; `None` has all features.
     pub const fn version(&self) -> Option<CncVersion> {
         self.version
     }
 
-    /// Logical numbers of all channels, the inactive too.
+    /// Logical numbers of all channels, including inactive ones.
     pub fn channels(&self) -> impl Iterator<Item = u8> {
         self.channels.iter().map(|channel| channel.number)
     }
 
-    /// How streaming is set up in the channel with this logical number.
+    /// The streaming configuration of the channel with this logical number.
     pub fn program(&self, channel: u8) -> Option<&ProgramConfig> {
         let channel = self.channels.iter().find(|one| one.number == channel);
         channel.map(|channel| &channel.program)
     }
 
-    /// The class's elements; of which instances, the class says.
+    /// The elements of a class; the class determines their instances.
     pub(super) fn class(&self, class: Class) -> Option<&ClassModel> {
         self.classes.get(class_place(class))
     }
 }
 
-/// Where in an array with something for each class.
+/// The index of a class in an array with one item per class.
 pub(super) const fn class_place(class: Class) -> usize {
     match class {
         Class::PositionController => 0,

@@ -1,4 +1,4 @@
-//! From the file to the model: every part is checked where it is read.
+//! Builds the model from the file and checks every part.
 
 mod channels;
 mod items;
@@ -22,12 +22,13 @@ use crate::edition::{CncVersion, Edition};
 use crate::simulator::to_len;
 use crate::text::duration;
 
-/// Platform axes, spindles and places of a channel: what index groups and handles have room for.
+/// Maximum number of platform axes, spindles and axes of a channel that fits into index groups and
+/// handles.
 const INSTANCES_MAX: usize = 255;
 
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
     let document: Document = toml::from_str(source.text).map_err(|error| {
-        // What is missing altogether has no place of its own.
+        // An error without a position, such as a missing table.
         source.error(&error.span().unwrap_or_default(), error.message())
     })?;
     let edition = match &document.edition {
@@ -110,17 +111,17 @@ fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, Mode
     Ok(axes)
 }
 
-/// CP1252.
+/// Parses a text as CP1252.
 fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelError> {
     text.get_ref().parse().map_err(|error| source.error(&text.span(), error))
 }
 
-/// A number and its unit.
+/// Parses a number with a unit of time.
 fn time(source: Source<'_>, given: &Spanned<String>) -> Result<Duration, ModelError> {
     duration(given.get_ref()).map_err(|why| source.error(&given.span(), why))
 }
 
-/// Whether it encodes, whatever it is.
+/// Checks that a value can be encoded.
 fn encodes(what: &impl ads_cnc::Encode) -> Result<(), String> {
     what.encode_to_vec().map(drop).map_err(|error| error.to_string())
 }
