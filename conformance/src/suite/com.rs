@@ -24,7 +24,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length that is no multiple of 84 gives one descriptor"),
 ];
 
-/// The platform's list and those of the channels; what of it is not there is judged elsewhere.
+/// The platform's list and those of the channels; other cases judge missing ones.
 fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
     let mut all = Vec::new();
     for list in probe.lists()? {
@@ -42,7 +42,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
         let asked = number.min(OBJECTS_MAX);
         let at = list.parts().index_group();
-        // Whichever of the two is wrong, the number or the list: they are one statement.
+        // Either the number or the list may be wrong, so both requirements are judged.
         for rule in ["COM-1", "COM-2"] {
             if asked == 0 {
                 let first = ReadDescriptors::new(list, 1, 1)?;
@@ -60,7 +60,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
             let what = format!("the object behind the last of {number}");
             probe.refuses(rule, &what, beyond?, last)?;
         }
-        // They are static, and nothing that was asked meanwhile changes that.
+        // The list is static: requests in between do not change it.
         let again: ObjectCount = probe.read("COM-1", CountObjects::new(list))?;
         let found = || format!("{} objects of {at}", again.0);
         probe.check("COM-1", again.0 == number, || format!("{number} as before"), found);
@@ -93,7 +93,7 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// What a descriptor says of its object.
+/// Checks a descriptor by itself.
 pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: DescriptorRef<'_>) {
     let name = object.name().to_string();
     let rule = assumed("COM-2");
@@ -138,7 +138,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         if count == 0 || skip.saturating_add(count) > number {
             continue;
         }
-        // As many as ADS carries.
+        // The maximum that fits into a frame.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask("COM-3", request)?;
         let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));

@@ -1,4 +1,4 @@
-//! The suite: what it tries, in which order, and what comes of it.
+//! The suite: its cases, their order and execution.
 
 mod address;
 mod ads_services;
@@ -51,10 +51,10 @@ pub(crate) use variable::holds_together;
 
 use crate::judge::{Body, Case, CaseSubject, Needs, Step, codec_cases, in_catalogue};
 
-/// The function that tries a case.
+/// The function of a case.
 type Try = fn(&mut Probe<'_>) -> Step;
 
-/// A case that a function tries.
+/// A case with its function.
 struct CaseRow {
     id: &'static str,
     clauses: &'static [&'static str],
@@ -63,7 +63,6 @@ struct CaseRow {
     title: &'static str,
 }
 
-/// A row of a table of cases.
 const fn case(
     id: &'static str,
     clauses: &'static [&'static str],
@@ -74,7 +73,7 @@ const fn case(
     CaseRow { id, clauses: in_catalogue(clauses), needs, run, title }
 }
 
-/// The cases that a function tries.
+/// The cases with a function.
 const TABLES: &[&[CaseRow]] = &[
     address::CASES,
     ads_services::CASES,
@@ -121,7 +120,7 @@ fn rows() -> impl Iterator<Item = &'static CaseRow> {
     TABLES.iter().copied().flatten()
 }
 
-/// Every case. [`Selection::plan`](crate::judge::Selection::plan) puts them in order.
+/// All cases. [`Selection::plan`](crate::judge::Selection::plan) orders them.
 pub fn cases() -> Vec<Case> {
     let mut cases = codec_cases();
     cases.extend(rows().map(|row| Case {

@@ -1,6 +1,7 @@
-//! The golden sequences of data streaming and of the Service Interface: each has one player, which is
-//! the client or the service, and leaves the CNC's part to an actor. The suite's actor is a CNC over
-//! the wire, whose own part happens from within; tests have actors without a wire.
+//! The golden sequences of data streaming and of the Service Interface. Each kind has a player,
+//! which acts as the client or the service, and an actor for the CNC. The suite's actor is a CNC
+//! over the wire, whose own part is done directly in the simulated CNC; tests have actors without a
+//! wire.
 
 mod service;
 mod streaming;
@@ -14,10 +15,10 @@ use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 use crate::judge::{Body, Case, CaseSubject, Checks as _, Needs, Step, Stop};
 use crate::suite::kit::Probe;
 
-/// What a client or a service does, which the suite itself is here.
+/// Requirements of a client or a service, which is the suite itself here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
 
-/// One case for each sequence that says something of the CNC.
+/// One case for each sequence with a requirement of the CNC.
 pub(super) fn cases() -> Vec<Case> {
     let all = sequences().iter();
     let steps = all.filter(|one| matches!(one.given, Given::Streaming(_) | Given::Service(_)));
@@ -35,13 +36,13 @@ pub(super) fn cases() -> Vec<Case> {
     cases.filter(|case| !case.requirements.is_empty()).collect()
 }
 
-/// What is at fault: its class, and the step.
+/// The class of a fault, and its step.
 pub type Fault<'c> = Option<(&'static str, &'c str)>;
 
-/// How a step ends that does not go as stated, or cannot be done.
+/// Why a step fails.
 #[derive(Debug)]
 pub enum Otherwise {
-    /// What was expected, and what was there.
+    /// The expected and the actual result.
     Differs(String, String),
     Stop(Stop),
 }
@@ -52,7 +53,7 @@ impl From<Stop> for Otherwise {
     }
 }
 
-/// What the simulated CNC rejects from within is a mistake of the suite.
+/// An error of the simulated CNC in a direct call is an error of the suite.
 impl<E: std::error::Error> From<E> for Otherwise {
     fn from(error: E) -> Self {
         Self::Stop(error.into())
@@ -61,17 +62,17 @@ impl<E: std::error::Error> From<E> for Otherwise {
 
 pub type Done<T> = Result<T, Otherwise>;
 
-/// A step that does not go as stated.
+/// The error of a step with another result.
 pub fn differs<T>(expected: impl ToString, found: impl ToString) -> Done<T> {
     Err(Otherwise::Differs(expected.to_string(), found.to_string()))
 }
 
-/// That a sequence lacks what its kind has.
+/// The error of a sequence without a required part.
 fn lacks(what: &str) -> Otherwise {
     Otherwise::Stop(Stop::Harness(format!("a step lacks its {what}")))
 }
 
-/// Goes through a sequence.
+/// Plays a sequence.
 pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
     let done = match &sequence.given {
         Given::Streaming(given) => wire::stream(probe, given, &sequence.cited()),
@@ -89,7 +90,7 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
-    // Of the simulated CNC assumed requirements are judged too.
+    // For the simulated CNC assumed requirements are judged too.
     let cited = sequence.cited().into_iter().map(|one| one.id.as_str());
     let cited: Vec<&str> = cited.filter(|id| !NOT_THE_TARGETS.contains(id)).collect();
     probe.check(&cited, kept, expected, found);

@@ -1,4 +1,4 @@
-//! Cases of the Service Interface: its variables, and what writing them leads to.
+//! Cases of the Service Interface: its variables, and the effects of writes to them.
 
 mod aliases;
 mod program;
@@ -98,7 +98,7 @@ fn write_variable(
 
 const ONE: [u8; 4] = [1, 0, 0, 0];
 const NONE: [u8; 4] = [0; 4];
-/// Each byte another.
+/// All bytes differ.
 const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 fn response(probe: &mut Probe<'_>) -> Step {
@@ -122,7 +122,8 @@ fn response(probe: &mut Probe<'_>) -> Step {
                 "the response could not be read, so it could not be restored",
             ));
         }
-        // The response is restored first: the state tells a program that it is there.
+        // The response is restored before the state, which tells a program that there is a
+        // response.
         with_restoring(probe, (channel, ResponseState, &before.1), |probe| {
             with_restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
         })?;
@@ -136,7 +137,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
     probe.finish("no service may be answered for")
 }
 
-/// Does what changes a variable, and restores what was there.
+/// Runs a function that changes a variable, and restores the old value.
 fn with_restoring(
     probe: &mut Probe<'_>,
     (channel, variable, was): (Channel, ServiceVariable, &[u8]),
@@ -153,7 +154,7 @@ fn with_restoring(
     })
 }
 
-/// As a service does, though nobody asked.
+/// Answers like a service, without a request.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let taken = write_variable(probe, channel, Response, b"nobody asked\0")?;
@@ -161,7 +162,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"nobody asked";
     probe.check("SVC-1", same, "the response as written", || Hex(read));
-    // Any number: it is between the program and the service.
+    // Any number: its meaning is agreed between program and service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
         let taken = write_variable(probe, channel, ResponseState, &state)?;
         probe.check("SVC-1", taken, "a response state taken", "an error");
@@ -170,15 +171,14 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     }
     let read = read_variable(probe, channel, RequestState)?;
     probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
-    // Any write of it does, over ADS too: assumed.
+    // That any write of REQUEST_STATE has this effect, over ADS too, is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
     let read = read_variable(probe, channel, ResponseState)?;
     probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", || Hex(read));
     Ok(())
 }
 
-/// Uses the interface of the first channel that has one from both sides, and leaves it as at the
-/// start.
+/// Uses the first interface from both sides, and restores its initial state.
 fn within(
     probe: &mut Probe<'_>,
     then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
@@ -188,7 +188,7 @@ fn within(
     within_at(probe, channel, then)
 }
 
-/// As [`within`], of any channel.
+/// Like [`within`], for any channel.
 fn within_at(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -196,7 +196,7 @@ fn within_at(
 ) -> Step {
     let cnc = probe.cnc()?;
     let number = channel.number();
-    // What asks there of itself asks nothing meanwhile.
+    // The model's own script is stopped meanwhile.
     let script = cnc.with_script(number, |script| script.cloned())?;
     let empty = || -> Step {
         cnc.set_script(number, None)?;
@@ -224,7 +224,7 @@ fn request_states(probe: &mut Probe<'_>) -> Step {
         let expected = "the request until it is answered";
         probe.check(assumed("SVC-4"), read == ONE, expected, || Hex(read));
         write_variable(probe, channel, ResponseState, &ONE)?;
-        // When that is, is assumed; that it is, is not.
+        // When REQUEST_STATE becomes 0 is assumed; that it does is stated.
         let read = read_variable(probe, channel, RequestState)?;
         probe.check(assumed("SVC-4"), read == NONE, "the request is over", || Hex(read));
         write(RequestState, &[2, 0, 0, 0])?;
