@@ -1,4 +1,4 @@
-//! What the answers of a testee are worth.
+//! Judges the answers of a testee.
 
 use std::collections::HashMap;
 
@@ -14,35 +14,35 @@ use crate::judge::{
 use crate::show::show;
 use crate::text::{hex::compact, shorten};
 
-/// How a testee is asked.
+/// The conditions of a judgement.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
     pub seed: u32,
-    /// As whom it is judged.
+    /// The subject: this project's codec or a testee.
     pub subject: CaseSubject,
-    /// The edition it is judged by, if one was chosen.
+    /// The edition to judge by, if selected.
     pub edition: Option<&'t str>,
-    /// Whether assumed requirements can fail too, as for this project's own codec.
+    /// Whether assumed requirements can fail too, as for this project's codec.
     pub strict: bool,
 }
 
 /// The answers to the questions of a case, by op.
 pub(super) type Reactions = HashMap<(usize, String), TesteeReaction>;
 
-/// Everything that was asked and answered.
+/// All questions and answers.
 pub(super) struct Verdicts<'v> {
     pub(super) cases: &'v [Case],
     pub(super) reactions: &'v Reactions,
     pub(super) hello: &'v TesteeHello,
     pub(super) edition: String,
     pub(super) terms: Terms<'v>,
-    /// Why not everything was asked.
+    /// Why not all questions were asked.
     pub(super) gone: Option<Stop>,
 }
 
 struct Check {
     verdict: Verdict,
-    /// The most that it can mean.
+    /// The maximum level of a failure.
     level: Level,
     expected: String,
     found: String,
@@ -73,7 +73,7 @@ impl Verdicts<'_> {
             };
             let check = self.check(case, question, reaction);
             if check.verdict == Verdict::Vacuous && self.gone.is_some() {
-                // What it is held against may not have been asked.
+                // The sibling may not have been asked.
                 stop.clone_from(&self.gone);
                 continue;
             }
@@ -89,7 +89,7 @@ impl Verdicts<'_> {
             }
             verdict => verdict,
         };
-        // What is compared may be told apart by less than the level of the case.
+        // Some differences count at a lower level than the case.
         let level = if verdict == Verdict::Differs { Level::Info } else { check.level };
         Judgement {
             requirement: id,
@@ -114,7 +114,7 @@ impl Verdicts<'_> {
         };
         let evidence = evidence(question, reaction, &case.id, canonical);
         let (expected, found) = (shorten(&expected, TEXT_MAX), shorten(&found, TEXT_MAX));
-        // Only an answer can differ: a crash is one whatever was asked.
+        // Only an answer can differ: a crash is a fault in any case.
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
@@ -128,7 +128,7 @@ impl Verdicts<'_> {
         Check { verdict, level, evidence, expected, found }
     }
 
-    /// Whether the edition by which the testee is judged says what a case expects.
+    /// Whether the selected edition states what a case expects.
     fn is_of_edition(&self, body: &Body) -> bool {
         let documents = match body {
             Body::Vector(one) => &one.editions,
@@ -193,7 +193,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether the sibling of what was refused was accepted: else it may be refused for any reason.
+    /// Whether the accepted sibling was accepted: otherwise the rejection may have any reason.
     fn sibling(&self, sibling: &Option<String>, op: &str) -> Result<(), String> {
         let wanted = sibling.as_deref().unwrap_or_default();
         let is_wanted = |case: &Case| match &case.body {
@@ -257,7 +257,7 @@ impl Verdicts<'_> {
     }
 }
 
-/// The level of what a case expects. What its sibling expects is needed too where that was missed.
+/// The level of a case's expectation; if the sibling's was missed, its level counts too.
 fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
     let (own, sibling) = match body {
         Body::Vector(one) if op == "encode" => (one.encoding_level(), None),
@@ -275,7 +275,7 @@ fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
     }
 }
 
-/// What is wrong with packets that have to carry this text.
+/// A fault in the packets for this text.
 fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
     let max = ads_cnc::limits::STREAM_PACKET_MAX;
     for (place, packet) in packets.iter().enumerate() {
