@@ -1,4 +1,4 @@
-//! This project's codec as the vectors see it: bytes in, fields or a refusal out, and back again.
+//! This project's codec with the names of the vectors: decodes bytes to fields, and encodes fields.
 
 mod address;
 mod elements;
@@ -15,23 +15,23 @@ use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::{Context, Fields};
 use given::Given;
 
-/// What the codec makes of a stream: its fields, and the bytes it encodes to again.
+/// The decoded fields of a stream, and the bytes of encoding them again.
 #[derive(Debug, PartialEq)]
 pub struct Decoded {
-    /// The fields under their names, without what only counts.
+    /// The fields by name, without counters.
     pub fields: Fields,
-    /// Encoded again.
+    /// The fields encoded again.
     pub bytes: Vec<u8>,
 }
 
-/// Why the codec has no answer.
+/// Why decoding or encoding failed.
 #[derive(Debug)]
 pub enum Refused {
-    /// It refuses the bytes.
+    /// The codec rejects the bytes.
     Error(Error),
-    /// These fields are no value of the stream.
+    /// The fields are not a value of the stream.
     Unfit(String),
-    /// It does not know the stream, or the context lacks what it needs.
+    /// The stream is unknown, or the context is incomplete.
     Unsupported(String),
 }
 
@@ -41,7 +41,7 @@ impl From<Error> for Refused {
     }
 }
 
-/// The class of an error under the name vectors give it.
+/// The class of an error, with the name that the vectors use.
 pub fn class(error: &Error) -> &'static str {
     match error.kind() {
         ErrorKind::Truncated => "truncated",
@@ -63,7 +63,7 @@ pub fn class(error: &Error) -> &'static str {
 /// Decodes `bytes` as the stream of this name.
 ///
 /// # Errors
-/// The codec's refusal.
+/// If the codec rejects them.
 pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
     match name {
         "ams-frame" => frame::decode(context, bytes),
@@ -77,7 +77,7 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 /// Encodes fields as the stream of this name.
 ///
 /// # Errors
-/// The codec's refusal, or what keeps these fields from being a value of the stream.
+/// If the fields are not a value of the stream, or the codec rejects them.
 pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
     let of = Given(fields);
     match name {
