@@ -1,5 +1,12 @@
 //! `ads-cnc run --client`: the suite is the CNC, and judges who talks to it.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use std::net::SocketAddr;
 use std::time::Duration;
 

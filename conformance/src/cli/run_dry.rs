@@ -1,6 +1,13 @@
 //! `ads-cnc run --dry-run`: lists functions, not requests, because requests depend on earlier
 //! replies.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use std::io::{self, Write};
 
 use ads_cnc::operation::{Effect, Function};

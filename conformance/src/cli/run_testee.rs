@@ -1,5 +1,12 @@
 //! `ads-cnc run --testee`: a codec that is asked over pipes.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -63,8 +70,8 @@ pub(super) fn target(
 /// Goes through the protocol step by step and prints what is wrong and what is expected.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = TesteeProcess::new(command, timeout);
-    let mut faults = 0_usize;
     let findings = check_protocol(&mut process);
+    let faults = findings.iter().filter(|finding| finding.fault.is_some()).count();
     if interrupt::is_requested() {
         writeln!(out, "Interrupted: the protocol was not gone through.")?;
         return Ok(Exit::Nothing);
@@ -73,7 +80,6 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {
-                faults += 1;
                 writeln!(out, "WRONG  {what}: {fault}")?;
                 for (mark, line) in [("→", sent), ("←", received)] {
                     if let Some(line) = line {

@@ -18,6 +18,7 @@ mod request_match;
 mod requests;
 mod result;
 mod scenario;
+#[allow(clippy::restriction)]
 mod scenarios;
 mod script;
 mod tamper;

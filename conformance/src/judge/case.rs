@@ -90,7 +90,6 @@ pub enum Body {
 }
 
 /// Checks at compile time that all IDs are in the catalogue.
-#[allow(clippy::panic, reason = "runs when a table is compiled")]
 pub(crate) const fn in_catalogue(ids: &'static [&'static str]) -> &'static [&'static str] {
     let mut rest = ids;
     while let [id, others @ ..] = rest {

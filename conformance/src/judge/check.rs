@@ -269,7 +269,7 @@ impl Record {
         found: impl Describe,
         evidence: impl FnOnce() -> Option<Evidence>,
     ) {
-        self.checks = self.checks.saturating_add(1);
+        self.checks += 1;
         let passed = verdict == Verdict::Pass;
         let same = self
             .judgements
@@ -278,7 +278,7 @@ impl Record {
         let mut same: Vec<_> = same.collect();
         if same.len() >= if passed { 1 } else { KEPT } {
             if let Some(last) = same.last_mut() {
-                last.more = last.more.saturating_add(1);
+                last.more += 1;
             }
             return;
         }
@@ -298,13 +298,13 @@ impl Record {
     pub(crate) fn of(&self, requirement: &str) -> Self {
         let mine = self.judgements.iter().filter(|one| one.requirement == requirement);
         let judgements: Vec<Judgement> = mine.cloned().collect();
-        let checks = judgements.iter().map(|one| one.more.saturating_add(1));
-        Self { checks: checks.fold(0, usize::saturating_add), judgements }
+        let checks = judgements.iter().map(|one| one.more + 1).sum();
+        Self { checks, judgements }
     }
 
     /// Adds a record of other requirements.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.judgements.append(&mut other.judgements);
-        self.checks = self.checks.saturating_add(other.checks);
+        self.checks += other.checks;
     }
 }

@@ -138,9 +138,8 @@ impl Waivers {
         for waiver in &file.waiver {
             let Waiver { test, requirement, .. } = waiver.get_ref();
             if !known.insert((test, requirement)) {
-                let before = text.as_bytes().get(..waiver.span().start).unwrap_or_default();
-                let newlines = before.iter().filter(|&&byte| byte == b'\n').count();
-                let line = newlines.saturating_add(1);
+                let before = &text.as_bytes()[..waiver.span().start];
+                let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
                 let why = format!("line {line}: a second waiver of {requirement} in {test}");
                 return Err(failed(why));
             }
@@ -216,7 +215,7 @@ fn known_requirement<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::E
     let id = String::deserialize(value)?;
     match requirement(&id) {
         Some(_) => Ok(id),
-        None => Err(D::Error::custom(format!("there is no requirement {id}"))),
+        None => Err(D::Error::custom(format!("no such requirement: {id}"))),
     }
 }
 

@@ -215,7 +215,7 @@ fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let front = [name.as_bytes(), b"\0", bytes].concat();
     let with = |zeros: usize| {
         let mut data = front.clone();
-        data.resize(front.len().saturating_add(zeros), 0);
+        data.resize(front.len() + zeros, 0);
         data
     };
     let ask = write(552, GROUP, 0x4A, &with(1)).of("VAR-13", "VAR-13").also(&with(0));
@@ -334,7 +334,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("parameter-by-name 1 {kind} {name}"),
             )
             .asks(
-                both(GROUP, base.saturating_add(1), &zeroed, 8)
+                both(GROUP, base + 1, &zeroed, 8)
                     .of("DYN-3", "DYN-6")
                     .also(&padded)
                     .tolerating(name.as_bytes()),
@@ -345,7 +345,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("It reads a {kind} by its index"),
                 format!("parameter-by-index 1 {kind} {place}"),
             )
-            .asks(both(GROUP, base.saturating_add(2), &index, 8).of("DYN-4", "DYN-5"))
+            .asks(both(GROUP, base + 2, &index, 8).of("DYN-4", "DYN-5"))
             .gives(parameter),
         ]);
     }

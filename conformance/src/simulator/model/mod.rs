@@ -3,6 +3,7 @@
 //! It is read from TOML; the comments of the default model describe what it may contain:
 //! `ads-cnc serve --print-model` writes it out.
 
+#[allow(clippy::restriction)]
 mod build;
 mod claims;
 mod configured;

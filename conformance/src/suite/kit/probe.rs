@@ -1,5 +1,12 @@
 //! The access of a case to the target: requests and checks.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 mod handle;
 mod refused;
 

@@ -1,5 +1,12 @@
 //! Owned requests, to be changed before they are sent.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{Call, Request, Service};

@@ -204,7 +204,7 @@ fn elements(
         elements.name.clone_from(name.get_ref());
     }
     for row in &table.elements {
-        if elements.items.len() >= max.saturating_sub(1) {
+        if elements.items.len() >= max - 1 {
             return Err(
                 source.error(&row.name.span(), "an element further would be another axis's")
             );
