@@ -1,4 +1,5 @@
-//! An AMS/TCP client that keeps every byte it sends and receives, and judges each frame.
+//! An AMS/TCP client that records every byte it sends and receives and checks the headers of each
+//! frame.
 
 mod inquiry;
 mod judge;
@@ -27,7 +28,7 @@ pub use tap::Tap;
 pub use target::Target;
 pub(crate) use target::net_id_of;
 
-/// The AMS port to ask as; nobody has to listen there.
+/// The AMS port requests are sent from; no program has to be registered on it.
 pub(crate) const SOURCE_PORT: AmsPort = AmsPort(0x8000);
 
 /// A connection to a target, through the gate.
@@ -54,37 +55,41 @@ enum Dial {
     InProcess(Arc<dyn Responder>),
 }
 
-/// Between the pieces of a frame that is sent in pieces.
+/// The time between two pieces of a frame that is sent in pieces.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// The most frames with another invoke ID, before an answer, that are told one by one.
+/// The most replies with an unexpected invoke ID, before the expected reply, that become violations
+/// of their own; the others are counted.
 const STRAYS_TOLD: u64 = 3;
 
-/// Before the first: no byte of it is 0 or like another, as a response has to have all four.
+/// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte
+/// in a response's ID is noticed.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
 
 impl Gate {
-    /// Anything but what is never sent: for the CNC that this server of this process has, which
-    /// moves nothing. [`Client`] takes no other address with it.
+    /// Allows every request that the gate does not forbid altogether: only for the simulated CNC of
+    /// this server in this process, which moves nothing. [`Client`] accepts no other address with
+    /// it.
     pub fn of_server(server: &Server) -> Self {
         Self::of_address(server.addr())
     }
 }
 
 impl Client {
-    /// Connects. What no client should send goes to this machine only.
+    /// Connects. A gate that allows malformed requests is accepted only for a target on this
+    /// machine.
     ///
     /// # Errors
-    /// If nobody listens there, or the gate is open wider than is safe for another machine.
+    /// If no server listens there, or the gate allows malformed requests to another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
         Self::dialled(target, gate, Dial::Tcp)
     }
 
-    /// Connects to a CNC of this process without a socket. The CNC's clock, which must be stopped,
-    /// runs while an answer is awaited in vain.
+    /// Connects to a CNC of this process without a socket. The CNC's clock must be stopped; it is
+    /// advanced while the client waits for an answer.
     ///
     /// # Errors
-    /// If the gate is open wider than is safe for another machine.
+    /// If the gate allows malformed requests to another machine.
     pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn Responder>) -> io::Result<Self> {
         Self::dialled(target, gate, Dial::InProcess(cnc))
     }
@@ -97,10 +102,10 @@ impl Client {
         Ok(client)
     }
 
-    /// A dry run: it connects to nobody and sends nothing, but asks the gate.
+    /// A dry run: no connection, no request sent, but every request is checked by the gate.
     ///
     /// # Errors
-    /// If the gate is open wider than is safe for another machine.
+    /// If the gate allows malformed requests to another machine.
     pub fn dry(target: Target, gate: Gate) -> io::Result<Self> {
         Ok(Self { dry: true, ..Self::unconnected(target, gate)? })
     }
@@ -138,14 +143,14 @@ impl Client {
         })
     }
 
-    /// With another time to wait for a connection and for an answer.
+    /// Sets the time to wait for a connection and for an answer.
     #[must_use]
     pub(crate) const fn with_timeout(mut self, timeout: Duration) -> Self {
         self.target.timeout = timeout;
         self
     }
 
-    /// With a capture of all that is sent and received from now on.
+    /// Captures everything sent and received from now on.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
         let mut capture = capture.into();
@@ -156,7 +161,7 @@ impl Client {
         self
     }
 
-    /// The capture, for another connection; on this one nothing more is kept.
+    /// Takes the capture, to continue it on another connection; this client captures no more.
     pub(crate) fn take_capture(&mut self) -> Option<Box<dyn Tap>> {
         let mut capture = self.capture.take()?;
         capture.closed();
@@ -173,7 +178,7 @@ impl Client {
         self.piece = piece;
     }
 
-    /// Lets time pass, for the target too.
+    /// Waits. The clock of a CNC in this process advances too.
     pub(crate) fn wait(&self, time: Duration) {
         match &self.dial {
             Dial::Tcp => thread::sleep(time),
@@ -190,17 +195,17 @@ impl Client {
         &self.target
     }
 
-    /// The NetId it asks as.
+    /// The NetId requests are sent from.
     pub const fn source(&self) -> AmsNetId {
         self.source
     }
 
-    /// Whether nothing is sent.
+    /// Whether this is a dry run.
     pub const fn is_dry(&self) -> bool {
         self.dry
     }
 
-    /// Whether the gate would let a call pass now; nothing is sent.
+    /// Whether the gate would allow a call now; nothing is sent.
     ///
     /// # Errors
     /// [`ExchangeError::Refused`], [`ExchangeError::Unsendable`].
@@ -223,7 +228,8 @@ impl Client {
         exchange
     }
 
-    /// Sends a call if it may be, and keeps what comes of it; the header it went out with.
+    /// Sends a call if the gate allows it, and stores the result in `exchange`. Returns the header
+    /// it was sent with.
     fn sent(
         &mut self,
         call: &Call<'_>,
@@ -244,8 +250,8 @@ impl Client {
         Ok(header)
     }
 
-    /// Sends a frame if it may be sent, and waits for the one that answers it, which is then all
-    /// that was received. The outer error is why nothing was sent.
+    /// Sends a frame if the gate allows it and waits for its reply; afterwards `received` has the
+    /// reply's bytes only. The outer error says why nothing was sent.
     fn deliver(
         &mut self,
         bytes: &[u8],
@@ -262,8 +268,8 @@ impl Client {
         let mut came = self.exchange(permit, header, received, violations, &mut strays);
         let lost = matches!(came, Err(ExchangeError::Closed | ExchangeError::Io(_)));
         if lost && permit.is_repeatable() {
-            // A connection may have been closed for being idle. Whether a write was done before
-            // that nobody knows: it is not sent twice.
+            // The CNC may have closed an idle connection. Whether it executed a write before that
+            // is unknown: a write is not sent twice.
             received.clear();
             self.disconnect();
             came = self.exchange(permit, header, received, violations, &mut strays);
@@ -275,7 +281,7 @@ impl Client {
         Ok(came)
     }
 
-    /// With an invoke ID that the request before did not have.
+    /// The header of the next request, with an invoke ID of its own.
     fn next_header(&mut self, port: AmsPort, command: Command) -> AmsHeader {
         self.invoke_id = self.invoke_id.wrapping_add(1);
         self.header(port, command)
@@ -284,12 +290,12 @@ impl Client {
     fn header(&self, port: AmsPort, command: Command) -> AmsHeader {
         let low = u16::try_from(self.invoke_id & 0xF).unwrap_or_default();
         let target = AmsAddr { net_id: self.target.net_id, port };
-        // Not always the same: an answer goes to where its request came from.
+        // The source port changes, to check that a reply is addressed to the source of its request.
         let source = AmsAddr { net_id: self.source, port: AmsPort(SOURCE_PORT.0 | low) };
         AmsHeader::request(target, source, command, self.invoke_id)
     }
 
-    /// Ends the connection. Who answers on the next may be another, or have restarted.
+    /// Ends the connection. On the next one another CNC may answer, or the same after a restart.
     fn disconnect(&mut self) {
         self.wire = None;
         if let Some(capture) = &mut self.capture {
@@ -298,7 +304,7 @@ impl Client {
         self.gate.forget();
     }
 
-    /// Waits until the target may be asked again.
+    /// Waits until the pace of the target allows the next request.
     fn keep_pace(&mut self) {
         if let Some(last) = self.last {
             thread::sleep(self.target.pace.saturating_sub(last.elapsed()));
@@ -400,7 +406,7 @@ fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, ExchangeError> {
         .map_err(ExchangeError::Unsendable)
 }
 
-/// What a frame with this header and data answers.
+/// Decodes the reply with this header and data to a request with the header `sent`.
 pub(crate) fn answer(
     sent: AmsHeader,
     header: AmsHeader,
@@ -409,7 +415,7 @@ pub(crate) fn answer(
     if !header.error.is_ok() && payload.is_empty() {
         return Ok(AdsReply { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
-    // Whatever else is asked has a result in its reply as a Write has, and maybe more.
+    // A reply to any other command starts with a result, like that of a Write, and may have more.
     let service = service_of(sent.command).unwrap_or(Service::Write);
     let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
     Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })

@@ -1,4 +1,4 @@
-//! This project's codec as the vectors see it: bytes in, fields or a refusal out, and back again.
+//! This project's codec with the names of the vectors: decodes bytes to fields, and encodes fields.
 
 mod address;
 mod decoded;
@@ -39,7 +39,7 @@ pub fn class(error: &Error) -> &'static str {
 /// Decodes `bytes` as the stream of this name.
 ///
 /// # Errors
-/// The codec's refusal.
+/// If the codec rejects them.
 pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
     match name {
         "ams-frame" => frame::decode(context, bytes),
@@ -53,7 +53,7 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 /// Encodes fields as the stream of this name.
 ///
 /// # Errors
-/// The codec's refusal, or what keeps these fields from being a value of the stream.
+/// If the fields are not a value of the stream, or the codec rejects them.
 pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
     let of = Given(fields);
     match name {

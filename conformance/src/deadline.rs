@@ -1,9 +1,9 @@
-//! When a tool stops asking, whatever a device still has to say.
+//! When a tool stops sending requests, however much remains to be read.
 
 use std::fmt;
 use std::time::{Duration, Instant};
 
-/// A moment after which nothing more is asked for.
+/// A moment after which no more requests are sent.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
     at: Option<Instant>,
@@ -11,12 +11,12 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// So long from now on; a time beyond the clock never ends.
+    /// This much time from now on; a time beyond the range of the clock means no deadline.
     pub fn after(time: Duration) -> Self {
         Self { at: Instant::now().checked_add(time), after: time }
     }
 
-    /// What is left of this time before it.
+    /// `time`, or less if the deadline comes earlier.
     #[must_use]
     pub fn limit(&self, time: Duration) -> Duration {
         let left = self.at.map(|at| at.saturating_duration_since(Instant::now()));
@@ -29,7 +29,7 @@ impl Deadline {
     }
 }
 
-/// That it has passed.
+/// The error text once it has passed.
 impl fmt::Display for Deadline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the deadline of {} s has passed (--deadline)", self.after.as_secs())

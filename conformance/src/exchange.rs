@@ -1,4 +1,4 @@
-//! One request and what came of it, byte for byte.
+//! A request and its result, byte for byte.
 
 use std::fmt;
 use std::io;
@@ -12,7 +12,7 @@ use ads_cnc::operation::{Call, Service};
 use crate::gate::Refusal;
 use crate::judge::{Describe, Evidence};
 
-/// One request and what came of it.
+/// A request and its result.
 #[derive(Debug)]
 pub struct Exchange {
     /// Port the request went to.
@@ -24,11 +24,11 @@ pub struct Exchange {
     pub data: Vec<u8>,
     /// The whole frame sent; empty if none was.
     pub sent: Vec<u8>,
-    /// The whole frame received, or as much as came.
+    /// The received frame, or the part of it that arrived.
     pub received: Vec<u8>,
-    /// The answer with its header, or why there is none.
+    /// The reply and its AMS header, or why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
-    /// What is wrong with the frame itself.
+    /// Rules of AMS/TCP that the received frame breaks.
     pub violations: Vec<Violation>,
 }
 
@@ -39,12 +39,12 @@ pub struct AdsReply {
     pub ams_error: AdsError,
     /// Result of the service.
     pub result: AdsError,
-    /// Data; none if the reply stops before it.
+    /// Data; `None` if the reply ends before its data.
     pub data: Option<Vec<u8>>,
 }
 
 impl AdsReply {
-    /// The data of a success; none if the answer is an error.
+    /// The data of a successful reply; `None` for an error.
     pub fn success(&self) -> Option<&[u8]> {
         match (self.ams_error.is_ok(), self.result.is_ok()) {
             (true, true) => Some(self.data.as_deref().unwrap_or_default()),
@@ -69,22 +69,22 @@ impl fmt::Display for AdsReply {
 /// Why there is no answer.
 #[derive(Debug)]
 pub enum ExchangeError {
-    /// The gate did not let the request through.
+    /// The gate rejected the request.
     Refused(Box<Refusal>),
-    /// It was only shown.
+    /// A dry run.
     NotSent,
     /// The request has no form on the wire.
     Unsendable(Error),
-    /// Nothing came in this time.
+    /// No reply arrived in this time.
     Silence(Duration),
     Closed,
-    /// Whatever it was: the request is looked at alone.
+    /// The reply is not looked at: the request alone is judged.
     Unseen,
-    /// What came is no frame, or no reply of the service.
+    /// The bytes received are not an AMS/TCP frame, or not a reply of the service.
     Malformed(Error),
     /// The network failed.
     Io(String),
-    /// Nobody listens any more.
+    /// The connection could not be opened.
     Disconnected(String),
 }
 
@@ -142,22 +142,22 @@ impl Exchange {
         self.outcome.as_ref().ok().map(|(answer, _)| answer)
     }
 
-    /// The data of a success; none if an error was answered, or nothing.
+    /// The data of a successful reply; `None` for an error or without a reply.
     pub fn success(&self) -> Option<&[u8]> {
         self.answer().and_then(AdsReply::success)
     }
 
-    /// Whether an error was answered.
+    /// Whether the reply is an error.
     pub fn is_error(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none())
     }
 
-    /// Whether it was rejected: by an error, or by a success that gives nothing.
+    /// Whether the reply is an error, or a success without data.
     pub fn is_rejected(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none_or(<[u8]>::is_empty))
     }
 
-    /// What came of it, in a few words.
+    /// The reply or the error, in a few words.
     pub fn result(&self) -> String {
         match &self.outcome {
             Ok((answer, _)) => answer.to_string(),
@@ -184,7 +184,7 @@ impl fmt::Display for Exchange {
     }
 }
 
-/// By what came of it.
+/// The result as text.
 impl Describe for &Exchange {
     fn describe(self) -> String {
         self.result()

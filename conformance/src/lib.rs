@@ -6,29 +6,29 @@
 //! | module | what it has |
 //! |---|---|
 //! | [`cli`] | the command line of `ads-cnc` |
-//! | [`selftest`] | the suite tried on itself |
+//! | [`selftest`] | tests of the suite with seeded defects |
 //! | [`matrix`] | what covers each requirement |
-//! | [`capture`] | captured traffic, judged, and written as Wireshark reads it |
-//! | [`clients`] | clients of others, which talk to a CNC that can do wrong |
-//! | [`suite`] | the cases that a CNC is tried with |
-//! | [`testee`] | codecs of others, asked over stdin and stdout |
-//! | [`named`], [`objects`] | what a CNC has, one thing by its name or all of it |
-//! | [`session`] | a CNC to ask, typed: what tools work with |
-//! | [`report`] | how judgements are shown |
-//! | [`client`] | an AMS/TCP client that keeps every byte |
-//! | [`faults`] | seeded defects: what a codec or a CNC can get wrong |
+//! | [`capture`] | captured traffic: judged, or written for Wireshark |
+//! | [`clients`] | clients under test, and the CNC they talk to |
+//! | [`suite`] | the cases for a CNC |
+//! | [`testee`] | codecs under test, over stdin and stdout |
+//! | [`named`], [`objects`] | variables and objects of a CNC: one by its name, or all |
+//! | [`session`] | the typed connection of a tool to a CNC |
+//! | [`report`] | the report of a run, in all its formats |
+//! | [`client`] | an AMS/TCP client that records every byte |
+//! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
 //! | [`simulator`] | the simulated CNC: data model, answers, AMS/TCP server |
-//! | [`net`] | the one place where sockets are opened |
-//! | [`exchange`] | a request and what came of it |
-//! | [`gate`] | what may be sent to a target |
-//! | [`process`] | commands that a user names, and signals |
+//! | [`net`] | the only module that opens sockets |
+//! | [`exchange`] | a request and its result |
+//! | [`gate`] | decides which frames may be sent to a target |
+//! | [`process`] | commands given by the user, and signals |
 //! | [`explain`] | bytes of any stream, field by field |
-//! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
+//! | [`codec`], [`show`] | the codec with the names of the vectors, and their values as text |
 //! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
-//! | [`values`] | values as people read and write them |
-//! | [`profile`], [`edition`] | what a target claims, and what an edition or a version has |
-//! | [`wire_service`] | what the three ADS services have on the wire |
-//! | [`deadline`] | when a tool stops asking |
+//! | [`values`] | typed values: parsing and formatting |
+//! | [`profile`], [`edition`] | the claims of a target; features by edition and version |
+//! | [`wire_service`] | requirement, streams and reply of the three ADS services |
+//! | [`deadline`] | when a tool stops sending requests |
 //! | [`text`] | hex, escapes, times, JSON |
 //!
 //! Every byte the simulated CNC sends is encoded by [`ads_cnc`]; there is no second encoder.
@@ -38,8 +38,10 @@
 
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods)]
-// Nothing may panic on bytes from outside, nor between a write and its restoring. Modules that have
-// neither allow it below: there a panic ends one case, which is then a harness error.
+// Code must not panic on bytes from outside, nor between a write and its restoring. Modules without
+// such code allow these lints, below or in their parent: a panic there ends one case as a harness
+// error, or a tool before its first request. In the modules `cli` and `suite` the files that write to
+// a target or restore a value deny them again.
 #![cfg_attr(
     not(test),
     deny(
@@ -61,12 +63,14 @@ pub mod client;
 pub mod clients;
 pub mod codec;
 pub mod deadline;
+#[allow(clippy::restriction)]
 pub mod edition;
 pub mod exchange;
 pub mod explain;
 #[allow(clippy::restriction)]
 pub mod faults;
 pub mod gate;
+#[allow(clippy::restriction)]
 pub mod judge;
 #[allow(clippy::restriction)]
 pub mod matrix;
@@ -74,6 +78,7 @@ pub mod named;
 pub mod net;
 pub mod objects;
 pub mod process;
+#[allow(clippy::restriction)]
 pub mod profile;
 #[allow(clippy::restriction)]
 pub mod report;

@@ -40,19 +40,19 @@ pub struct RequirementRow {
     pub basis: String,
     /// Must, should or info.
     pub level: String,
-    /// Why nothing judges it.
+    /// Why no check covers it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,
     /// Document, edition and section.
     pub sources: Vec<String>,
-    /// Contradictions that touch it.
+    /// Errata (contradictions between the manuals) that concern it.
     pub errata: Vec<String>,
-    /// Vectors and sequences that are accepted.
+    /// Vectors and sequences that must decode.
     pub accepted: Vec<String>,
-    /// Vectors and sequences that are refused.
+    /// Vectors and sequences that must be rejected.
     pub rejected: Vec<String>,
-    /// Cases of the suite that ask a target, and scenarios of a client; those that decode a vector
-    /// are with the vectors.
+    /// Cases of the suite against a target, and scenarios for a client. Cases that decode a vector
+    /// are listed with the vectors.
     pub cases: Vec<String>,
     /// Fuzz targets that reach its bytes.
     pub fuzz_targets: BTreeSet<&'static str>,
@@ -116,7 +116,7 @@ fn joined(names: &BTreeSet<&str>, between: &str) -> String {
     names.iter().copied().collect::<Vec<_>>().join(between)
 }
 
-/// For people: each requirement with its lists below it.
+/// As text: each requirement with its lists below it.
 pub fn to_text(rows: &[RequirementRow]) -> String {
     let mut text = String::new();
     for row in rows {
@@ -143,7 +143,7 @@ pub fn to_text(rows: &[RequirementRow]) -> String {
     text
 }
 
-/// One table; of vectors and cases the numbers.
+/// One Markdown table, with the numbers of vectors and cases.
 pub fn to_markdown(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| requirement | level | basis | sources | errata | accepted | rejected | cases | fuzzed |\n\
@@ -177,7 +177,7 @@ pub fn to_markdown(rows: &[RequirementRow]) -> String {
 mod tests {
     use super::*;
 
-    /// Nothing is in the matrix without a reason, and nothing is left out of it.
+    /// Each requirement has a vector, a case or a reason why not.
     #[test]
     fn every_requirement_leads_somewhere() {
         let rows = matrix();

@@ -1,4 +1,4 @@
-//! Where sockets are opened: nowhere else, by lint.
+//! The only module that opens sockets; a lint forbids it elsewhere.
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place")]
 
@@ -15,7 +15,7 @@ use crate::gate::Permit;
 /// Listens on an address; the system picks the port if it is 0.
 ///
 /// # Errors
-/// Those of the system: the port is taken, the address is none of this machine's.
+/// Those of the system: the port is taken, the address is not one of this machine.
 pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
@@ -29,10 +29,10 @@ pub struct Acceptor {
 }
 
 impl Acceptor {
-    /// Hands over each connection, and whose it is.
+    /// Calls `f` with each connection and the peer's address.
     ///
     /// # Errors
-    /// If the listener has no address or the system no thread.
+    /// If the listener has no address, or the system cannot start a thread.
     pub fn start(
         name: &str,
         listener: TcpListener,
@@ -48,7 +48,7 @@ impl Acceptor {
             match accepted {
                 Ok((stream, peer)) => take(stream, peer),
                 Err(error) => {
-                    // Out of file descriptors, most likely: wait for connections to end.
+                    // Most likely no file descriptor is left: wait until other connections end.
                     tracing::warn!("no connection: {error}");
                     thread::sleep(Duration::from_millis(50));
                 }
@@ -58,7 +58,7 @@ impl Acceptor {
         Ok(Self { addr, stopped, thread: Some(thread) })
     }
 
-    /// Where it listens.
+    /// The address it listens on.
     pub const fn addr(&self) -> SocketAddr {
         self.addr
     }
@@ -67,14 +67,15 @@ impl Acceptor {
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);
-        // The thread waits for a connection; if none can be made, the thread is not joined.
+        // The thread blocks in `accept` until a connection arrives; if none can be made, do not
+        // join it.
         if self.knock().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }
     }
 
     fn knock(&self) -> io::Result<()> {
-        // A listener on all addresses is reached on this machine's own.
+        // A listener on all addresses is reached through the loopback address.
         let ip = match self.addr.ip() {
             IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
             IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
@@ -91,8 +92,8 @@ impl Drop for Acceptor {
     }
 }
 
-/// Connects to a listener on this machine for what may send anything: a client that is wrong on
-/// purpose, and the simulated CNC it is wrong to.
+/// Connects without a gate to a listener on this machine: for a client that is wrong on purpose and
+/// the simulated CNC it talks to.
 ///
 /// # Errors
 /// Those of the system, and [`io::ErrorKind::PermissionDenied`] for any other machine.
@@ -111,11 +112,12 @@ pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStr
 pub trait Peer: fmt::Debug + Send {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
-    /// Gives the bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end.
+    /// Receives bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end of the
+    /// connection.
     ///
     /// # Errors
-    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if nothing
-    /// arrived.
+    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
+    /// bytes arrived.
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
 }
 
@@ -138,7 +140,7 @@ pub struct Wire {
 }
 
 impl Wire {
-    /// Connects to an address within `timeout`. What is sent leaves at once.
+    /// Connects to an address within `timeout`, without Nagle's algorithm.
     ///
     /// # Errors
     /// Those of the system, and [`io::ErrorKind::TimedOut`].
@@ -158,12 +160,12 @@ impl Wire {
         self.local
     }
 
-    /// Sends a frame that may be sent.
+    /// Sends a frame that the gate has permitted.
     pub fn send(&mut self, permit: Permit<'_>) -> io::Result<()> {
         self.peer.send(permit.frame())
     }
 
-    /// As [`send`](Self::send), this many bytes at a time, one pause after the other.
+    /// Like [`send`](Self::send), but in pieces of this many bytes with a pause between two.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,
@@ -177,11 +179,12 @@ impl Wire {
         Ok(())
     }
 
-    /// What has come, waiting at most so long; 0 bytes at the end.
+    /// Receives bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end of the
+    /// connection.
     ///
     /// # Errors
-    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if nothing
-    /// came.
+    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
+    /// bytes arrived.
     pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
         self.peer.receive(buf, timeout)
     }

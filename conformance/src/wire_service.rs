@@ -1,11 +1,11 @@
-//! What the three ADS services have on the wire, each its own and all in the same way.
+//! Requirement, streams and reply of the three ADS services (Read, Write, ReadWrite).
 
 use ads_cnc::ads::{AdsError, Command, ReadReplyRef, ReadWriteReplyRef, WriteReply};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Service;
 use ads_cnc::{Decode, Encode, Error};
 
-/// The service that a command asks for, if it is one of the three.
+/// The service of a command; `None` for other commands.
 pub const fn service_of(command: Command) -> Option<Service> {
     match command {
         Command::READ => Some(Service::Read),
@@ -15,7 +15,7 @@ pub const fn service_of(command: Command) -> Option<Service> {
     }
 }
 
-/// The requirement that says what a service is.
+/// The requirement that specifies a service.
 pub(crate) const fn clause(service: Service) -> &'static str {
     match service {
         Service::Read => "ADS-1",
@@ -42,7 +42,7 @@ pub(crate) const fn reply_stream(service: Service) -> Stream {
     }
 }
 
-/// Result and data of a service's reply; of a Write there is never any data.
+/// Result and data of a service's reply; a Write's reply has no data.
 pub fn decode_reply(service: Service, payload: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {
     match service {
         Service::Read => ReadReplyRef::decode(payload).map(|reply| (reply.result, reply.data)),
@@ -53,7 +53,7 @@ pub fn decode_reply(service: Service, payload: &[u8]) -> Result<(AdsError, Optio
     }
 }
 
-/// A service's reply; a Write's has no room for data and leaves it out.
+/// Encodes a service's reply; a Write's reply omits the data.
 pub fn encode_reply(
     service: Service,
     result: AdsError,

@@ -1,4 +1,4 @@
-//! Packets out of a pcap or pcapng file, one at a time.
+//! Reads packets from a pcap or pcapng file, one at a time.
 
 use std::io::Read;
 
@@ -8,19 +8,19 @@ use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 use super::time::Time;
 
-/// Bytes of the buffer to begin with.
+/// Initial size of the read buffer in bytes.
 const BUFFER: usize = 0x1_0000;
 
-/// Bytes of the longest record or block that is read.
+/// Maximum length of a record or block; a longer one ends the file.
 pub const RECORD_MAX: usize = 0x80_0000;
 
-/// Interfaces of a pcapng section that are kept.
+/// Maximum number of interfaces of a pcapng section.
 const INTERFACES_MAX: usize = 4096;
 
 /// A packet as it was captured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Packet<'p> {
-    /// From 1 on, as other tools count them.
+    /// Counted from 1, as other tools do.
     pub(super) number: u64,
     pub(super) time: Option<Time>,
     pub(super) link: Linktype,
@@ -34,24 +34,24 @@ pub(super) struct Packet<'p> {
 pub enum FileEnd {
     /// With its last record.
     Whole,
-    /// Inside a record, or where what follows is none.
+    /// Inside a record, or before bytes that are not a record.
     Cut(String),
 }
 
 /// Why a file cannot be read at all.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// The system has it not, or no longer.
+    /// The system cannot read it.
     #[error("{0}")]
     Io(#[from] std::io::Error),
-    /// It is something else.
+    /// It is neither pcap nor pcapng.
     #[error("neither pcap nor pcapng")]
     Format,
     #[error("the file is empty")]
     Empty,
 }
 
-/// What says how packets are to be read.
+/// The link type and time resolution of an interface.
 struct CaptureInterface {
     link: Linktype,
     /// Units of time in a second.
@@ -61,12 +61,12 @@ struct CaptureInterface {
 
 #[derive(Default)]
 struct Interfaces {
-    /// Of pcapng, of the section that is read.
+    /// The interfaces of the current pcapng section.
     all: Vec<CaptureInterface>,
     packets: u64,
 }
 
-/// Hands over every packet of a file.
+/// Calls a function with every packet of a file.
 pub(super) fn packets(
     input: impl Read + Send,
     mut each: impl FnMut(Packet<'_>),
@@ -119,7 +119,8 @@ pub(super) fn packets(
     }
 }
 
-/// Reads as much as there is room for, so that the end of a file is the end of what was read.
+/// A reader that fills the whole buffer unless the file ends, because the parser takes a short read
+/// for the end.
 struct Patient<R>(R);
 
 impl<R: Read> Read for Patient<R> {
@@ -143,7 +144,7 @@ impl Interfaces {
             PcapBlockOwned::LegacyHeader(header) => {
                 let nanoseconds = header.is_nanosecond_precision();
                 let resolution = if nanoseconds { 1_000_000_000 } else { 1_000_000 };
-                // The upper bits say something about checksums at the end of frames.
+                // The upper 16 bits have other information, about frame check sequences.
                 let link = Linktype(header.network.0 & 0xFFFF);
                 self.all = vec![CaptureInterface { link, resolution, offset: 0 }];
             }
@@ -195,7 +196,7 @@ impl Interfaces {
         each: &mut impl FnMut(Packet<'_>),
     ) {
         self.packets = self.packets.saturating_add(1);
-        // A packet of an interface that nobody described is counted, and that is all.
+        // A packet of an interface without a description has the link type -1: it is counted only.
         let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
         let original = usize::try_from(original).unwrap_or(usize::MAX);
         let missing = original.saturating_sub(bytes.len());

@@ -1,4 +1,4 @@
-//! The cases of captured traffic, and what was found of each.
+//! The cases of captured traffic and their checks.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Display};
@@ -19,7 +19,7 @@ use crate::judge::{
 /// Declares [`Topic`].
 macro_rules! topics {
     ($( $topic:ident: $subject:ident, $id:literal, $title:literal, [$($requirement:literal),*] $(of $area:literal)?; )+) => {
-        /// What is looked at.
+        /// A case of captured traffic.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Topic { $( $topic, )+ }
 
@@ -104,7 +104,7 @@ impl Topic {
         }
     }
 
-    /// Replies of a function.
+    /// The topic of replies of a function.
     pub(super) fn of_reply(function: Function) -> Self {
         match function.spec().clause.get(..3) {
             Some("COM") => Self::CncCom,
@@ -127,7 +127,7 @@ fn of_area(area: &str, subject: CaseSubject, also: Vec<&'static str>) -> Vec<&'s
         all.push(spec.clause);
         all.extend(stream.into_iter().flat_map(clauses));
     }
-    // As the catalogue has them, and only those.
+    // Only IDs of the catalogue, in its order.
     let all: BTreeSet<&str> = all.into_iter().collect();
     requirements().iter().filter_map(|known| all.get(known.id.as_str()).copied()).collect()
 }
@@ -138,7 +138,7 @@ fn clauses(stream: Stream) -> impl Iterator<Item = &'static str> {
     layout.fields.iter().map(|field| field.clause).chain([layout.clause])
 }
 
-/// Where something was seen.
+/// Where in the capture a frame was seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Location {
     pub(super) from: SocketAddr,
@@ -168,12 +168,12 @@ impl Display for Location {
     }
 }
 
-/// What a check is about.
+/// The frames that a check is about.
 #[derive(Debug)]
 pub(super) enum Observation<'e> {
-    /// A request, and its answer if there is one.
+    /// A request, and its reply if one was captured.
     Exchange(&'e Exchange, Location),
-    /// Bytes that are no frame, or no whole one.
+    /// Bytes that are not a frame, or not a complete one.
     Bytes(&'e [u8], Location),
 }
 
@@ -197,7 +197,7 @@ impl Observation<'_> {
     }
 }
 
-/// All cases.
+/// The records of all cases.
 #[derive(Debug)]
 pub(super) struct TopicRecords {
     records: Vec<(Case, Record, Vec<String>)>,
@@ -209,7 +209,7 @@ impl TopicRecords {
         Self { records: records.collect() }
     }
 
-    /// Where checks of a topic are noted.
+    /// Where the checks of a topic are recorded.
     pub(super) fn on<'b>(
         &'b mut self,
         topic: Topic,
@@ -219,7 +219,7 @@ impl TopicRecords {
         TopicRecord { topic: self.records.get_mut(place), observation }
     }
 
-    /// Something that a reader should know of a case.
+    /// Adds a note for the reader to a case.
     pub(super) fn note(&mut self, topic: Topic, note: impl Into<String>) {
         let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
         if let Some((.., notes)) = self.records.get_mut(place) {
@@ -238,7 +238,7 @@ impl TopicRecords {
     }
 }
 
-/// One case, and what its next checks are about.
+/// The record of a case, and the frames that its next checks are about.
 #[derive(Debug)]
 pub(super) struct TopicRecord<'b> {
     topic: Option<&'b mut (Case, Record, Vec<String>)>,
@@ -255,12 +255,12 @@ impl TopicRecord<'_> {
         }
     }
 
-    /// Whether the case judges by this requirement.
+    /// Whether this requirement is one of the case.
     pub(super) fn knows(&self, requirement: &str) -> bool {
         self.topic.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
     }
 
-    /// A check that was passed.
+    /// Records a check that passed.
     pub(super) fn pass(&mut self, rule: impl Into<Rule>) {
         self.check(rule.into(), true, "", "");
     }

@@ -1,4 +1,4 @@
-//! The headers around what went over a connection.
+//! Builds the Ethernet, IP and TCP headers of a packet in a written capture.
 
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -13,7 +13,7 @@ pub(super) const ACK: u8 = 0x10;
 const WINDOW: u16 = 0xFFFF;
 const HOPS: u8 = 64;
 
-/// One connection: its ends, and how many bytes each has sent.
+/// A connection: its two ends, and how many bytes each has sent.
 #[derive(Clone, Debug)]
 pub(super) struct Flow {
     local: Endpoint,
@@ -24,13 +24,13 @@ pub(super) struct Flow {
 struct Endpoint {
     addr: SocketAddr,
     mac: [u8; 6],
-    /// Number of the next byte.
+    /// Next sequence number.
     next: u32,
 }
 
 impl Flow {
     pub(super) fn new(local: SocketAddr, remote: SocketAddr) -> Self {
-        // Locally administered addresses, which nobody has.
+        // Locally administered MAC addresses, which belong to no vendor.
         let end = |addr, last| Endpoint { addr, mac: [2, 0, 0, 0, 0, last], next: 0 };
         Self { local: end(local, 1), remote: end(remote, 2) }
     }

@@ -1,4 +1,4 @@
-//! Frames out of one direction of a connection.
+//! Splits one direction of a connection into frames.
 
 use std::collections::VecDeque;
 
@@ -14,13 +14,13 @@ pub(super) enum FramePiece {
     Frame(Vec<u8>, Span),
     /// A message between a client and its local router.
     Router,
-    /// What is no frame where one has to begin.
+    /// Bytes that are not a frame, where a frame must begin.
     Broken(Error, Vec<u8>, Span),
     /// The beginning of a frame whose rest was not captured.
     Cut(Vec<u8>, Span),
-    /// Bytes that were passed over to find a frame.
+    /// Bytes skipped to find the next frame.
     Skipped(usize),
-    /// The beginning of a frame, and nothing more comes.
+    /// The beginning of a frame at the end of the connection.
     Unfinished,
 }
 
@@ -29,7 +29,7 @@ pub(super) enum FramePiece {
 pub(super) struct Span {
     pub(super) first: Mark,
     pub(super) last: Mark,
-    /// How far this direction had got with it.
+    /// Offset in this direction of the byte after the frame.
     pub(super) end: u64,
 }
 
@@ -37,35 +37,36 @@ pub(super) struct Span {
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     bytes: Vec<u8>,
-    /// Where bytes from this place of the buffer on were captured.
+    /// Where the bytes from this offset in the buffer on were captured.
     marks: VecDeque<(usize, Mark)>,
-    /// Bytes before those of the buffer.
+    /// Offset in this direction of the first byte of the buffer.
     place: u64,
-    /// A frame may begin anywhere.
+    /// Synchronization was lost: a frame may begin at any offset.
     is_lost: bool,
     skipped: usize,
 }
 
 impl Frames {
-    /// Memory of what is held: many small segments take more than their bytes.
+    /// Memory of the buffer and its marks: for many small segments the marks take more than the
+    /// bytes.
     pub(super) fn memory_size(&self) -> usize {
         let marks = self.marks.capacity().saturating_mul(size_of::<(usize, Mark)>());
         self.bytes.capacity().saturating_add(marks)
     }
 
-    /// The beginning was not captured.
+    /// The beginning of this direction was not captured.
     pub(super) const fn begin_anywhere(&mut self) {
         self.is_lost = true;
     }
 
-    /// Takes bytes and hands over the frames that are whole now.
+    /// Appends bytes and passes on the frames that are complete now.
     pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(FramePiece)) {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);
         while self.step(out) {}
     }
 
-    /// Bytes are missing here: a frame that has begun stays unfinished.
+    /// Bytes are missing here: the frame that has begun stays unfinished.
     pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(FramePiece)) {
         let begun = self.bytes.len();
         if begun > 0 {
@@ -80,7 +81,7 @@ impl Frames {
         self.is_lost = true;
     }
 
-    /// Nothing more comes.
+    /// The connection has ended.
     pub(super) fn end(&mut self, out: &mut impl FnMut(FramePiece)) {
         if !self.is_lost && !self.bytes.is_empty() {
             out(FramePiece::Unfinished);
@@ -91,7 +92,7 @@ impl Frames {
         self.tell_skipped(out);
     }
 
-    /// Whether there is more to be had.
+    /// Takes one piece off the buffer; returns whether there may be another.
     fn step(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         if self.is_lost {
             return self.find(out);
@@ -128,7 +129,7 @@ impl Frames {
         }
     }
 
-    /// Goes to the next place where a frame may begin.
+    /// Skips to the next offset at which a frame may begin.
     fn find(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         let last = self.bytes.len().saturating_sub(FrameRef::HEADERS_LEN);
         if self.bytes.len() < FrameRef::HEADERS_LEN {
@@ -143,7 +144,7 @@ impl Frames {
                 true
             }
             None => {
-                // The rest may be the beginning of a header.
+                // The remaining bytes may be the beginning of a header.
                 self.skip(last.saturating_add(1));
                 false
             }
@@ -169,18 +170,18 @@ impl Frames {
         for (place, _) in &mut self.marks {
             *place = place.saturating_sub(length);
         }
-        // Of those that begin at the front the last one holds.
+        // Of several marks at offset 0 the last one counts.
         while matches!(self.marks.get(1), Some((0, _))) {
             self.marks.pop_front();
         }
-        // A connection that waits for its next frame keeps no memory.
+        // An idle connection keeps no memory.
         if self.bytes.is_empty() {
             self.bytes = Vec::new();
             self.marks = VecDeque::new();
         }
     }
 
-    /// Where the first bytes, as many as these, were captured.
+    /// Where the first `length` bytes were captured.
     fn span(&self, length: usize) -> Option<Span> {
         let inside = self.marks.iter().take_while(|(place, _)| *place < length);
         let first = self.marks.front().map(|(_, mark)| *mark)?;
@@ -189,11 +190,11 @@ impl Frames {
     }
 }
 
-/// Bytes of what is no frame that are shown.
+/// Maximum number of shown bytes that are not a frame.
 const SHOWN: usize = 64;
 
-/// How long a message between a client and its local router is, if this is the header of one:
-/// those that open and close a port, and what the router tells. None has as many bytes as an AMS header.
+/// Length of a message between a client and its local router, if this is the header of one: open
+/// port, close port, router notification. None is long enough to be an AMS header.
 fn router(tcp: &[u8]) -> Option<usize> {
     let header = AmsTcpHeader::decode(tcp).ok()?;
     let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;
@@ -201,7 +202,7 @@ fn router(tcp: &[u8]) -> Option<usize> {
     is_known.then(|| length.saturating_add(AMS_TCP_HEADER_LEN))
 }
 
-/// Whether a frame may well begin here: both lengths agree, and command and flags are known.
+/// Whether a frame may begin here: both lengths agree, command and flags are known.
 fn is_plausible(bytes: &[u8]) -> bool {
     let header = bytes.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN);
     let Some(Ok(header)) = header.map(AmsHeader::decode) else { return false };

@@ -1,4 +1,4 @@
-//! From a captured packet to the TCP segment in it.
+//! Finds the TCP segment in a captured packet.
 
 use std::net::{IpAddr, SocketAddr};
 
@@ -22,17 +22,17 @@ pub(super) struct TcpSegment<'p> {
     pub(super) missing: usize,
 }
 
-/// What is in a packet.
+/// The content of a packet.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PacketContent<'p> {
     Tcp(TcpSegment<'p>),
     /// Another protocol.
     Other,
-    /// A piece of an IP packet, which is not put together.
+    /// A fragment of an IP packet; fragments are not reassembled.
     Fragment,
     /// A header is cut or wrong.
     Unreadable,
-    /// A link type that is not known here.
+    /// An unknown link type.
     Link(i32),
 }
 
@@ -45,11 +45,12 @@ pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     };
     let read = match packet.link {
         Linktype::ETHERNET => LaxSlicedPacket::from_ethernet(bytes).ok(),
-        // 12 and 14 are what some systems write for raw IP.
+        // Some systems write 12 and 14 for raw IP.
         Linktype::RAW | Linktype::IPV4 | Linktype::IPV6 | Linktype(12 | 14) => {
             LaxSlicedPacket::from_ip(bytes).ok()
         }
-        // The number of the address family is in the order of the machine; the version tells too.
+        // The address family is in the byte order of the capturing machine, so the IP version
+        // decides.
         Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(after(4)).ok(),
         Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), after(16))),
         Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), after(20))),
@@ -60,7 +61,7 @@ pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
 
 fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     let Some((from, to, missing)) = read.net.as_ref().and_then(|net| ends(net, missing)) else {
-        // What stops inside of IP is no other protocol.
+        // A packet that ends inside the IP header is unreadable, not another protocol.
         return if read.stop_err.is_some() {
             PacketContent::Unreadable
         } else {
@@ -95,7 +96,8 @@ fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
 
 /// Both addresses, and how many bytes of the IP packet were not captured.
 fn ends(net: &LaxNetSlice<'_>, missing: usize) -> Option<(IpAddr, IpAddr, usize)> {
-    // What the header counts; a sender's card may leave it at 0 for the packet to be cut later.
+    // The length in the header; 0 with segmentation offload, when the network card writes the
+    // length.
     let lost = |told: usize, there: usize| match told {
         0 => missing,
         told => told.saturating_sub(there),

@@ -1,16 +1,15 @@
-//! Captured traffic: read from a file and judged, or written to one.
+//! Captured traffic: reads it from a file and judges it, or writes it to a file.
 //!
 //! | step | where |
 //! |---|---|
 //! | packets out of pcap and pcapng | `file` |
 //! | TCP segments out of packets | `link` |
-//! | bytes in their order, connection by connection | `tcp`, `table` |
+//! | TCP reassembly | `tcp`, `table` |
 //! | AMS frames | `frames` |
-//! | requests and their answers, judged | `judge` |
+//! | requests paired with their replies and judged | `judge` |
 //! | a conversation into a pcapng file | `writer`, `frame` |
 //!
-//! Nothing is kept of a capture but what a judgement of what comes later needs; how much that may
-//! be has a limit everywhere.
+//! Only facts that later judgements need are stored, and each store has a maximum size.
 //!
 //! ```
 //! use ads_cnc_conformance::capture::{CaptureOptions, check};
@@ -61,7 +60,7 @@ pub const AMS_TCP_PORT: u16 = 48898;
 pub struct CaptureOptions {
     /// TCP ports.
     pub ports: Ports,
-    /// Where golden vectors are to be kept, if they are wanted.
+    /// Where golden vectors are collected, if wanted.
     pub vectors: Option<Collector>,
 }
 
@@ -75,35 +74,35 @@ impl Default for CaptureOptions {
 pub struct Checked {
     pub outcomes: Vec<CaseOutcome>,
     pub tally: CaptureTally,
-    /// Golden vectors, if they were wanted.
+    /// The collected golden vectors, if wanted.
     pub vectors: Option<Collector>,
 }
 
-/// What comes out of a capture before it is judged.
+/// A piece of a capture before it is judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CapturePiece {
     /// A whole frame.
     Frame {
         from: SocketAddr,
-        /// Whom it was sent to.
+        /// The address it was sent to.
         to: SocketAddr,
-        /// All of it.
+        /// The whole frame.
         bytes: Vec<u8>,
     },
-    /// Bytes that were not captured; how many, if that is known.
+    /// Bytes that were not captured.
     Gap {
         from: SocketAddr,
-        /// Whom they were sent to.
+        /// The address they were sent to.
         to: SocketAddr,
-        /// How many; 0 if nobody can say.
+        /// How many; 0 if unknown.
         length: u64,
     },
-    /// How many bytes are no frame, or only the beginning of one.
+    /// Number of bytes that are not a frame, or only the beginning of one.
     Rest(usize),
 }
 
-/// Puts together what went over the connections of a file, pcap or pcapng, and hands over the frames
-/// in it and what is missing between them. Nothing is judged.
+/// Reassembles the TCP connections of a pcap or pcapng file and calls `each` with their frames and
+/// gaps. Nothing is judged.
 ///
 /// ```
 /// use ads_cnc_conformance::capture::{FileEnd, Ports, frames};
@@ -116,7 +115,7 @@ pub enum CapturePiece {
 /// ```
 ///
 /// # Errors
-/// If it is no such file. One that ends too early is read as far as it goes, and its end says so.
+/// If it is neither pcap nor pcapng. A truncated file is read up to its end, and [`FileEnd`] says so.
 pub fn frames(
     input: impl Read + Send,
     ports: Ports,
@@ -153,11 +152,11 @@ impl CapturePiece {
     }
 }
 
-/// What is found while a file is read.
+/// An event while a file is read.
 enum ReadStep<'s> {
-    /// The next packet; whether its segment is looked at.
+    /// The next packet, its content, and whether its segment is on a selected port.
     Packet(&'s Packet<'s>, PacketContent<'s>, bool),
-    /// Something on a connection.
+    /// An event on a connection.
     Event(ConnectionEvent, &'s ConnectionTable),
 }
 
@@ -186,7 +185,7 @@ fn read(
 /// Judges a file of captured packets, pcap or pcapng.
 ///
 /// # Errors
-/// If it is no such file. One that ends too early is judged as far as it goes.
+/// If it is neither pcap nor pcapng. A truncated file is judged up to its end.
 pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked, FileError> {
     let mut table = ConnectionTable::new(options.ports);
     let mut judge = TrafficJudge::new(options.vectors);

@@ -1,4 +1,4 @@
-//! Connections: segments of all of them in, frames with their place out.
+//! The table of TCP connections: takes segments, emits frames with their location.
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
@@ -9,22 +9,23 @@ use super::frames::{FramePiece, Frames, Span};
 use super::link::TcpSegment;
 use super::tcp::{DirectedSegment, Half, Mark, ReassembledPiece};
 
-/// Connections that are followed at the same time; of more, those that were silent longest end.
+/// Maximum number of connections followed at the same time; beyond it the one that was silent
+/// longest is ended.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
 
-/// Bytes of memory that all connections hold together until a frame is whole.
+/// Bytes of memory for all incomplete frames and early segments of all connections.
 pub(super) const HELD_MAX: usize = 0x200_0000;
 
-/// Which TCP ports are looked at.
+/// Which TCP ports are judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ports {
     /// Connections from or to one of these.
     Of(Vec<u16>),
-    /// All of them; where no frame is found nothing is judged.
+    /// All of them; connections without an AMS frame are ignored.
     Any,
 }
 
-/// Where something was seen.
+/// A direction of a connection: from one address to the other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentDirection {
     /// Number of the connection, from 1 on.
@@ -41,22 +42,22 @@ pub(super) enum ConnectionEvent {
     Cut(Vec<u8>, SegmentDirection, Span),
     /// Bytes that were not captured.
     Gap(u64, SegmentDirection, Mark),
-    /// Bytes that were passed over to find a frame.
+    /// Bytes skipped to find the next frame.
     Skipped(usize),
     /// A connection whose beginning was not captured.
     Joined(u64),
-    /// A frame of which nothing more came before the connection, or the capture, was over.
+    /// A frame that was incomplete when the connection or the capture ended.
     Unfinished,
-    /// The connection is over; no more comes of it.
+    /// The connection has ended.
     Ended(Ending),
 }
 
-/// How a connection came to its end.
+/// How a connection ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ending {
     pub(super) connection: u64,
     pub(super) last: u64,
-    /// The direction of which nothing was captured, not even an acknowledgement.
+    /// The direction of which no segment was captured, not even an acknowledgement.
     pub(super) unseen: Option<SegmentDirection>,
 }
 
@@ -66,13 +67,13 @@ struct TcpConnection {
     ends: [SocketAddr; 2],
     halves: [Half; 2],
     frames: [Frames; 2],
-    /// Whether it is known to be AMS: by its port, or by a frame that was found.
+    /// Whether it is known to carry AMS: by its port, or because a frame was found.
     speaks: bool,
     /// Whether its beginning was captured.
     is_whole: bool,
-    /// Whether it was not, and nobody was told.
+    /// Whether [`ConnectionEvent::Joined`] still has to be emitted.
     joined: bool,
-    /// Its last segment, and the packet of that.
+    /// Number of its last segment, and of the packet with it.
     last: u64,
     packet: u64,
 }
@@ -98,12 +99,12 @@ impl ConnectionTable {
         self.connections
     }
 
-    /// Whether the direction from here is waiting for something that comes too late.
+    /// Whether the sender's direction holds back segments that came too early.
     pub(super) fn waits(&self, way: &SegmentDirection) -> bool {
         self.half(way).is_some_and(|half| half.memory_size() > 0)
     }
 
-    /// Whether the direction from here has got as far as this.
+    /// Whether the sender's direction was captured up to this offset.
     pub(super) fn has(&self, way: &SegmentDirection, place: u64) -> bool {
         self.half(way).is_some_and(|half| half.is_seen() && half.place() >= place)
     }
@@ -113,7 +114,7 @@ impl ConnectionTable {
         connection.halves.get(connection.side(way.from))
     }
 
-    /// Whether a segment is on one of the ports.
+    /// Whether a segment is on one of the selected ports.
     pub(super) fn wants(&self, segment: &TcpSegment<'_>) -> bool {
         match &self.ports {
             Ports::Any => true,
@@ -135,7 +136,7 @@ impl ConnectionTable {
             self.end(key, out);
         }
         if !self.open.contains_key(&key) {
-            // A connection that is over and says so once more.
+            // A FIN or an acknowledgement repeated after the connection has ended.
             if segment.payload.is_empty() && !segment.syn {
                 return;
             }
@@ -156,11 +157,12 @@ impl ConnectionTable {
         if connection.speaks && std::mem::take(&mut connection.joined) {
             out.insert(events, ConnectionEvent::Joined(connection.number));
         }
-        // The last acknowledgement finds nothing to acknowledge.
+        // The acknowledgement of the last FIN comes when the connection is gone already.
         if over || self.buffered > HELD_MAX {
             self.end(key, out);
         } else if !connection.speaks {
-            // What is not AMS is not told of; if it becomes that, it is known what was missing.
+            // No events before the first AMS frame; a gap until then is remembered as a missing
+            // beginning.
             let lost =
                 out.iter().skip(events).any(|event| matches!(event, ConnectionEvent::Gap(..)));
             connection.joined |= lost && std::mem::take(&mut connection.is_whole);
@@ -192,7 +194,7 @@ impl ConnectionTable {
         }
     }
 
-    /// Nothing more comes of any.
+    /// Ends all connections.
     pub(super) fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         while let Some((&key, _)) = self.open.first_key_value() {
             self.end(key, out);
@@ -228,7 +230,7 @@ impl TcpConnection {
         usize::from(self.ends.first() != Some(&from))
     }
 
-    /// Whether a SYN is that of this connection, once more or of the other side.
+    /// Whether a SYN belongs to this connection: repeated, or that of the other side.
     fn is_same(&self, segment: &TcpSegment<'_>) -> bool {
         let half = self.halves.get(self.side(segment.from));
         half.is_none_or(|half| half.is_new() || half.begins_with(segment.sequence))
@@ -278,7 +280,7 @@ impl TcpConnection {
         }
     }
 
-    /// What is held back comes out.
+    /// Emits the segments held back.
     fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         let [one, other] = self.ends;
         for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {

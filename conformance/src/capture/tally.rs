@@ -1,77 +1,77 @@
-//! What was in a capture, counted; most of it is not judged.
+//! Counters of a capture, mostly of packets and frames that are not judged.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use super::file::FileEnd;
 
-/// Addresses that are told apart.
+/// Maximum number of different addresses that are counted.
 const UNKNOWN_MAX: usize = 1000;
 
-/// How many of those are shown.
+/// Maximum number of them that are shown.
 const SHOWN: usize = 8;
 
-/// What was in a capture.
+/// Counters of a capture.
 #[derive(Clone, Debug, Default)]
 pub struct CaptureTally {
     /// Packets of the file.
     pub packets: u64,
-    /// Packets of IP that are pieces of one, headers that are cut or wrong, link types unknown here.
+    /// IP fragments.
     pub fragments: u64,
     /// Packets with a header that is cut or wrong.
     pub unreadable: u64,
-    /// Packets of each link type that is not known here.
+    /// Packets by unknown link type.
     pub links: BTreeMap<i32, u64>,
-    /// TCP segments on the ports that were looked at.
+    /// TCP segments on the selected ports.
     pub segments: u64,
     /// TCP segments on other ports.
     pub elsewhere: u64,
-    /// TCP connections on the ports that were looked at.
+    /// TCP connections on the selected ports.
     pub connections: u64,
     /// Connections whose beginning was not captured.
     pub joined: u64,
-    /// Segments that came once more.
+    /// Retransmitted segments.
     pub repeated: u64,
-    /// Segments that came too early.
+    /// Segments that were captured before an earlier one.
     pub early: u64,
-    /// Places at which bytes are missing.
+    /// Gaps: places at which bytes are missing.
     pub gaps: u64,
-    /// Bytes that were passed over to find a frame.
+    /// Bytes skipped to find a frame.
     pub skipped: u64,
     /// AMS frames.
     pub frames: u64,
     /// Messages between clients and their local router.
     pub router: u64,
-    /// Frames to ports that are no task of a CNC.
+    /// Frames by AMS port, if it is not a task of a CNC.
     pub other_ports: BTreeMap<u16, u64>,
-    /// Frames with a command that is none of the three services.
+    /// Frames by command, if it is none of the three services.
     pub commands: BTreeMap<u16, u64>,
-    /// Calls of addresses at which no function is.
+    /// Calls by address, if no function has that address.
     pub unknown: BTreeMap<String, u64>,
-    /// Requests with their answers.
+    /// Requests with their replies.
     pub exchanges: u64,
-    /// Those that were answered by an error.
+    /// Requests answered by an error.
     pub refused: u64,
-    /// Requests of which no answer was seen.
+    /// Requests whose reply was not captured.
     pub unanswered: u64,
-    /// Those among them that were forgotten, because too many or too long ones waited.
+    /// Unanswered requests that were forgotten because too many waited.
     pub forgotten: u64,
-    /// Names, objects and elements that were not kept, because 24 MiB were.
+    /// Names, objects and elements that were not stored because the limit of 24 MiB was reached.
     pub unkept: u64,
-    /// Answers of which no request was seen.
+    /// Replies whose request was not captured.
     pub unasked: u64,
-    /// Frames whose rest never came.
+    /// Frames whose rest was not captured.
     pub unfinished: u64,
     /// How the file ended.
     pub end: Option<FileEnd>,
 }
 
-/// One more.
+/// Increments a counter.
 pub(super) const fn count(number: &mut u64) {
     *number = number.saturating_add(1);
 }
 
-/// One more of these.
+/// Increments the counter of a key.
 pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
     if all.len() < UNKNOWN_MAX || all.contains_key(&key) {
         count(all.entry(key).or_default());
@@ -79,7 +79,8 @@ pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
 }
 
 impl CaptureTally {
-    /// What a reader should know, a line each: what is there, and what was not judged.
+    /// One line for each group of counters: what the capture has, and which part of it was not
+    /// judged.
     pub fn lines(&self) -> Vec<String> {
         let Self { packets, segments, connections, frames, exchanges, .. } = self;
         let mut lines = vec![format!(
@@ -124,7 +125,7 @@ impl CaptureTally {
     }
 }
 
-/// What was counted and not judged, the first of it.
+/// The counters of a map as text, the first of them only.
 fn unjudged<K: Display>(what: &str, all: &BTreeMap<K, u64>) -> Option<String> {
     let shown = all.iter().take(SHOWN).map(|(key, number)| format!("{key} ({number})"));
     let shown: Vec<String> = shown.collect();

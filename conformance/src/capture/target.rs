@@ -6,6 +6,6 @@ use ads_cnc::Description;
 #[derive(Clone, Debug)]
 pub(super) struct TargetVariable {
     pub(super) description: Description,
-    /// The indices that select an element; none for the whole.
+    /// The indices that select an element; empty for the whole variable.
     pub(super) indices: Vec<u32>,
 }

@@ -1,24 +1,25 @@
-//! One direction of a TCP connection: segments in, bytes in their order out.
+//! TCP reassembly of one direction of a connection: takes segments, emits bytes in order.
 
 use std::collections::BTreeMap;
 use std::ops::Bound;
 
 use super::time::Time;
 
-/// Bytes of one direction that are held back until what is before them comes.
+/// Maximum number of bytes that are held back in one direction until earlier ones arrive.
 pub(super) const AHEAD_MAX: usize = 0x10_0000;
 
-/// Segments of one direction that are held back.
+/// Maximum number of segments that are held back in one direction.
 const SEGMENTS_MAX: usize = 4096;
 
-/// What may be between a segment and what is expected; more is another connection.
+/// Maximum distance of a sequence number from the expected one; beyond it belongs to another
+/// connection.
 const WINDOW: u32 = 0x4000_0000;
 
-/// Segments that may follow a hole although the other side has acknowledged what is in it: a capture
-/// made on several processors has them out of order.
+/// Segments that may follow a gap whose bytes the other side has acknowledged: a capture made on
+/// several processors is out of order.
 const PATIENCE: u32 = 64;
 
-/// Bytes that may have been captured before the SYN they follow.
+/// Bytes that may have been captured before the SYN that precedes them.
 const BEFORE_SYN: u32 = 0x1_0000;
 
 /// Where bytes were captured.
@@ -26,7 +27,7 @@ const BEFORE_SYN: u32 = 0x1_0000;
 pub(super) struct Mark {
     pub(super) packet: u64,
     pub(super) time: Option<Time>,
-    /// How far whoever sent them had got the other direction; none if that is not known.
+    /// Offset up to which their sender had received the other direction; `None` if unknown.
     pub(super) acknowledged: Option<u64>,
 }
 
@@ -49,27 +50,27 @@ pub(super) struct DirectedSegment<'a> {
     pub(super) mark: Mark,
 }
 
-/// One direction.
+/// The state of one direction.
 #[derive(Debug, Default)]
 pub(super) struct Half {
     /// Sequence number of the next byte, once one is known.
     next: Option<u32>,
-    /// That of its SYN.
+    /// Sequence number of the SYN.
     begin: Option<u32>,
     /// Whether anything of this direction was captured.
     seen: bool,
-    /// Where its FIN is.
+    /// Offset of the FIN.
     end: Option<u64>,
-    /// Bytes handed over, so that places do not wrap around.
+    /// Offset of the next byte: the number of bytes emitted, which does not wrap around.
     place: u64,
-    /// What came too early, by its place.
+    /// Segments that came too early, by offset.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
-    /// How far the other side has acknowledged, and the segment that did.
+    /// Offset up to which the other side has acknowledged; `told` is the segment that did.
     acknowledged: u64,
     told: Option<Mark>,
     waiting: u32,
-    /// Segments that came once more.
+    /// Retransmitted segments.
     pub(super) repeated: u64,
     /// Segments that came too early.
     pub(super) early: u64,
@@ -83,17 +84,17 @@ struct EarlySegment {
 }
 
 impl Half {
-    /// Whether nothing is known of it.
+    /// Whether no sequence number is known yet.
     pub(super) const fn is_new(&self) -> bool {
         self.next.is_none()
     }
 
-    /// Whether anything of it was captured.
+    /// Whether any segment was captured.
     pub(super) const fn is_seen(&self) -> bool {
         self.seen
     }
 
-    /// Whether this may be the number of its SYN, once more or too late.
+    /// Whether `sequence` may be that of its SYN: a retransmitted SYN, or one captured late.
     pub(super) fn begins_with(&self, sequence: u32) -> bool {
         match (self.begin, self.next) {
             (Some(begin), _) => begin == sequence,
@@ -105,7 +106,7 @@ impl Half {
         }
     }
 
-    /// Where a number is, if anything is known of this direction.
+    /// The offset of a sequence number, if any sequence number of this direction is known.
     pub(super) fn place_of(&self, sequence: u32) -> Option<u64> {
         let next = self.next?;
         let (after, before) = (sequence.wrapping_sub(next), next.wrapping_sub(sequence));
@@ -116,28 +117,28 @@ impl Half {
         })
     }
 
-    /// Its first byte has this number: the other side acknowledged it before any was captured.
+    /// Sets the sequence number of the first byte, known from an acknowledgement.
     pub(super) fn begin_at(&mut self, sequence: u32) {
         self.next.get_or_insert(sequence);
     }
 
-    /// How far it was handed over.
+    /// The offset up to which bytes were emitted.
     pub(super) const fn place(&self) -> u64 {
         self.place
     }
 
-    /// Whether all up to its FIN was handed over.
+    /// Whether all bytes up to the FIN were emitted.
     pub(super) fn is_over(&self) -> bool {
         self.end.is_some_and(|end| self.place >= end)
     }
 
-    /// Memory of what is held back: many small segments take more than their bytes.
+    /// Memory of the segments held back: for many small ones the map takes more than their bytes.
     pub(super) fn memory_size(&self) -> usize {
         let each = size_of::<(u64, EarlySegment)>();
         self.buffered.saturating_add(self.ahead.len().saturating_mul(each))
     }
 
-    /// Takes a segment and hands over what is in order.
+    /// Takes a segment and emits the bytes that are in order.
     pub(super) fn push(
         &mut self,
         part: DirectedSegment<'_>,
@@ -172,7 +173,7 @@ impl Half {
                 self.take(fresh, missing, part.mark, out);
             }
         } else {
-            // So far off that it is no part of what was; what is held back will not be joined.
+            // Too far off to belong to this connection: the segments held back will never fit.
             self.flush(out);
             out(ReassembledPiece::Gap(0, part.mark));
             self.next = Some(sequence);
@@ -184,14 +185,14 @@ impl Half {
         }
     }
 
-    /// Its FIN has this number.
+    /// Sets the sequence number of the FIN.
     pub(super) fn end_at(&mut self, sequence: u32, mark: Mark) {
         self.begin_at(sequence);
         self.end = self.place_of(sequence);
         self.told.get_or_insert(mark);
     }
 
-    /// The other side has got everything up to here.
+    /// The other side has received all bytes before `sequence`.
     pub(super) fn acknowledge(&mut self, sequence: u32, mark: Mark) {
         let Some(next) = self.next else { return };
         let after = sequence.wrapping_sub(next);
@@ -202,12 +203,12 @@ impl Half {
         }
     }
 
-    /// Nothing more comes: what is held back comes out, with gaps.
+    /// The direction has ended: emits the segments held back, with gaps.
     pub(super) fn flush(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while !self.ahead.is_empty() {
             self.leap(out);
         }
-        // A FIN that was not captured is acknowledged like a byte.
+        // A FIN that was not captured is acknowledged like one byte.
         let got = self.acknowledged.saturating_sub(1);
         let missing = self.end.unwrap_or(got).saturating_sub(self.place);
         if let (true, Some(mark)) = (missing > 0 && self.seen, self.told) {
@@ -236,7 +237,7 @@ impl Half {
     fn advance(&mut self, length: usize) {
         let length = u64::try_from(length).unwrap_or(u64::MAX);
         self.place = self.place.saturating_add(length);
-        // Sequence numbers are modulo 2^32: so is what is added.
+        // Sequence numbers are modulo 2^32, so the length is too.
         let low = u32::try_from(length & u64::from(u32::MAX)).unwrap_or(0);
         self.next = self.next.map(|next| next.wrapping_add(low));
     }
@@ -251,7 +252,7 @@ impl Half {
         self.ahead.insert(place, EarlySegment { bytes, missing: part.missing, mark: part.mark });
     }
 
-    /// Hands over what was held back and is next now.
+    /// Emits segments held back that are next now.
     fn follow(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while let Some((&place, _)) = self.ahead.first_key_value() {
             let Some(overlap) = self.place.checked_sub(place) else { return };
@@ -268,7 +269,7 @@ impl Half {
         }
     }
 
-    /// Gives up what is missing if the other side has it, or if too much is held back.
+    /// Gives up missing bytes if the other side has acknowledged them, or if too much is held back.
     fn lose_patience(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         self.waiting = self.waiting.saturating_add(1);
         let too_much = self.buffered > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;
@@ -278,7 +279,7 @@ impl Half {
         }
     }
 
-    /// Goes on after the hole.
+    /// Emits the gap and continues after it.
     fn leap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         let from = Bound::Included(self.place);
         let first = self.ahead.range((from, Bound::Unbounded)).next();

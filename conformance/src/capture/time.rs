@@ -3,17 +3,17 @@
 use std::fmt;
 use std::time::Duration;
 
-/// A moment, since 1970 in UTC.
+/// A time since 1970 in UTC.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Time(Duration);
 
 impl Time {
-    /// Seconds and a part of one, in these units a second.
+    /// From seconds and a fraction in units of 1/`resolution` second.
     pub(super) fn new(seconds: u64, units: u32, resolution: u64) -> Self {
         Self(Duration::from_secs(seconds).saturating_add(part(units.into(), resolution)))
     }
 
-    /// Units since 1970, and what is to be added in seconds.
+    /// From units since 1970, plus an offset in seconds.
     pub(super) fn of_units(units: u64, resolution: u64, offset: i64) -> Self {
         let seconds = units.checked_div(resolution).unwrap_or(0);
         let rest = units.checked_rem(resolution).unwrap_or(0);
@@ -21,7 +21,7 @@ impl Time {
         Self(Duration::from_secs(seconds).saturating_add(part(rest, resolution)))
     }
 
-    /// What passed since another; none if that was later.
+    /// The time since `earlier`; zero if that is later.
     pub(super) const fn since(self, earlier: Self) -> Duration {
         self.0.saturating_sub(earlier.0)
     }

@@ -1,4 +1,4 @@
-//! Golden vectors out of captured traffic, without what says whose it was.
+//! Golden vectors from captured traffic, without addresses and texts that identify a machine.
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -21,14 +21,14 @@ use crate::codec::decode_stream;
 use crate::text::json as json_text;
 use crate::wire_service;
 
-/// Vectors of one capture; more are left out.
+/// Maximum number of vectors of a capture.
 pub const VECTORS_MAX: usize = 10_000;
 
-/// Who asks and who answers in every frame.
+/// The addresses of client and CNC in every vector.
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 20, 1, 1]), port: AmsPort(0x8001) };
 const CNC: AmsNetId = AmsNetId([192, 0, 2, 10, 1, 1]);
 
-/// Vectors so far.
+/// The vectors collected so far.
 #[derive(Debug, Default)]
 pub struct Collector {
     keep_texts: bool,
@@ -36,22 +36,20 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// With texts as they were, or with each letter of them replaced.
+    /// With texts as captured, or with each letter replaced.
     pub fn new(keep_texts: bool) -> Self {
         Self { keep_texts, vectors: BTreeMap::new() }
     }
 
-    /// How many there are.
     pub fn len(&self) -> usize {
         self.vectors.len()
     }
 
-    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.vectors.is_empty()
     }
 
-    /// Those of a request and of the data that answered it.
+    /// Adds the vectors of a request and of the data of its reply.
     pub(super) fn add(
         &mut self,
         request: &Request<'_>,
@@ -60,7 +58,7 @@ impl Collector {
         known: Option<&TargetVariable>,
     ) {
         let function = request.function();
-        // Programs are nobody's business.
+        // NC programs are confidential.
         if function == Function::WriteProgramStream && !self.keep_texts {
             return;
         }
@@ -93,7 +91,7 @@ impl Collector {
         self.frames(&Call { data: &sent, ..*call }, received.as_deref());
     }
 
-    /// Both frames, made anew.
+    /// Adds both frames, encoded anew with other addresses.
     fn frames(&mut self, call: &Call<'_>, received: Option<&[u8]>) {
         let cnc = AmsAddr { net_id: CNC, port: call.port };
         let header = AmsHeader::request(cnc, CLIENT, call.service.command(), 1);
@@ -135,7 +133,7 @@ impl Collector {
         );
     }
 
-    /// The ID of the vector, if the stream decodes.
+    /// Adds a stream if it decodes, and returns the ID of its vector.
     fn stream(
         &mut self,
         stream: Stream,
@@ -208,8 +206,8 @@ impl Collector {
         }
     }
 
-    /// Writes them: to a new file, or to a new file for each stream in a folder that is there.
-    /// Nothing is written over.
+    /// Writes the vectors to a new file, or to one new file for each stream in an existing folder.
+    /// No file is overwritten.
     ///
     /// # Errors
     /// Those of the system, and [`io::ErrorKind::AlreadyExists`].
@@ -226,7 +224,7 @@ impl Collector {
         let named = |file: &Path, error: io::Error| {
             io::Error::new(error.kind(), format!("{}: {error}", file.display()))
         };
-        // Before anything is written.
+        // Checked before any file is written.
         if let Some(there) = files.keys().find(|file| file.exists()) {
             return Err(named(there, io::ErrorKind::AlreadyExists.into()));
         }
@@ -247,7 +245,7 @@ impl Collector {
     }
 }
 
-/// Type and dimensions of what is read or written.
+/// The context with type and dimensions of the value that is read or written.
 fn typed(known: Option<&TargetVariable>) -> Context {
     let Some(known) = known else { return Context::default() };
     let name = known.description.var_type.name();
@@ -258,11 +256,11 @@ fn typed(known: Option<&TargetVariable>) -> Context {
     Context { kind, dimensions, ..Context::default() }
 }
 
-/// The pieces of a stream under their names.
+/// The fields of a stream as segments of a vector.
 fn segments(stream: Stream, bytes: &[u8], prefix: &str) -> Vec<Segment> {
     let mut all = Vec::new();
     let repeats = stream.layout().repeats;
-    // A fault ends the walk; what has one is not kept.
+    // The walk ends at a fault; a stream with one is not collected.
     let _walked = stream.walk(bytes, |piece| {
         let several = piece
             .field
@@ -279,7 +277,8 @@ fn segments(stream: Stream, bytes: &[u8], prefix: &str) -> Vec<Segment> {
     all
 }
 
-/// The stream with the letters of its texts replaced; kinds and types stay, they are the manual's.
+/// The stream with the letters of its texts replaced. Kinds and types are words of the manual and
+/// stay.
 fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     let mut scrubbed = bytes.to_vec();
     let mut places = Vec::new();
@@ -297,7 +296,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     });
     for (start, end, is_name) in places {
         let Some(text) = scrubbed.get_mut(start..end) else { continue };
-        // The kind in front of a name of a variable.
+        // A name of a variable begins with its kind.
         let kind = is_name && text.get(..2) == Some(b"V.");
         let skip = if kind { text.iter().skip(2).position(|byte| *byte == b'.') } else { None };
         let skip = skip.map_or(0, |at| at.saturating_add(2));
@@ -313,7 +312,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     scrubbed
 }
 
-/// FNV-1a, 64 bits: the same everywhere and for ever, which is all that is asked of it.
+/// FNV-1a, 64 bits: the IDs of vectors must be the same on every machine and in every version.
 fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
     let bytes = parts.iter().flat_map(|part| part.iter().copied().chain([0xFF]));
     bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| {

@@ -1,8 +1,8 @@
-//! A capture of a conversation, as Wireshark reads it: pcapng, with the headers of Ethernet, IP and
-//! TCP made up around the bytes that really went over the connection.
+//! Writes a capture that Wireshark reads: pcapng, with made-up headers of Ethernet, IP and TCP around
+//! the bytes of a real connection.
 //!
-//! What is written is what was handed to the system and what came back, in this order and with the
-//! time of this machine; how the network cut and acknowledged it, it does not tell. Each connection
+//! The file has the bytes that were passed to and received from the system, in this order and with
+//! the time of this machine, not the segments and acknowledgements on the network. Each connection
 //! begins with a handshake and ends with a FIN, so that a reader can put it together.
 //!
 //! ```
@@ -34,15 +34,16 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::frame::{ACK, FIN, Flow, PSH, SYN};
 use crate::client::Tap;
 
-/// The most bytes of a TCP segment, as on Ethernet.
+/// Maximum number of bytes of a TCP segment, as on Ethernet.
 const SEGMENT_MAX: usize = 1440;
 
-/// A capture that is being written. What the system does not take is told in the end.
+/// A capture that is being written. The first error of the system is returned by
+/// [`finish`](Self::finish).
 pub struct Capture {
     out: Box<dyn Write + Send>,
     flow: Option<Flow>,
     error: Option<io::Error>,
-    /// Who hears of an error if nobody ends the capture.
+    /// Called with an error if the capture is dropped without having been finished.
     dropped: Option<Box<dyn FnOnce(io::Error) + Send>>,
 }
 
@@ -53,20 +54,20 @@ impl fmt::Debug for Capture {
 }
 
 impl Capture {
-    /// A capture in a new file, or in place of an old one.
+    /// Creates or replaces a file.
     pub fn create(file: &Path) -> io::Result<Self> {
         Self::new(Box::new(BufWriter::new(File::create(file)?)))
     }
 
-    /// A capture that goes somewhere else.
+    /// A capture to any writer.
     pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
         out.write_all(&section())?;
         out.write_all(&interface())?;
         Ok(Self { out, flow: None, error: None, dropped: None })
     }
 
-    /// Tells of what the system did not take when it is dropped without having been
-    /// [ended](Self::finish).
+    /// Calls `tell` with an error of the system if the capture is dropped without having been
+    /// [finished](Self::finish).
     #[must_use]
     pub fn or_tell(self, tell: impl FnOnce(io::Error) + Send + 'static) -> Self {
         let mut capture = self;
@@ -77,7 +78,7 @@ impl Capture {
     /// Ends the capture.
     ///
     /// # Errors
-    /// The first that the system did not take.
+    /// The first error of the system while writing.
     pub fn finish(mut self) -> io::Result<()> {
         self.dropped = None;
         self.end()
@@ -162,7 +163,7 @@ fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     block
 }
 
-/// Section header: order of bytes, version 1.0, length not given, and who wrote it.
+/// Section header: byte order, version 1.0, length not given, name of the writing tool.
 fn section() -> Vec<u8> {
     const USER_APPLICATION: u16 = 4;
     let name = concat!("ads-cnc ", env!("CARGO_PKG_VERSION"));
@@ -177,12 +178,12 @@ fn section() -> Vec<u8> {
     block(0x0A0D_0D0A, &body)
 }
 
-/// Interface description: Ethernet, packets whole, times in microseconds.
+/// Interface description: Ethernet, unlimited packet length, times in microseconds.
 fn interface() -> Vec<u8> {
     block(1, &[1, 0, 0, 0, 0, 0, 0, 0])
 }
 
-/// Enhanced packet: interface 0, time, length captured and length there was.
+/// Enhanced packet: interface 0, time, captured length, original length.
 fn enhanced(packet: &[u8]) -> Vec<u8> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     let time = u64::try_from(since.as_micros()).unwrap_or(u64::MAX).to_le_bytes();

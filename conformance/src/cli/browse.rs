@@ -19,9 +19,9 @@ use crate::session::{Session, Trouble};
 use crate::text::{hex, json};
 use crate::values::plain;
 
-/// Characters of a value in a table; CSV and JSON have all of it.
+/// Maximum number of characters of a value in a table; CSV and JSON have all.
 const VALUE_MAX: usize = 48;
-/// The most bytes of a content that is read here; get reads more.
+/// Maximum number of bytes of a content that is read; `get` reads more.
 const CONTENT_MAX: u32 = 0x1_0000;
 
 /// Lists every object of the COM task and every element of SDA and GEO, or all variables.
@@ -88,7 +88,7 @@ Exit codes: 0 listed; 2 wrong usage; 3 no answer, nothing fits, or a maximum or 
 reached; 4 refused for safety; 70 internal error. What a CNC refuses to tell is noted on stderr and
 left out.";
 
-/// So the help says.
+/// The text of the help states these limits.
 const _: () = assert!(
     OBJECTS_MAX == 100_000
         && REQUESTS_MAX == 1_000_000
@@ -106,7 +106,7 @@ enum BrowseFormat {
     Json,
 }
 
-/// The most bytes of all contents together.
+/// Maximum number of bytes of all contents together.
 const CONTENTS_MAX: usize = 8 << 20;
 
 /// A value, or why it was not read.
@@ -223,7 +223,7 @@ fn read_all(
                 enough = Some(format!("not read: {why}"));
                 Err(format!("not read: {why}"))
             }
-            // One that cannot be read is no reason to read no other.
+            // An unreadable list does not stop the others.
             Err(
                 why @ (Trouble::Ads { .. }
                 | Trouble::Reply(_)

@@ -104,7 +104,7 @@ impl CheckArguments {
             Ok(checked) => checked,
             Err(why) => return usage(format!("{}: {why}", self.file.display())),
         };
-        // What is not selected was looked at all the same: it just does not count.
+        // Cases that are not selected were judged too; they are left out of the report.
         let selection = Selection { edition: self.edition, only: self.only.clone() };
         let cases: Vec<Case> =
             checked.outcomes.iter().map(|outcome| outcome.case.clone()).collect();
@@ -155,7 +155,7 @@ impl CheckArguments {
         capture::check(File::open(&self.file)?, CaptureOptions { ports, vectors })
     }
 
-    /// The files with vectors, and how many there are.
+    /// Writes the vectors; returns a line for each file.
     fn extract(&self, checked: &Checked) -> std::io::Result<Vec<String>> {
         let (Some(place), Some(vectors)) = (&self.extract_vectors, &checked.vectors) else {
             return Ok(Vec::new());

@@ -41,7 +41,7 @@ enum Instruction {
     Bye,
 }
 
-/// What a process ends with that is told to die.
+/// Exit code of a process that is told to die.
 const DEAD: i32 = 134;
 
 impl ClientArguments {
@@ -108,7 +108,7 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
     Ok(())
 }
 
-/// The answer to an action; here the client really dies or hangs.
+/// The answer to an action; a client with such a defect exits or hangs here.
 fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io::Result<String> {
     match clients::answer(flaw, place, action) {
         ClientReaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),
@@ -120,7 +120,7 @@ fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io:
     }
 }
 
-/// Does what the environment says, and no more.
+/// Does the action of the environment variable and ends.
 fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
     let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));

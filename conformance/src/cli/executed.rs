@@ -1,4 +1,4 @@
-//! `ads-cnc serve --executed`: what streaming programs have run, for who has no part in the process.
+//! `ads-cnc serve --executed`: the lines that streamed programs have executed, for other processes.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -29,7 +29,7 @@ impl FromStr for ExecutedTo {
 
 const NEEDED: &str = "the number of a channel and a file are needed, as 1=executed.nc";
 
-/// A file that is open already: what is wrong with it is known before anything is run.
+/// The file, opened before a program is streamed so that an error is reported early.
 #[derive(Debug)]
 pub(super) struct Opened<'a>(&'a ExecutedTo, File);
 
@@ -44,7 +44,7 @@ impl ExecutedTo {
 }
 
 impl Opened<'_> {
-    /// Writes the lines, as they came.
+    /// Writes the executed lines.
     pub(super) fn write(mut self, cnc: &Cnc) -> Result<(), String> {
         let executed = cnc.with_program(self.0.channel, |program| program.executed().clone());
         let executed = executed.map_err(|error| error.to_string())?;
@@ -53,7 +53,7 @@ impl Opened<'_> {
     }
 }
 
-/// Says of every channel that was streamed to what it has run.
+/// Logs the executed lines of every channel that was streamed to.
 pub(super) fn log(cnc: &Cnc) {
     for channel in cnc.model().channels() {
         let ran =

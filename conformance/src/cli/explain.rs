@@ -19,7 +19,7 @@ use crate::explain::{
 };
 use crate::judge::Exit;
 
-/// The most bytes taken: several of the longest frames.
+/// Maximum number of bytes taken: several of the longest frames.
 const INPUT_MAX: u64 = 0x100_0000;
 
 /// Explains bytes field by field: offset, bytes, field, value, clause, meaning.
@@ -121,7 +121,7 @@ enum Color {
 }
 
 impl Explain {
-    /// Explains, and says how the process ends.
+    /// Explains the bytes and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let done = if self.list { self.list() } else { self.run() };
         done.unwrap_or_else(|(exit, why)| {
@@ -172,7 +172,7 @@ impl Explain {
         }
     }
 
-    /// The bytes; none where an address alone is to be explained.
+    /// The bytes; `None` if an address alone is to be explained.
     fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {
@@ -193,7 +193,8 @@ impl Explain {
     fn paint(&self) -> Paint {
         let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        // Only newer consoles of Windows take the sequences; they and emulators say so.
+        // Older consoles of Windows print escape sequences as text; newer ones and emulators set a
+        // variable.
         let takes = !cfg!(windows) || ["WT_SESSION", "ANSICON", "TERM"].into_iter().any(set);
         let colour = match self.color {
             Color::Always => true,
@@ -224,7 +225,6 @@ impl From<ServiceName> for Service {
     }
 }
 
-/// The explanation of bytes.
 const SAY: &str = "\
 say what they are:
   --stream NAME                    a stream; --list shows all
@@ -263,7 +263,7 @@ fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
     }
 }
 
-/// A reader that has seen enough is no failure.
+/// A broken pipe is not an error: the reader has seen enough.
 fn written(result: io::Result<()>) -> Result<(), (Exit, String)> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

@@ -92,11 +92,11 @@ impl Get {
         Ok(self.judge(&object, &bytes))
     }
 
-    /// Bytes are no value yet.
+    /// The exit code for these bytes: an error if they are not a value of the type.
     fn judge(&self, object: &Object, bytes: &[u8]) -> Exit {
         match object.ty.elements(bytes) {
             Ok(Some(_)) => Exit::Success,
-            // Whoever asks for bytes has got them.
+            // With --hex the bytes are the result.
             _ if self.hex => Exit::Success,
             Ok(None) => {
                 let ty = match object.ty.name.as_str() {

@@ -1,4 +1,4 @@
-//! What would be run.
+//! Lists the cases that would be run.
 
 use std::io::{self, Write};
 
@@ -13,7 +13,7 @@ pub(super) struct Listed {
     title: String,
     subject: CaseSubject,
     requirements: Vec<&'static str>,
-    /// Why it would not be run after all.
+    /// Why the case would not be run.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_run: Option<String>,
 }
@@ -30,7 +30,7 @@ impl Listed {
     }
 }
 
-/// The cases of a plan in their order; `unmet` tells why one is not run.
+/// The cases of a plan in their order; `unmet` returns why a case cannot be run.
 pub(super) fn of_plan(plan: &Plan, unmet: impl Fn(Needs) -> Option<String>) -> Vec<Listed> {
     let run = plan.selected().map(|case| Listed::new(case, unmet(case.needs)));
     let foreign = plan.foreign.iter().map(|(case, why)| Listed::new(case, Some(why.clone())));

@@ -20,7 +20,7 @@ impl std::str::FromStr for Filter {
              as ads_cnc_conformance::simulator=debug"
                 .to_owned()
         };
-        // Any word is a module to it.
+        // The parser takes any word for the name of a module.
         let is_level = |word: &str| word.parse::<tracing::level_filters::LevelFilter>().is_ok();
         let words = text.split(',');
         let known = |word: &str| {
@@ -33,9 +33,9 @@ impl std::str::FromStr for Filter {
     }
 }
 
-/// Logs what the filter lets through from here on.
+/// Starts logging to stderr.
 pub(super) fn to_stderr(filter: Filter) {
     let lines = fmt::layer().with_writer(io::stderr).with_ansi(false);
-    // Only the first in a process sets it; there is no other.
+    // This fails only if a logger is set already, which happens in no process of the tool.
     let _already_set = tracing_subscriber::registry().with(lines).with(filter.0).try_init();
 }

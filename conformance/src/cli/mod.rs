@@ -42,7 +42,7 @@ struct Cli {
     #[arg(long, global = true, value_name = "LEVEL|FILTER")]
     log: Option<log::Filter>,
 
-    /// `run` if none is given.
+    /// `run` if none is specified.
     #[command(subcommand)]
     command: Option<Subcommands>,
 }
@@ -68,7 +68,7 @@ enum Subcommands {
 }
 
 impl Subcommands {
-    /// What is logged unless told otherwise.
+    /// The filter of --log, or the default of the command.
     fn log(&self) -> Option<log::Filter> {
         match self {
             Self::Serve(_) => "info".parse().ok(),
@@ -82,7 +82,7 @@ pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version are no errors: they have the code 0.
+            // Help and version come as errors with the exit code 0.
             let code = u8::try_from(error.exit_code()).unwrap_or(Exit::Usage.code());
             let _unprinted = error.print();
             return ExitCode::from(code);
@@ -114,7 +114,7 @@ impl Cli {
             Some(Subcommands::Selftest(selftest)) => selftest.execute().into(),
             Some(Subcommands::Client(client)) => client.execute().into(),
             Some(Subcommands::Serve(args)) => serve::serve(&args),
-            // The suite against the simulated CNC, its options as they are by default.
+            // `run` with its default options: the suite against the simulated CNC.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
     }

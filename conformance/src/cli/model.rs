@@ -1,4 +1,4 @@
-//! Which data model the simulated CNC has: options of `serve` and of tools that embed it.
+//! Options that choose the data model of the simulated CNC.
 
 use std::path::PathBuf;
 
@@ -27,7 +27,7 @@ pub(super) struct ModelArgs {
 }
 
 impl ModelArgs {
-    /// Connects to the device, or to the CNC with this model, which is started here.
+    /// Connects to the device, or starts the simulated CNC with this model and connects to it.
     pub(super) fn open(&self, target: &TargetArgs) -> Result<Session, Trouble> {
         let is_given = self.model.is_some() || self.edition.is_some() || self.cnc_version.is_some();
         if is_given && target.is_device() {

@@ -53,7 +53,7 @@ impl NameArgs {
         }
     }
 
-    /// What to do next if there is nothing of this name.
+    /// Advice for the user if the name was not found.
     pub(super) fn advice(&self, trouble: &Trouble) -> Option<String> {
         trouble.ads_error()?;
         if self.name.starts_with("V.CYC.") {
@@ -74,7 +74,7 @@ impl NameArgs {
                      4.1). {browse}"
                 )
             }
-            // With the axis after it the name would have a part more.
+            // The axis would make the name one part longer.
             _ if name.starts_with("V.A.")
                 && name.split('.').count() == 3
                 && self.axis.is_none() =>
@@ -86,7 +86,7 @@ impl NameArgs {
     }
 }
 
-/// What is known of an object, on one line.
+/// Type, size, unit and access of an object on one line.
 pub(super) fn headline(object: &Object) -> String {
     let mut parts: Vec<String> = Vec::new();
     if !object.ty.name.is_empty() {
@@ -112,7 +112,7 @@ fn axis(text: &str) -> Result<ChannelAxis, String> {
     ChannelAxis::new(place).map_err(|error| error.to_string())
 }
 
-/// A reader that has seen enough is no failure.
+/// A broken pipe is not an error: the reader has seen enough.
 pub(super) fn written(result: io::Result<()>) -> Result<(), Trouble> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

@@ -1,14 +1,14 @@
-//! How far it is, on the terminal of whoever waits. One line that counts takes no crate.
+//! Progress on the terminal.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
-/// How often the line of a terminal changes.
+/// The line of a terminal changes at most this often.
 pub(super) const EVERY: Duration = Duration::from_millis(100);
-/// So that it never wraps, which would leave old lines.
+/// Short enough not to wrap: the rest of a wrapped line would stay on the screen.
 pub(super) const WIDTH: usize = 76;
 
-/// A line on stderr, written over and over where that is a terminal.
+/// A line on stderr, overwritten in place on a terminal.
 #[derive(Debug)]
 pub(super) struct ProgressLine {
     pub(super) live: bool,
@@ -21,14 +21,14 @@ impl ProgressLine {
         Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
     }
 
-    /// Shows this on a terminal, unless something was shown just now.
+    /// Shows a text on a terminal, unless the line was updated a moment ago.
     pub(super) fn update(&mut self, text: impl FnOnce() -> String) {
         if self.live && self.is_due(EVERY) {
             self.show(&text());
         }
     }
 
-    /// Whether nothing was shown for this long.
+    /// Whether the last update is at least this long ago.
     pub(super) fn is_due(&self, every: Duration) -> bool {
         self.last.elapsed() >= every
     }
@@ -46,13 +46,13 @@ impl ProgressLine {
         self.width = line.chars().count();
     }
 
-    /// As much of a text as a terminal's line takes.
+    /// The part of a text that fits on a line of the terminal.
     pub(super) fn fitted(&self, text: &str) -> String {
         let most = if self.live { WIDTH } else { usize::MAX };
         text.chars().take(most).collect()
     }
 
-    /// Takes the line off the terminal.
+    /// Clears the line of a terminal.
     pub(super) fn clear(&mut self) {
         if self.live && self.width > 0 {
             self.show("");

@@ -1,4 +1,4 @@
-//! The forms of a report: options of `run` and `report`, and how they are written.
+//! The formats of a report: options of `run` and `report`, and writing them.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -13,7 +13,7 @@ use crate::report::{self, Report};
 /// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
 
-/// Forms that are made from the JSON.
+/// Formats that are made from the JSON report.
 #[derive(Args, Clone, Debug)]
 pub(super) struct Forms {
     /// Write the report as one HTML file that needs nothing else
@@ -33,7 +33,7 @@ pub(super) struct Forms {
     badge: Option<PathBuf>,
 }
 
-/// How a form is made.
+/// A function that writes a format.
 type Maker = fn(&Report, &mut dyn Write) -> io::Result<()>;
 
 impl Forms {
@@ -47,22 +47,22 @@ impl Forms {
         all.into_iter().filter_map(|(file, maker)| Some((file.as_deref()?, maker)))
     }
 
-    /// Whether one goes to stdout.
+    /// Whether one of the formats goes to stdout.
     pub(super) fn has_stdout(&self) -> bool {
         self.requested().any(|(file, _)| is_stdout(file))
     }
 
-    /// Whether none is wanted.
+    /// Whether no format is requested.
     pub(super) fn is_empty(&self) -> bool {
         self.requested().next().is_none()
     }
 
-    /// Where they go.
+    /// The files of the formats.
     fn files(&self) -> impl Iterator<Item = &Path> {
         self.requested().map(|(file, _)| file)
     }
 
-    /// Two on stdout would be neither.
+    /// Rejects two formats on stdout.
     pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
         let files = json.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {
@@ -92,12 +92,12 @@ pub(super) struct Reports {
 }
 
 impl Reports {
-    /// Where the JSON goes.
+    /// The file of the JSON report.
     pub(super) fn json(&self) -> Option<&Path> {
         self.json.as_deref()
     }
 
-    /// The known failures, if the options do, and there is a place for what they ask for.
+    /// The known failures, after a check that the reports can be written.
     pub(super) fn waivers(&self) -> Result<Waivers, String> {
         let waivers = self.waivers.as_deref().map(waivers).transpose()?;
         self.forms.check(self.json())?;
@@ -105,24 +105,25 @@ impl Reports {
         Ok(waivers.unwrap_or_default())
     }
 
-    /// Writes the report; `print` shows it to people, unless stdout is somebody else's.
+    /// Writes the reports; `print` shows the result on stdout, unless a report goes there.
     pub(super) fn write(
         &self,
         report: &Report,
         print: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Exit {
-        // The files first: whoever reads the console may stop reading.
+        // Files first: a reader of the console may close the pipe.
         let json = self.json();
         let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
         let written = written.and_then(|()| self.forms.write(report));
-        // What is piped into something else is alone on stdout.
+        // A report on stdout is the only output there.
         let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
         let shown = if quiet { Ok(()) } else { show(print) };
         written.and(shown).map_or_else(lost, |()| report.exit())
     }
 }
 
-/// Whether a report can go there, before anybody is asked anything; what is there stays.
+/// Checks that a report can be written to a file, before the run; an existing file keeps its
+/// content.
 fn writable(file: &Path) -> Result<(), String> {
     if is_stdout(file) {
         return Ok(());
@@ -131,13 +132,13 @@ fn writable(file: &Path) -> Result<(), String> {
     let opened = OpenOptions::new().create(true).append(true).open(file);
     opened.map_err(|error| format!("{}: {error}", file.display()))?;
     if !was_there {
-        // The run may never come to its end.
+        // The run may never finish.
         let _gone = fs::remove_file(file);
     }
     Ok(())
 }
 
-/// Whether - is meant.
+/// Whether the file name is `-`.
 pub(super) fn is_stdout(file: &Path) -> bool {
     file.as_os_str() == "-"
 }
@@ -159,14 +160,14 @@ pub(super) fn write(
 /// Writes to stdout.
 pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
-    // A reader that has seen enough is no failure of ours, nor a success of the target's.
+    // A broken pipe is neither an error of this tool nor a success of the target.
     make(&mut out).and_then(|()| out.flush()).or_else(|error| match error.kind() {
         io::ErrorKind::BrokenPipe => Ok(()),
         _ => Err(error),
     })
 }
 
-/// A report that cannot be written is no success.
+/// Exit code for a report that cannot be written.
 pub(super) fn lost(error: io::Error) -> Exit {
     complain(format_args!("the report could not be written: {error}"));
     Exit::Internal

@@ -51,7 +51,7 @@ impl Requirements {
         });
         match printed {
             Ok(()) => Exit::Success,
-            // Whoever reads has seen enough.
+            // A broken pipe: the reader has seen enough.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
             Err(error) => {
                 complain(format_args!("the matrix is not printed: {error}"));

@@ -1,5 +1,12 @@
 //! `ads-cnc run`: the suite against a target.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 
@@ -145,7 +152,7 @@ Exit codes, the first that holds:
     )
 }
 
-/// Says what could not be restored; whether there is anything.
+/// Prints what could not be restored; returns whether there is any.
 fn tell_left(changes: &Changes) -> bool {
     let left = changes.left();
     for one in &left {
@@ -181,7 +188,7 @@ impl Run {
             return printed.map_or_else(super::report_output::lost, |()| Exit::Success);
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
-            // A file that is wrong is wrong without a target too.
+            // An invalid file is an error even without a target.
             self.target.allowed().map_err(|trouble| trouble.to_string())?;
             Ok((defect, self.reports.waivers()?, self.profile()?))
         });
@@ -218,7 +225,7 @@ impl Run {
         }
     }
 
-    /// Runs what is to be run, in order to the end also if a signal comes, and writes the reports.
+    /// Runs the selected cases, also to their end after a signal, and writes the reports.
     fn judged(
         &self,
         seed: u32,
@@ -241,7 +248,7 @@ impl Run {
                 return Exit::Internal;
             }
         };
-        // Who waits for a client says first where.
+        // With a client that connects by itself, the address is printed before.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         if asks && !self.client.waits() {
             complain(self.deadline);
@@ -272,7 +279,7 @@ impl Run {
         }
     }
 
-    /// What the file says, or what holds without one; --edition is about both.
+    /// The profile of the file, or the default one; --edition changes either.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
         let without = if self.is_simulated() {
@@ -333,7 +340,7 @@ impl Run {
                 return Exit::Nothing;
             }
         };
-        // The CNC that is started here is open to everything.
+        // The simulated CNC of this process may be written without limits.
         let gate = self
             .target
             .is_device()

@@ -1,5 +1,12 @@
 //! `ads-cnc run --client`: the suite is the CNC, and judges who talks to it.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use std::net::SocketAddr;
 use std::time::Duration;
 
@@ -50,12 +57,12 @@ impl ClientArgs {
         self.client.is_some() || self.client_listen.is_some()
     }
 
-    /// Whether it waits for whoever connects: a signal is one way to end that.
+    /// Whether it waits for a client that connects by itself: a signal ends the waiting.
     pub(super) const fn waits(&self) -> bool {
         self.client.is_none() && self.client_listen.is_some()
     }
 
-    /// The cases to choose from.
+    /// All scenarios of a client.
     pub(super) fn cases(&self) -> Vec<Case> {
         match &self.client {
             Some(_) => clients::scenarios().iter().map(Scenario::case).collect(),
@@ -66,7 +73,7 @@ impl ClientArgs {
     /// Judges the client by the cases of a plan.
     ///
     /// # Errors
-    /// Why nobody can be waited for.
+    /// If the address cannot be listened on.
     pub(super) fn judge(
         &self,
         plan: &Plan,
@@ -107,7 +114,7 @@ impl ClientArgs {
     }
 }
 
-/// Serves who comes of itself.
+/// Serves clients that connect by themselves.
 fn wait_for_client(
     server: &TestServer,
     deadline: Deadline,
@@ -115,7 +122,7 @@ fn wait_for_client(
 ) -> Result<OfClient, String> {
     let (addr, net_id) = (server.addr(), server.net_id());
     let mut told = false;
-    // Asked for the first time when somebody can come.
+    // Called for the first time when the server listens.
     let go_on = || {
         if !told {
             complain(format_args!(

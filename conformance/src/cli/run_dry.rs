@@ -1,4 +1,12 @@
-//! `ads-cnc run --dry-run`: what a run would ask. The requests themselves depend on the answers.
+//! `ads-cnc run --dry-run`: lists functions, not requests, because requests depend on earlier
+//! replies.
+
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
 
 use std::io::{self, Write};
 
@@ -7,7 +15,7 @@ use ads_cnc::operation::{Effect, Function};
 use crate::gate::Allowed;
 use crate::profile::{Claim, Profile};
 
-/// Lists the functions that a device with this profile is asked, and what may be written to it.
+/// Lists the functions that a run requests from a device with this profile, and what it may write.
 pub(super) fn list(
     profile: &Profile,
     allowed: Option<&Allowed>,

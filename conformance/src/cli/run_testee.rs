@@ -1,5 +1,12 @@
 //! `ads-cnc run --testee`: a codec that is asked over pipes.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
+
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -11,10 +18,10 @@ use crate::report::TargetReport;
 use crate::testee::{Finding, JudgedTestee, Terms, TesteeProcess, check_protocol, judge};
 use crate::text::shorten;
 
-/// The last of stderr that a report keeps.
+/// Maximum number of bytes of stderr, its end, in a report.
 const STDERR_SHOWN: usize = 4000;
 
-/// The most characters of a name that a report keeps.
+/// Maximum number of characters of a name in a report.
 const GIVEN_MAX: usize = 200;
 
 pub(super) struct OfTestee {
@@ -22,7 +29,7 @@ pub(super) struct OfTestee {
     pub(super) outcomes: Vec<CaseOutcome>,
 }
 
-/// Asks the testee that this command starts all of these cases.
+/// Runs these cases on the testee that a command starts.
 pub(super) fn run(
     command: &str,
     timeout: Duration,
@@ -38,8 +45,7 @@ pub(super) fn run(
     OfTestee { target: target("testee", command, identity, &process.stderr()), outcomes }
 }
 
-/// What a report says of a program that a command started: the name, version and language it gave,
-/// and the last of stderr.
+/// The program of a command in a report: its name, version and language, and the end of stderr.
 pub(super) fn target(
     kind: &str,
     command: &str,
@@ -61,11 +67,11 @@ pub(super) fn target(
     }
 }
 
-/// Goes through the protocol step by step, and says of each what is wrong and how it should be.
+/// Goes through the protocol step by step and prints what is wrong and what is expected.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = TesteeProcess::new(command, timeout);
-    let mut faults = 0_usize;
     let findings = check_protocol(&mut process);
+    let faults = findings.iter().filter(|finding| finding.fault.is_some()).count();
     if interrupt::is_requested() {
         writeln!(out, "Interrupted: the protocol was not gone through.")?;
         return Ok(Exit::Nothing);
@@ -74,7 +80,6 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {
-                faults += 1;
                 writeln!(out, "WRONG  {what}: {fault}")?;
                 for (mark, line) in [("→", sent), ("←", received)] {
                     if let Some(line) = line {

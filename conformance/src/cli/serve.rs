@@ -21,7 +21,7 @@ use crate::simulator::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
 
-/// For the end of the help.
+/// The end of the help.
 const MORE: &str = "\
 Examples:
   ads-cnc serve
@@ -41,7 +41,7 @@ a whole request for 10 s, and one that leaves a frame unfinished for 10 s.
 Exit codes: 0 ended by a signal; 2 wrong usage, and a model that is refused; 70 internal error, and an
 address that cannot be listened on.";
 
-/// So the help says.
+/// The help states these limits.
 const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
 const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 
@@ -149,7 +149,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         );
     }
     drop(out);
-    // The threads of the server do the rest.
+    // The threads of the server do the work.
     interrupt.wait();
     tracing::info!("interrupted, ending");
     drop(server);
@@ -170,10 +170,10 @@ impl Args {
     }
 }
 
-/// Whether the simulated CNC may listen there.
+/// Checks the address that the simulated CNC listens on.
 ///
 /// # Errors
-/// That the address can be reached from other machines, which was not allowed.
+/// If other machines can reach it and --allow-remote is not set.
 pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), String> {
     if addr.ip().is_loopback() {
         return Ok(());
@@ -213,7 +213,7 @@ fn address(text: &str) -> Result<SocketAddr, String> {
     })
 }
 
-/// What the options say of the NC programs of the channels.
+/// Applies the options about NC programs to the channels.
 fn programs(cnc: &Cnc, args: &Args) -> Result<(), Box<dyn std::error::Error>> {
     if let Some(pace) = args.pace {
         for channel in cnc.model().channels() {
@@ -241,7 +241,7 @@ fn list_defects() -> ExitCode {
     for seed in faults::all() {
         let broken = seed.requirements.join(" ");
         if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
-            // Whoever reads has seen enough.
+            // A broken pipe: the reader has seen enough.
             break;
         }
     }

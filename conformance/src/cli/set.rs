@@ -91,7 +91,7 @@ impl Set {
         let size = object.size();
         let old = match session.read(&object.address) {
             Ok(old) => Some(old),
-            // What cannot be read may be written all the same.
+            // A value that cannot be read may be writable.
             Err(Trouble::Ads { .. }) => None,
             Err(Trouble::NotSent) if session.is_dry() => None,
             Err(trouble) => return Err(trouble),
@@ -102,7 +102,7 @@ impl Set {
         };
         let mut bytes = parse(&ty, &self.value).map_err(|why| Trouble::Usage(why.to_string()))?;
         if object.address.content().is_some() {
-            // A content has one size, whatever the text in it.
+            // A content has a fixed size: the rest of a text is filled with zeros.
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
         }
         if session.is_simulated() && !self.target.has_file() {
@@ -126,21 +126,21 @@ impl Set {
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// Ends it before anything is asked, if the name alone tells that it may not be written.
+    /// Asks the gate before connecting, if the name alone determines the address.
     fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), Trouble> {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
         let checked = session.check_write(&object.address);
         if checked.is_err() && session.is_dry() {
-            // Shows it as well; the value only if its type is given.
+            // The gate shows the value of a rejected write; it is known only if the type is given.
             let value = parse(&object.ty, &self.value).unwrap_or_default();
             return session.write(&object.address, &value);
         }
         checked
     }
 
-    /// For the simulated CNC the gate allows the requested value, in a dry run too.
+    /// For the simulated CNC the gate allows exactly this write, in a dry run too.
     fn open(&self, alone: Option<&Object>) -> Result<Session, Trouble> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
@@ -163,7 +163,7 @@ impl Set {
             None => "(not readable)".to_owned(),
         };
         let (name, old, new) = (object.name.to_string(), text(old), text(new));
-        // Long ones beneath each other.
+        // Long values go on two lines.
         let between = if old.len().max(new.len()) > 30 { "\n  → " } else { " → " };
         let start = if between.starts_with('\n') { "\n    " } else { " " };
         let name = crate::values::printable(&name);
@@ -171,7 +171,7 @@ impl Set {
     }
 }
 
-/// Whether it may be written at all, as far as the CNC says.
+/// Checks that the CNC describes the object as writable.
 fn check(object: &Object) -> Result<(), Trouble> {
     let name = &object.name;
     if matches!(object.address, ValueAddress::Parameter { kind: DynamicKind::P, .. }) {
@@ -186,7 +186,7 @@ fn check(object: &Object) -> Result<(), Trouble> {
     }
 }
 
-/// Whether it reads as it was written; a text up to its end.
+/// Whether the value read back is the one written; a text is compared up to its end.
 fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let Some(new) = new else {
         complain("it was written, and the CNC does not let it be read back");

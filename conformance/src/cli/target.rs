@@ -24,7 +24,7 @@ use crate::simulator::{Cnc, NET_ID};
 /// The heading of these options in the help.
 const TARGET: &str = "Target";
 
-/// For the end of a tool's help, as `after_long_help`.
+/// The end of a tool's help, as `after_long_help`.
 pub(super) const REACHING_A_DEVICE: &str = "\
 Reaching a device:
   It listens for AMS/TCP on TCP port 48898 and answers only who has a route: in its ADS router add
@@ -80,11 +80,11 @@ pub(super) struct TargetArgs {
     #[arg(long, help_heading = TARGET)]
     dry_run: bool,
 
-    /// Whether what no client should send may be sent too: no option of all tools.
+    /// Whether malformed requests are allowed; `run` has an option for that.
     #[arg(skip)]
     malformed: bool,
 
-    /// Whether some of the capture could not be written.
+    /// Whether the capture could not be written completely.
     #[arg(skip)]
     lost: Arc<AtomicBool>,
 }
@@ -98,11 +98,11 @@ pub(super) struct DeadlineArgs {
     deadline: u64,
 }
 
-/// A run at two requests a second takes less.
+/// The default. A run at two requests a second takes less.
 const DEADLINE: u64 = 4 * 3600;
 
 impl DeadlineArgs {
-    /// From now on.
+    /// Starts the time.
     pub(super) fn begin(self) -> Deadline {
         Deadline::after(Duration::from_secs(self.deadline))
     }
@@ -123,17 +123,17 @@ pub(super) struct ChannelArgs {
 }
 
 impl TargetArgs {
-    /// Whether a device is meant.
+    /// Whether a device is the target.
     pub(super) const fn is_device(&self) -> bool {
         self.target.is_some()
     }
 
-    /// How long to wait for an answer.
+    /// How long to wait for a reply.
     pub(super) fn timeout(&self) -> Duration {
         self.timeout.map_or(TIMEOUT, Duration::from_millis)
     }
 
-    /// Whether a file says what may be written.
+    /// Whether there is a file for --allow-write.
     pub(super) const fn has_file(&self) -> bool {
         self.allow_write.is_some()
     }
@@ -143,25 +143,25 @@ impl TargetArgs {
         self.dry_run
     }
 
-    /// Waits so long for an answer, unless an option says how long.
+    /// Waits this long for a reply, unless an option says how long.
     pub(super) fn with_timeout(mut self, timeout: Option<Duration>) -> Self {
         let milliseconds = timeout.and_then(|time| u64::try_from(time.as_millis()).ok());
         self.timeout = self.timeout.or(milliseconds);
         self
     }
 
-    /// Lets requests pass that no client should send, if they are to.
+    /// Allows malformed requests.
     pub(super) fn with_malformed(self, malformed: bool) -> Self {
         Self { malformed, ..self }
     }
 
-    /// Connects to the device, or to a CNC that is started here.
+    /// Connects to the device, or to a simulated CNC that is started here.
     pub(super) fn open(&self) -> Result<Session, Trouble> {
         self.open_or(default_cnc)
     }
 
-    /// Connects to the device, or starts this CNC, which may be written this one thing if no file
-    /// says what may be: it moves nothing, and is there for the purpose.
+    /// Connects to the device, or starts this CNC. The gate of the simulated CNC allows this one
+    /// write if there is no file for --allow-write.
     pub(super) fn open_to_write(
         &self,
         entry: Entry,
@@ -174,8 +174,8 @@ impl TargetArgs {
         }
     }
 
-    /// Asks the gate of a device before anybody connects: who may not write needs no connection.
-    /// A dry run shows what would be refused instead.
+    /// Asks the gate of a device before connecting: a forbidden write needs no connection. A dry
+    /// run shows the rejected write instead.
     pub(super) fn ask_gate(
         &self,
         check: impl FnOnce(&Session) -> Result<(), Trouble>,
@@ -186,7 +186,7 @@ impl TargetArgs {
         }
     }
 
-    /// What the file for --allow-write says, whether there is a target or not.
+    /// The content of the file for --allow-write, with or without a target.
     pub(super) fn allowed(&self) -> Result<Option<Allowed>, Trouble> {
         let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
         allowed.map_err(|error| Trouble::Usage(error.to_string()))
@@ -220,12 +220,12 @@ impl TargetArgs {
         }
     }
 
-    /// Where all that is sent and received is kept.
+    /// The file of the capture.
     pub(super) fn capture(&self) -> Option<&Path> {
         self.capture.as_deref()
     }
 
-    /// The session, with all that it sends and receives kept if that is wanted.
+    /// The session, captured if the option says so.
     pub(super) fn recorded(&self, session: Session) -> Result<Session, Trouble> {
         let Some(file) = &self.capture else { return Ok(session) };
         let failed = |error| Trouble::Internal(format!("{}: {error}", file.display()));
@@ -237,8 +237,8 @@ impl TargetArgs {
         Ok(session.with_capture(capture))
     }
 
-    /// Says what went wrong, with advice if there is any, and how the process ends when the session
-    /// is over: what was to be kept and is not is an error.
+    /// Prints an error with advice, and returns the exit code after the session. An incomplete
+    /// capture is an error.
     pub(super) fn end(
         &self,
         done: Result<Exit, Trouble>,
@@ -271,13 +271,13 @@ impl TargetArgs {
     }
 }
 
-/// The simulated CNC unless another is named.
+/// The default model of the simulated CNC.
 pub(super) fn default_cnc() -> Result<Cnc, Trouble> {
     let internal = |error| Trouble::Internal(format!("the default model: {error}"));
     Cnc::with_default_model().map_err(internal)
 }
 
-/// A gate that lets this write through to a simulated CNC.
+/// A gate that allows this write to a simulated CNC.
 pub(super) fn simulator_gate(entry: Entry) -> Gate {
     let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
     Gate::queries().with_allowed(Some(Allowed {
@@ -294,11 +294,11 @@ pub(super) fn channel(text: &str) -> Result<Channel, String> {
     Channel::new(number).map_err(|error| error.to_string())
 }
 
-/// The time between two requests.
+/// Parses requests per second; returns the time between two.
 fn pace(text: &str) -> Result<Duration, String> {
     let odd = || "a number over 0 is needed".to_owned();
     let rate: f64 = text.parse().map_err(|_| odd())?;
-    // Infinity is no time at all, and 0 forever.
+    // Infinity would be no time between requests, and 0 an infinite one.
     Duration::try_from_secs_f64(rate.recip()).map_err(|_| odd())
 }
 

@@ -105,7 +105,7 @@ fn misbehave(miniature: Miniature, own: &Own) -> io::Result<()> {
     Ok(())
 }
 
-/// Does nothing any more; whoever waits for that ends it. Not for ever, if nobody does.
+/// Hangs until it is killed, or for a limited time.
 fn stay() -> ! {
     std::thread::sleep(std::time::Duration::from_secs(60));
     std::process::exit(i32::from(Exit::Internal.code()))

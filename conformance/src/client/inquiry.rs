@@ -1,4 +1,4 @@
-//! What a device reports about itself: ReadDeviceInfo and ReadState, through the gate.
+//! ReadDeviceInfo and ReadState, through the gate.
 
 use std::fmt;
 
@@ -11,11 +11,11 @@ use super::{Client, violations};
 use crate::exchange::{ExchangeError, Violation};
 use crate::judge::Evidence;
 
-/// A command without data, by its reply.
+/// A command whose request has no data; `Self` is its reply.
 pub trait Inquiry: for<'a> Decode<'a> {
     const COMMAND: Command;
     const NAME: &'static str;
-    /// The requirement on its reply.
+    /// The requirement of its reply.
     const CLAUSE: &'static str;
 
     /// The ADS error number.
@@ -47,29 +47,29 @@ impl Inquiry for DeviceStateReply {
 pub enum InquiryReply<R> {
     /// A success.
     Reply(R),
-    /// The device refuses.
+    /// An ADS error of the device.
     Refused(AdsError),
-    /// An AMS error: there is no such device.
+    /// An AMS error: the address is unknown to the router.
     Ams(AdsError),
 }
 
-/// One inquiry and what came of it.
+/// An inquiry and its result.
 #[derive(Debug)]
 pub struct Inquired<R> {
-    /// Port it went to.
+    /// Port of the request.
     pub port: AmsPort,
     /// The whole frame sent; empty if none was.
     pub sent: Vec<u8>,
-    /// The whole frame received, or as much as came.
+    /// The received frame, or the part of it that arrived.
     pub received: Vec<u8>,
-    /// The reply, or the reason why there is none.
+    /// The reply, or why there is no valid one.
     pub outcome: Result<InquiryReply<R>, ExchangeError>,
-    /// What is wrong with the frame itself.
+    /// Rules of AMS/TCP that the received frame breaks.
     pub violations: Vec<Violation>,
 }
 
 impl<R: Inquiry> Inquired<R> {
-    /// What came of it, in a few words.
+    /// The reply or the error, in a few words.
     pub fn result(&self) -> String {
         match &self.outcome {
             Ok(InquiryReply::Reply(_)) => "success".to_owned(),
@@ -111,7 +111,8 @@ impl Client {
         });
         if let Err(fault) = &reply {
             if let ExchangeError::Malformed(error) = fault {
-                // Of the headers, or of what is after them.
+                // An error in the reply's stream breaks the requirement of the reply, any other
+                // that of the headers.
                 let own = error.field().stream() == Some(R::STREAM);
                 let requirement = if own { R::CLAUSE } else { "ADS-5" };
                 inquired.violations.push(Violation { requirement, what: error.to_string() });
@@ -122,7 +123,7 @@ impl Client {
     }
 }
 
-/// Decodes the one frame that was received.
+/// Decodes the received frame.
 fn decode_reply<R: Inquiry>(
     header: &AmsHeader,
     received: &[u8],
@@ -134,7 +135,7 @@ fn decode_reply<R: Inquiry>(
     match R::decode(data) {
         Ok(reply) if reply.result().is_ok() => Ok(InquiryReply::Reply(reply)),
         Ok(reply) => Ok(InquiryReply::Refused(reply.result())),
-        // It may end after a result that is not 0 (ADS-6).
+        // The reply may end after a result that is not 0 (ADS-6).
         Err(error) => match WriteReply::decode(data) {
             Ok(short) if !short.result.is_ok() => Ok(InquiryReply::Refused(short.result)),
             _ => Err(ExchangeError::Malformed(error)),

@@ -1,4 +1,4 @@
-//! What is wrong with frames themselves.
+//! Checks the headers of received frames.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::exchange::{Exchange, ExchangeError, Violation};
 use crate::wire_service::{clause, reply_stream};
 
 impl Client {
-    /// What is wrong with the frames themselves.
+    /// Adds the violations of the received frame's headers.
     pub(super) fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
         let mut broken = Vec::new();
         match &exchange.outcome {
@@ -39,7 +39,7 @@ impl Client {
                 if let ExchangeError::Malformed(error) = fault {
                     if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
-                        // Its numbers are not at the offsets they have with 4 bytes each.
+                        // A length is wrong, so the fields after it have other offsets.
                         add("ADS-4", error.to_string());
                     } else {
                         add("ADS-5", error.to_string());
@@ -48,7 +48,7 @@ impl Client {
                         add("ADS-5", "no data, and no error in the AMS header".to_owned());
                     }
                 }
-                // What comes next on this connection cannot be told apart any more.
+                // The beginning of the next frame on this connection is unknown.
                 self.disconnect();
             }
         }
@@ -56,7 +56,7 @@ impl Client {
     }
 }
 
-/// What of ADS-5 the response's header does not keep.
+/// The rules of ADS-5 that the response's header breaks.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let mut broken = Vec::new();
     let mut check = |kept: bool, what: fmt::Arguments<'_>| {

@@ -1,17 +1,15 @@
-//! What a client tells of its connections.
+//! Observers of a client's connections.
 
 use std::fmt;
 use std::io;
 use std::net::SocketAddr;
 
-/// A record of all bytes that a client sends and receives.
+/// Records all bytes that a client sends and receives.
 pub trait Tap: fmt::Debug + Send {
     fn opened(&mut self, local: SocketAddr, remote: SocketAddr);
 
-    /// These bytes were sent.
     fn sent(&mut self, bytes: &[u8]);
 
-    /// These bytes were received.
     fn received(&mut self, bytes: &[u8]);
 
     fn closed(&mut self);

@@ -1,23 +1,24 @@
-//! Whom a client asks, and as whom.
+//! The address of a target, and the address requests come from.
 
 use std::net::{IpAddr, SocketAddr};
 use std::time::Duration;
 
 use ads_cnc::ads::AmsNetId;
 
-/// Whom to ask, and as whom.
+/// The address of a target, and the address requests come from.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Where it listens.
+    /// TCP address.
     pub addr: SocketAddr,
-    /// Its AMS NetId.
+    /// AMS NetId.
     pub net_id: AmsNetId,
-    /// The NetId to ask as; a device answers only those it has a route to. Without one it is made
-    /// of this machine's address towards the target, as most are: 192.0.2.7 is 192.0.2.7.1.1.
+    /// The NetId requests come from; a device replies only to those it has a route to. By default
+    /// it is this machine's address towards the target with .1.1 appended, as is usual:
+    /// 192.0.2.7.1.1 for 192.0.2.7.
     pub source: Option<AmsNetId>,
     /// How long to wait for a connection and for an answer.
     pub timeout: Duration,
-    /// The least time from one request to the next.
+    /// The minimum time between two requests.
     pub pace: Duration,
 }
 
@@ -29,7 +30,7 @@ impl Target {
     }
 }
 
-/// The NetId that goes with an address; on this machine itself another than the simulated CNC's.
+/// The usual NetId for an IP address. For loopback it differs from the simulated CNC's.
 pub(crate) const fn net_id_of(ip: IpAddr) -> AmsNetId {
     match ip {
         IpAddr::V4(ip) if !ip.is_loopback() => {

@@ -1,4 +1,4 @@
-//! What a client is told to do: a small vocabulary that keeps its meaning.
+//! Actions that a client is told to do. The meaning of a word never changes.
 
 use std::fmt;
 
@@ -7,9 +7,9 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionWord {
     pub name: &'static str,
-    /// Its arguments. The last may contain blanks.
+    /// Names of its arguments. The last argument may contain blanks.
     pub arguments: &'static [&'static str],
-    /// What the client does, and what its result is.
+    /// What the client does, and its result.
     pub gives: &'static str,
 }
 
@@ -19,7 +19,7 @@ macro_rules! words {
     };
 }
 
-/// Everything a client can be told.
+/// All actions.
 pub const VOCABULARY: &[ActionWord] = words! {
     "count-objects" ["CHANNEL"] "the number of COM objects";
     "list-objects" ["CHANNEL"] "their descriptors: name, type, size, writable, group, offset";
@@ -54,7 +54,7 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
 };
 
-/// A word and its arguments.
+/// A word of the vocabulary with arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Action {
     pub action: String,
@@ -63,7 +63,7 @@ pub struct Action {
 }
 
 impl Action {
-    /// The action of a line such as `read-by-name 1 V.E.Testvar SGN32[5]`.
+    /// Parses an action such as `read-by-name 1 V.E.Testvar SGN32[5]`.
     ///
     /// ```
     /// use ads_cnc_conformance::clients::Action;

@@ -1,4 +1,4 @@
-//! What is found of a client in one scenario.
+//! The checks of a client in one scenario.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
@@ -7,14 +7,14 @@ use super::test_server::Turn;
 use crate::judge::{Describe, Evidence, Record, Rules};
 use crate::wire_service::{decode_reply, service_of};
 
-/// Checks made, and what came of them.
+/// The checks of a scenario with their verdicts.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) record: Record,
 }
 
 impl Findings {
-    /// Judges one check; the turn is its evidence.
+    /// Records a check; the exchange is its evidence.
     pub(super) fn check(
         &mut self,
         rules: impl Rules,
@@ -27,9 +27,9 @@ impl Findings {
     }
 }
 
-/// What a client sent and got, as a report shows it.
+/// The evidence of an exchange in a report.
 pub(super) fn evidence(turn: &Turn) -> Evidence {
-    // What is wrong is with what the client has sent, and so are the bytes.
+    // The client's request is judged, so the evidence shows the request.
     let fault = turn.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
         call: format!("bytes that are no request{fault}"),
@@ -70,7 +70,7 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
 mod tests {
     use super::*;
 
-    /// What is no request is shown as it came, with what is wrong with it at the same place.
+    /// Bytes that are not a request are shown with the fault.
     #[test]
     fn garbage_is_shown() {
         let request = b"GET / HTTP/1.0\r\n\r\n".to_vec();
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!((shown.sent, shown.result.as_str()), (request, "0 bytes"));
     }
 
-    /// And so is the data of a request that no CNC knows.
+    /// The data of a request with an unknown command is shown too.
     #[test]
     fn data_of_an_unknown_command_is_shown() {
         let mut request =

@@ -1,4 +1,4 @@
-//! Putting a client through its scenarios, and what comes of it.
+//! Runs a client through its scenarios and judges it.
 
 use std::fs;
 use std::io;
@@ -21,7 +21,7 @@ use crate::judge::{
 use crate::process::interrupt;
 use crate::simulator::Cnc;
 
-/// Deaths and silences in a row after which no more is tried.
+/// Maximum number of consecutive scenarios without an answer; after them the rest is not tried.
 const LOST_MAX: usize = 12;
 
 #[derive(Debug)]
@@ -32,7 +32,7 @@ pub struct JudgedClient {
     pub requests: usize,
 }
 
-/// Puts a client through scenarios, in their order.
+/// Runs a client through scenarios in their order.
 pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario]) -> JudgedClient {
     let mut manners = Findings::default();
     let mut requests = 0_usize;
@@ -45,7 +45,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
             return JudgedClient { hello: None, outcomes, requests };
         }
         Err(reaction) => {
-            // After the deadline it is not known whether it would have answered.
+            // After the deadline a missing answer proves nothing.
             let over = actor.over();
             let (verdict, why) = match &over {
                 Some(why) => (Verdict::Inconclusive, why.as_str()),
@@ -93,7 +93,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
         let played =
             caught(|| play(actor, server, scenario, &place(port))).and_then(|played| played);
         if interrupt::is_requested() {
-            // Whether it would have answered is not known.
+            // An interrupted action has no verdict.
             outcomes.push(CaseOutcome::interrupted(case));
             continue;
         }
@@ -129,7 +129,7 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
     JudgedClient { hello: Some(hello), outcomes, requests }
 }
 
-/// Judges that it says one line each time, and no more.
+/// Checks that the client prints one line per action.
 fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
     for line in actor.unasked() {
         manners
@@ -137,8 +137,8 @@ fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
     }
 }
 
-/// Puts this project's client with a defect through the scenarios that can judge what it is about,
-/// until that fails; with a habit through all of them.
+/// Runs this project's client with a defect through the scenarios with the requirement that it
+/// breaks, until it fails; a valid variant runs through all of them.
 pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     let mut own = ReferenceClient { flaw: Some(defect.flaw) };
     let wanted = Rule::from(defect.requirement).id;
@@ -157,7 +157,8 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     outcomes
 }
 
-/// What comes of one scenario, whether the client was lost, and how many requests it sent.
+/// Runs one scenario; returns its outcome, whether the client was lost, and how many requests it
+/// sent.
 fn play(
     actor: &mut dyn Actor,
     server: &TestServer,
@@ -183,7 +184,8 @@ fn play(
     let script = script.ok_or("the CNC of the scenario is still in use")?;
     let mut findings = Findings::default();
     requests::judge(&turns, &mut None, &mut findings);
-    // Who sees a loop word or a lie need not ask at all.
+    // A client may reject a program with a loop word, or detect an inconsistent reply, without a
+    // request.
     request_match::judge(&scenario.asks, &turns, may_write(scenario), &mut findings);
     if let Some(watch) = scenario.watch {
         ordering::judge(watch, scenario, &script, &turns, &mut findings);
@@ -195,7 +197,7 @@ fn play(
         ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Broken(_)
     );
     let mut case = scenario.case();
-    // A client may ask more than it has to; that is judged too.
+    // Additional requests are judged by their requirements too.
     for judgement in &findings.record.judgements {
         if !case.requirements.contains(&judgement.requirement) {
             case.requirements.push(judgement.requirement);
@@ -210,7 +212,7 @@ fn may_write(scenario: &Scenario) -> bool {
     word.starts_with("write") || ["stream", "serve-echo", "ask-service"].contains(&word)
 }
 
-/// Judges what the client says.
+/// Judges the client's answer.
 fn judge_reaction(
     scenario: &Scenario,
     script: &ScenarioScript,
@@ -248,7 +250,7 @@ fn judge_reaction(
     };
     let rules: Vec<Rule> = match reaction {
         ClientReaction::Answer(_) => rules,
-        // Whatever is assumed of what it was to do: this is nothing that can be meant.
+        // A missing or garbled answer breaks a must, even if the scenario's rules are assumed.
         ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
             let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
             rules.into_iter().map(must).chain([CLIENT.into()]).collect()
@@ -259,7 +261,7 @@ fn judge_reaction(
     None
 }
 
-/// A place as who asks logically has it.
+/// An address with logical addressing.
 fn logical(place: &Value) -> Value {
     let parts = place.as_array().map(Vec::as_slice).unwrap_or_default();
     match (parts, parts.first().and_then(Value::as_u64).and_then(|group| group.try_into().ok())) {
@@ -270,7 +272,7 @@ fn logical(place: &Value) -> Value {
     }
 }
 
-/// What a client has to say.
+/// The expected answer of a client.
 struct Expected {
     result: Option<Value>,
     any: bool,
@@ -295,7 +297,7 @@ impl std::fmt::Display for Expected {
     }
 }
 
-/// How the client keeps to the protocol.
+/// The outcome of the case about the client protocol.
 fn of_manners(findings: Findings) -> CaseOutcome {
     let case = Case {
         id: "client-manners".to_owned(),
@@ -308,7 +310,7 @@ fn of_manners(findings: Findings) -> CaseOutcome {
     CaseOutcome::tried(case, findings.record.judgements, findings.record.checks.max(1), None)
 }
 
-/// An NC program in a file of its own, removed in the end.
+/// A temporary file with an NC program, removed on drop.
 struct ProgramFile(PathBuf);
 
 impl ProgramFile {

@@ -1,26 +1,26 @@
-//! Frames that no codec has had in its hands: printed bytes after headers put together by hand.
-//! A mistake that client and CNC share through one codec shows here.
+//! Printed frames without a codec: printed bytes after headers built by hand. They detect a mistake
+//! that client and CNC share because both use the same codec.
 
-/// One printed example: what has to be sent, and what comes back.
+/// A printed example: the expected request and its reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Literal {
-    /// Service, by the number of its command.
+    /// The service, by the number of its command.
     pub(super) command: u8,
     pub(super) port: u16,
     pub(super) group: u32,
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
-    /// The most bytes that a name as data may be filled up to with NULs; 0 for other data.
+    /// Maximum length of a name that is padded with NULs; 0 for other data.
     pub(super) padded: usize,
-    /// Data of the reply; nothing for a Write.
+    /// Data of the reply; empty for a Write.
     pub(super) reply: Vec<u8>,
 }
 
-/// The two headers.
+/// Length of the AMS/TCP header and the AMS header.
 const HEADERS: usize = 38;
 
 impl Literal {
-    /// The forms that are as good: channels by index, and names filled up.
+    /// The equivalent requests: channels by index, and padded names.
     fn forms(&self) -> Vec<Self> {
         let by_index = Self { group: self.group & !0x10_0000, ..self.clone() };
         let mut forms = vec![self.clone(), by_index];
@@ -36,8 +36,8 @@ impl Literal {
         forms
     }
 
-    /// The service's part of the request but for how much is to be read, which is the client's
-    /// affair: in front of it and after it.
+    /// The service's part of the request before and after the read length, which the client may
+    /// choose.
     fn request(&self) -> (Vec<u8>, Vec<u8>) {
         let mut front = self.group.to_le_bytes().to_vec();
         front.extend(self.offset.to_le_bytes());
@@ -50,8 +50,7 @@ impl Literal {
         (front, after)
     }
 
-    /// Whether this is the frame, byte for byte, but for whose it is, its number and how much is
-    /// to be read.
+    /// Whether a frame is this request, apart from source address, invoke ID and read length.
     fn is(&self, frame: &[u8]) -> bool {
         let (front, after) = self.request();
         let between = if self.command == 3 { 0_usize } else { 4 };
@@ -72,7 +71,7 @@ impl Literal {
             && at(after_at, &after)
     }
 
-    /// The whole reply to the frame, if it is the printed one.
+    /// The reply to a frame, if the frame is this request.
     pub(super) fn reply(&self, frame: &[u8]) -> Option<Vec<u8>> {
         if !self.forms().iter().any(|form| form.is(frame)) {
             return None;
@@ -85,7 +84,7 @@ impl Literal {
         let length = u32::try_from(body.len()).ok()?;
         let mut reply = vec![0, 0];
         reply.extend(length.checked_add(32)?.to_le_bytes());
-        // Back to whom it came from.
+        // The target of the reply is the source of the request.
         reply.extend(frame.get(14..22)?);
         reply.extend(frame.get(6..14)?);
         reply.extend([self.command, 0, 5, 0]);

@@ -1,4 +1,4 @@
-//! The lines that go to a client and come from it.
+//! The lines of the client protocol.
 
 use std::net::SocketAddr;
 
@@ -12,27 +12,28 @@ use crate::text::shorten;
 
 pub const PROTOCOL: u32 = 1;
 
-/// What a client says of itself.
+/// A client's answer to hello.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClientHello {
-    /// Version of the protocol it speaks.
+    /// Version of the protocol it implements.
     pub protocol: u32,
     pub client: Identity,
-    /// The words of the vocabulary that it knows.
+    /// The words of the vocabulary that it implements.
     pub actions: Vec<String>,
-    /// Whether it stays and is spoken with, or is started for each action.
+    /// Whether the client keeps running and reads actions from stdin, or is started for each
+    /// action.
     #[serde(default)]
     pub stays: bool,
 }
 
-/// Where the CNC is.
+/// The address of the CNC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CncAddress {
     /// Its TCP address.
     pub addr: SocketAddr,
     /// Its AMS NetId.
     pub net_id: AmsNetId,
-    /// The AMS port of the task that serves the action.
+    /// The AMS port of the task that executes the action.
     pub port: u16,
 }
 
@@ -69,7 +70,7 @@ pub(super) fn environment(
     ]
 }
 
-/// As much of an answer as a person reads.
+/// Maximum length of a quoted answer.
 const SHOWN: usize = 200;
 
 /// Nothing to say but that it is done.
@@ -80,13 +81,13 @@ pub(super) const DONE: Value = Value::Bool(true);
 #[serde(rename_all = "lowercase")]
 pub enum ActionResult {
     Result(Value),
-    /// It was not: the CNC refused, or what came from it was wrong.
+    /// The CNC rejected the request, or its reply was invalid.
     Error(String),
-    /// The client has no such thing.
+    /// The client does not implement the action.
     Unsupported(String),
 }
 
-/// What a client does when it is told to do something.
+/// How a client reacts to an action.
 pub type ClientReaction = crate::process::Reaction<ActionResult>;
 
 impl std::fmt::Display for ClientReaction {

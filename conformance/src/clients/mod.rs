@@ -1,8 +1,9 @@
-//! Clients under test: the suite is the CNC, tells a client what to do, judges the bytes it sends,
-//! and sees what it makes of replies that are not what they should be.
+//! Clients under test: the suite acts as the CNC, tells a client what to do, and judges the
+//! requests it sends and its reaction to invalid replies.
 //!
-//! The protocol is described in `adapters/CLIENTS.md`. [`ClientProcess`] is a client that is started
-//! by a command, [`ReferenceClient`] this project's, which can be told to be wrong: [`defects`].
+//! The protocol is described in `adapters/CLIENTS.md`. [`ClientProcess`] is a client that is
+//! started by a command, [`ReferenceClient`] that of this project, optionally with a defect:
+//! [`defects`].
 
 mod action;
 mod findings;
@@ -17,6 +18,7 @@ mod request_match;
 mod requests;
 mod result;
 mod scenario;
+#[allow(clippy::restriction)]
 mod scenarios;
 mod script;
 mod tamper;
@@ -34,18 +36,18 @@ pub use scenario::Scenario;
 pub use scenarios::scenarios;
 pub use test_server::TestServer;
 
-/// Who is put through scenarios.
+/// A client under test.
 pub trait Actor {
-    /// Asks who it is and what it knows.
+    /// Asks for its name and the actions it implements.
     fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction>;
 
-    /// Tells it to do something; one that has ended before is started anew.
+    /// Tells it to do an action; a process that has ended is started again.
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction;
 
-    /// Lets it end.
+    /// Tells it to end.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// The lines it has sent beyond its answers since the last call.
+    /// The lines it has printed in addition to its answers since the last call.
     fn unasked(&mut self) -> Vec<String> {
         Vec::new()
     }
@@ -55,7 +57,7 @@ pub trait Actor {
         None
     }
 
-    /// What it had to say beside its answers.
+    /// Its output to stderr.
     fn stderr(&self) -> String {
         String::new()
     }

@@ -1,4 +1,4 @@
-//! What a client does in its order: packets of an NC program, and the Service Interface.
+//! The order of a client's requests: packets of an NC program, and the Service Interface.
 
 use ads_cnc::operation::Request;
 use ads_cnc::service::ServiceVariable;
@@ -12,10 +12,10 @@ use super::test_server::Turn;
 use crate::judge::assumed;
 use crate::values::until_nul;
 
-/// The longest packet, and the longest line without its end.
+/// Maximum length of a packet, and of a line without its line end.
 const PACKET_MAX: usize = 992;
 
-/// Judges the order of what was sent.
+/// Judges the order of the requests.
 pub(super) fn judge(
     watch: Order,
     scenario: &Scenario,
@@ -43,7 +43,7 @@ pub(super) fn judge(
     }
 }
 
-/// What was written to the streaming object of channel 1, however it fits: by its bytes alone.
+/// The writes to the streaming object of channel 1, identified without the codec.
 fn packets(turns: &[Turn]) -> Vec<(&Turn, &[u8])> {
     let is_one = |frame: &[u8]| {
         let group = frame.get(38..42);
@@ -59,7 +59,7 @@ fn packets(turns: &[Turn]) -> Vec<(&Turn, &[u8])> {
         .collect()
 }
 
-/// The program as it is on the wire: every line with CR LF.
+/// The program with CR LF after every line, as it must be sent.
 fn on_the_wire(program: &[u8]) -> Vec<u8> {
     let text = program.strip_suffix(b"\n").unwrap_or(program);
     let lines = text.split(|&byte| byte == b'\n');
@@ -130,7 +130,7 @@ fn stream(scenario: &Scenario, turns: &[Turn], findings: &mut Findings) {
     );
 }
 
-/// A read or a write of one of the five variables.
+/// A read or write of a variable of the Service Interface.
 struct ServiceVariableAccess<'t> {
     turn: &'t Turn,
     variable: ServiceVariable,
@@ -192,7 +192,7 @@ fn host(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
     if let Some(cleared) =
         all.iter().position(|one| one.variable == RequestState && one.value.is_some())
     {
-        // After RESPONSE_STATE it would take the answer away again (SVC-3).
+        // REQUEST_STATE = 0 after RESPONSE_STATE would cancel the answer (SVC-3).
         let kept = state.is_none_or(|state| cleared < state);
         let expected = "REQUEST_STATE written before RESPONSE_STATE, if at all";
         findings.check(
@@ -231,10 +231,10 @@ fn caller(script: &ScenarioScript, turns: &[Turn], findings: &mut Findings) {
     findings.check("SVC-6", kept, turn, expected, "otherwise");
 }
 
-/// Whether a read gave something that is not 0: result, length, and then the state.
+/// Whether a reply has a value other than 0 after result and length.
 fn saw(turn: &Turn) -> bool {
     turn.sent.get(46..50).is_some_and(|state| state.iter().any(|&byte| byte != 0))
 }
 
-/// What the program of a CNC asks, and has to get back.
+/// The request that the NC program sends and that the response must repeat.
 pub(super) const REQUEST: &str = "some-command";

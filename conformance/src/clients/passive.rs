@@ -1,4 +1,4 @@
-//! A client that nobody tells anything: it connects, and its requests are judged.
+//! Judges the requests of a client that is not told what to do.
 
 use ads_cnc::operation::Function;
 
@@ -9,7 +9,7 @@ use super::test_server::{TestServer, Turn};
 use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
 use crate::simulator::{Cnc, ModelError};
 
-/// The case that all requests are judged in: by whatever requirement each of them touches.
+/// The case of all requests; its requirements are those that the requests touch.
 pub fn requests_case() -> Case {
     let functions = Function::ALL.iter().map(|function| function.spec().clause);
     let mut requirements: Vec<&'static str> =
@@ -26,8 +26,8 @@ pub fn requests_case() -> Case {
     }
 }
 
-/// Serves the default model to whoever connects, until all connections are closed again or
-/// `go_on` says no, and judges every request. The number of requests comes along.
+/// Serves the default model to every client until all connections are closed again or
+/// `go_on` returns false, and judges every request. Returns the number of requests too.
 ///
 /// # Errors
 /// None: a test builds the model.

@@ -1,4 +1,4 @@
-//! A client that is a process of its own: started for each action, or spoken with.
+//! A client in a process of its own: started once, or for each action.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use super::{Action, Actor};
 use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, cut};
 
-/// The scenario in which a client says who it is.
+/// The name of the scenario that asks for hello.
 const HELLO: &str = "hello";
 
 /// A client that is started by a command line.
@@ -17,23 +17,23 @@ const HELLO: &str = "hello";
 pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
-    /// The lines it has sent without a request.
+    /// The lines it has printed without a request.
     unasked: Vec<String>,
 }
 
 impl ClientProcess {
-    /// A client with so much time for each action.
+    /// A client with a time limit for each action.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self { process: Subprocess::new(line, timeout), stays: false, unasked: Vec::new() }
     }
 
-    /// Sends nothing after a deadline.
+    /// Sets a deadline after which no more actions are sent.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// The line of its answer; without an answer the program is ended.
+    /// The line of its answer; without an answer the process is killed.
     fn recv(&mut self, timeout: Duration) -> Result<String, ClientReaction> {
         let line = self.process.recv(timeout);
         if line.is_err() {
@@ -103,7 +103,7 @@ impl Actor for ClientProcess {
     }
 
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
-        // Once it has sent too many lines, the next one cannot be told from an answer.
+        // After too many additional lines the next one cannot be assigned to an action.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;
             self.unasked.push(unasked);

@@ -1,4 +1,4 @@
-//! Whether a client has sent what it was told to.
+//! Compares a client's requests with those of the scenario.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc_vectors::Hex;
@@ -9,7 +9,7 @@ use super::scenario::{Ask, Length};
 use super::test_server::Turn;
 use crate::judge::assumed;
 
-/// A request as its bytes say it: nothing of it is read by the codec but where its frame ends.
+/// A request as raw bytes; the codec is used only to find the end of the frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Sent {
     command: u16,
@@ -43,7 +43,8 @@ impl Sent {
     }
 }
 
-/// A group by index as the logical one of the same channel: 1, 2 and 6 have the ranks 1, 2 and 3.
+/// Converts a group of the default model from addressing by index to logical addressing: the
+/// channels 1, 2 and 6 have the ranks 1, 2 and 3.
 pub(super) const fn logical(group: u32) -> u32 {
     let spindle = group & 0xF000 == 0x5000;
     let known = group & 0xF0_0000 == 0 && group & 0x0F_0000 >= 0x02_0000;
@@ -54,7 +55,7 @@ pub(super) const fn logical(group: u32) -> u32 {
     }
 }
 
-/// Judges whether all that has to be asked is, and nothing is written beside it.
+/// Checks that all requests of the scenario were sent, and no other write.
 pub(super) fn judge(asks: &[Ask], turns: &[Turn], may_write: bool, findings: &mut Findings) {
     let sent: Vec<(Sent, &Turn)> =
         turns.iter().filter_map(|turn| Some((Sent::of(turn)?, turn))).collect();
@@ -77,7 +78,7 @@ fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Finding
     let place = |one: &Sent| (one.group, one.offset) == (ask.group, ask.offset);
     let is_data = |one: &Sent| one.data == ask.data || ask.also.contains(&one.data);
     let service = |one: &Sent| one.command == ask.command;
-    // The one it was meant to be: where it belongs, or else what it carries.
+    // The request to report: the one with the same address, or else with the same data.
     let nearest = sent.iter().max_by_key(|(one, _)| {
         let alike = [
             place(one) && is_data(one) && service(one) && one.port == ask.port,
@@ -113,7 +114,7 @@ fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Finding
         findings.check(ask.place, false, turn, || describe(ask), found);
         return;
     }
-    // Which of SDA and GEO serves a class is specified of the decoder alone.
+    // Only for the decoder it is specified which of SDA and GEO serves a class.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     findings.check("GEN-4", port, turn, || format!("port {}", ask.port), || one.port);
@@ -156,7 +157,7 @@ fn describe(ask: &Ask) -> String {
     format!("{service} {group:#x}, {offset:#x} at port {port}{data}")
 }
 
-/// What the frames of a Write say its result was.
+/// The result in the reply to a Write.
 pub(super) fn result_of(turn: &Turn) -> Option<u32> {
     let (frame, _) = FrameRef::split(&turn.sent, u32::MAX).ok()??;
     let bytes: [u8; 4] = frame.data().get(..4)?.try_into().ok()?;

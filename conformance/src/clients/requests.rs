@@ -1,4 +1,4 @@
-//! What a client sends, request by request: whether it is one that a CNC knows.
+//! Judges each request of a client: whether the CNC has such a function, and its headers.
 
 use std::fmt;
 
@@ -12,16 +12,16 @@ use crate::judge::{CLIENT, assumed};
 use crate::simulator::{DATA_MAX, NET_ID};
 use crate::wire_service::{self, service_of};
 
-/// What is known of the request before: its connection and its invoke ID.
+/// Connection and invoke ID of the previous request.
 pub(super) type Before = Option<(usize, Option<Vec<u8>>)>;
 
-/// Judges each request by itself, and its invoke ID by that of the one before.
+/// Judges each request, and its invoke ID together with that of the previous request.
 pub(super) fn judge(turns: &[Turn], before: &mut Before, findings: &mut Findings) {
     for turn in turns {
         one(turn, findings);
         let id = turn.request.get(34..38).map(<[u8]>::to_vec);
         if let Some((_, last)) = before.take().filter(|(of, _)| *of == turn.connection) {
-            // Who never changes it cannot tell a late reply from its own.
+            // With a constant invoke ID a client cannot detect a late reply.
             let kept = last.is_none() || last != id;
             let expected = "another invoke ID than that of the request before";
             findings.check(assumed("ADS-5"), kept, Some(turn), expected, "the same");
@@ -96,7 +96,7 @@ fn name(command: Command) -> String {
     }
 }
 
-/// The requirement that a request breaks which no function takes.
+/// The requirement that is broken by a request without a function.
 pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> &'static str {
     match refusal {
         DispatchError::Port(_) => "GEN-4",
@@ -107,7 +107,7 @@ pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> &'static str {
             };
             let elsewhere = Call { port: other, ..*call }.dispatch();
             match (elsewhere, call.port) {
-                // It would be right for another task.
+                // The request would be valid for another task.
                 (Ok(_) | Err(DispatchError::Stream(_) | DispatchError::Service { .. }), _) => {
                     "GEN-4"
                 }
@@ -129,7 +129,7 @@ fn of_field(error: &Error) -> Option<&'static str> {
     error.field().spec().map(|spec| spec.clause)
 }
 
-/// The clause of the function at an address.
+/// The requirement of the function at an address.
 fn at(call: &Call<'_>) -> Option<&'static str> {
     let group = call.index_group.parts()?;
     let here = Function::ALL.iter().map(|function| function.spec()).find(|spec| {
@@ -138,14 +138,14 @@ fn at(call: &Call<'_>) -> Option<&'static str> {
     here.map(|spec| spec.clause)
 }
 
-/// The request of a turn, if it is one that a CNC knows.
+/// Calls a function with the decoded request of an exchange, if it is one.
 pub(super) fn with_request<T>(turn: &Turn, then: impl FnOnce(&Request<'_>) -> T) -> Option<T> {
     let (frame, _) = FrameRef::split(&turn.request, DATA_MAX).ok()??;
     let request = Call::from_frame(&frame).ok()??.dispatch().ok()?;
     Some(then(&request))
 }
 
-/// Whether a turn changes anything in a CNC.
+/// The function of a request that changes the state of the CNC.
 pub(super) fn writes(turn: &Turn) -> Option<&'static str> {
     with_request(turn, |request| {
         let spec = request.function().spec();

@@ -1,9 +1,10 @@
-//! Whether a client says what it should: the same value, however it writes it.
+//! Compares the result of a client with the expected value, in any JSON notation.
 
 use serde_json::Value;
 
-/// Whether a result is the expected one. An array of one is its element, nested arrays are one,
-/// a number may be a text, and of an object every field that is given has to be right.
+/// Whether a result is the expected one. An array of one element equals the element, nested arrays
+/// equal the flat one, a number may be a string, and only the fields of an object that the client
+/// returns are compared.
 pub(super) fn same(expected: &Value, found: &Value) -> bool {
     match (expected, found) {
         (Value::Object(expected), Value::Object(found)) => {
@@ -78,7 +79,7 @@ fn number(value: &Value) -> Option<NumericValue> {
     whole.or_else(|| text.parse().ok().map(NumericValue::Real))
 }
 
-/// As far as decimals of fifteen digits go.
+/// Equal to fifteen decimal digits.
 fn near(expected: f64, found: f64) -> bool {
     let off = (expected - found).abs();
     off <= expected.abs() * 1e-14

@@ -1,4 +1,4 @@
-//! A scenario: what a client is told, what it has to send, and what it has to say.
+//! A scenario: an action, the requests that the client has to send, and the answer it has to give.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
@@ -10,7 +10,7 @@ use super::script::ScenarioScript;
 use super::tamper::Tamper;
 use crate::judge::{Body, CLIENT, Case, CaseSubject, Needs, Rule};
 
-/// A request that has to be among those a client sends, as bytes, not as the codec has them.
+/// A request that a client has to send, as raw bytes independent of the codec.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Ask {
     /// The number of its command: 2 Read, 3 Write, 9 ReadWrite.
@@ -19,22 +19,22 @@ pub(super) struct Ask {
     pub(super) group: u32,
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
-    /// How much has to be read.
+    /// The read length.
     pub(super) length: Length,
-    /// Other data that is as good.
+    /// Equivalent data.
     pub(super) also: Vec<Vec<u8>>,
-    /// Other data that is not what is assumed to be sent.
+    /// Data that differs from the assumed one, but is not wrong.
     pub(super) tolerated: Vec<Vec<u8>>,
-    /// Where the function is.
+    /// Name of the function.
     pub(super) place: &'static str,
     pub(super) stream: &'static str,
 }
 
-/// How much a request has to ask for.
+/// The read length that a request has to have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Length {
     AtLeast(u32),
-    /// A multiple, from one on.
+    /// A positive multiple.
     Times(u32),
 }
 
@@ -54,7 +54,7 @@ impl Ask {
         self
     }
 
-    /// The requirement that its group keeps.
+    /// The requirement of its index group.
     pub(super) const fn group_rule(&self) -> &'static str {
         let table = self.group & 0xF00;
         match self.group & 0xFF_FF00 {
@@ -105,54 +105,54 @@ pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Ask {
     ask(3, port, group, offset, data.to_vec(), 0)
 }
 
-/// What a client has to say in the end.
+/// The answer that a client has to give.
 #[derive(Clone, Debug)]
 pub(super) enum Expect {
     /// This result.
     Result(Value),
-    /// The result that the CNC itself gives.
+    /// The result that the simulated CNC gives.
     Asked(fn(&ScenarioScript) -> Option<Value>),
     /// This result or an error.
     ResultOrError(Value),
-    /// The result that the CNC itself gives, or an error.
+    /// The result that the simulated CNC gives, or an error.
     AskedOrError(fn(&ScenarioScript) -> Option<Value>),
-    /// Some result.
+    /// Any result.
     Done,
-    /// Some result or an error.
+    /// Any result or an error.
     DoneOrError,
     /// An error.
     Error,
 }
 
-/// Which order of requests is judged.
+/// The order of requests that is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// All of a program in packets.
+    /// The whole program in packets.
     Stream,
-    /// That nothing of a program that cannot be streamed is.
+    /// No part of a program that cannot be streamed is sent, for this reason.
     NoStream(&'static str),
-    /// A service that answers what it is asked.
+    /// The service answers the request of the program.
     Host,
-    /// A service that is not asked.
+    /// The service does not answer without a request.
     IdleHost,
-    /// One that asks a service.
+    /// The NC program's side of the interface.
     Caller,
 }
 
-/// Something a client is put through.
+/// An action, and how the client's requests and answer are judged.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// A slug that keeps its meaning.
+    /// A slug whose meaning never changes.
     pub id: String,
-    /// What is tried, in a sentence.
+    /// What is tried, as a sentence.
     pub title: String,
-    /// What the client is told; a program to stream is put after it.
+    /// The action; for `stream` the file name is appended.
     pub(super) action: String,
     pub(super) asks: Vec<Ask>,
     pub(super) expect: Expect,
-    /// What what it says is judged by.
+    /// The rules of the client's answer.
     pub(super) rules: Vec<Rule>,
-    /// What it may be judged by beside that.
+    /// Further requirements that the answer may break.
     pub(super) more: Vec<&'static str>,
     pub(super) tamper: Option<(Function, Tamper)>,
     pub(super) refused: Vec<(usize, AdsError)>,
@@ -226,9 +226,9 @@ impl Scenario {
         }
     }
 
-    /// It as a case of the suite.
+    /// The scenario as a case of the suite.
     pub fn case(&self) -> Case {
-        // Of what is not to be sent there is nothing to see.
+        // A request that must not be sent has no service to judge.
         let silent = matches!(self.watch, Some(Order::NoStream(_)));
         let mut requirements = if silent { Vec::new() } else { vec!["ADS-5", "GEN-4"] };
         requirements.extend(self.rules().iter().map(|rule| rule.id));
@@ -254,7 +254,7 @@ impl Scenario {
         }
     }
 
-    /// What the client is told, with the file of the program after it.
+    /// The action, with the file name of the program appended.
     pub(super) fn action_with(&self, file: Option<&str>) -> Option<Action> {
         match file {
             Some(file) => Action::parse(&format!("{} {file}", self.action)),

@@ -1,4 +1,4 @@
-//! What the CNC of a scenario answers.
+//! The replies of the CNC in a scenario.
 
 use std::collections::BTreeMap;
 
@@ -12,21 +12,21 @@ use super::literal::Literal;
 use super::tamper::{SendStep, Tamper};
 use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
-/// How often a host of the Service Interface lets the client look before it has the response.
+/// Number of reads of RESPONSE_STATE before a simulated host has its response.
 const LOOKS: usize = 2;
 
-/// What the CNC of a scenario answers.
+/// The replies of the CNC in a scenario.
 #[derive(Debug)]
 pub(super) struct ScenarioScript {
-    /// The CNC that answers.
+    /// The CNC whose replies the script changes.
     pub(super) cnc: Cnc,
-    /// What is done to the replies of a function.
+    /// The change of the replies of a function.
     pub(super) tamper: Option<(Function, Tamper)>,
-    /// Writes to the streaming object that are refused, by their number from 0, and how.
+    /// The writes to the streaming object that are rejected: number from 0, and error.
     pub(super) refused: Vec<(usize, AdsError)>,
-    /// Answers that no codec has made.
+    /// A printed request with its reply.
     pub(super) literal: Option<Literal>,
-    /// The response that a host on the other side gives, and how long the client has to wait.
+    /// The response of a simulated host of the Service Interface.
     pub(super) response: Option<&'static str>,
     looks: Option<usize>,
     streamed: usize,
@@ -34,7 +34,7 @@ pub(super) struct ScenarioScript {
 }
 
 impl ScenarioScript {
-    /// A CNC that does everything right.
+    /// A CNC whose replies are all right.
     pub(super) const fn new(cnc: Cnc) -> Self {
         Self {
             cnc,
@@ -48,7 +48,7 @@ impl ScenarioScript {
         }
     }
 
-    /// What is done for a frame.
+    /// The steps that send the reply to a frame.
     pub(super) fn answer(
         &mut self,
         connection: usize,
@@ -79,7 +79,7 @@ impl ScenarioScript {
         })
     }
 
-    /// How a write to the streaming object is refused that is to be.
+    /// The error of a write to the streaming object, if the script rejects it.
     fn refusal(&mut self, asked: &Request<'_>) -> Option<AdsError> {
         let Request::WriteProgramStream(_) = asked else { return None };
         let number = self.streamed;
@@ -87,7 +87,7 @@ impl ScenarioScript {
         self.refused.iter().find(|(refused, _)| *refused == number).map(|(_, error)| *error)
     }
 
-    /// A host answers what the client asks: not at once.
+    /// The simulated host answers the client's request after a while.
     fn host(&mut self, asked: &Request<'_>) {
         let Some(response) = self.response else { return };
         match self.service_variable(asked) {
@@ -108,8 +108,8 @@ impl ScenarioScript {
         }
     }
 
-    /// Which variable of the Service Interface of channel 1 is read, or written with what: by its
-    /// name or by its handle.
+    /// The variable of the Service Interface of channel 1 that a request reads or writes, by name
+    /// or by handle, and the written value.
     pub(super) fn service_variable<'a>(
         &self,
         asked: &'a Request<'_>,
@@ -137,7 +137,7 @@ impl ScenarioScript {
         Handle::decode(&self.ask(asked)?).ok()
     }
 
-    /// Writes a variable of the Service Interface, as whoever is on the other side.
+    /// Writes a variable of the Service Interface for the other side.
     pub(super) fn write_variable(&self, variable: ServiceVariable, value: &[u8]) {
         let write = Channel::new(1)
             .ok()
@@ -145,7 +145,7 @@ impl ScenarioScript {
         let _written = write.and_then(|write| self.ask(write));
     }
 
-    /// What a function answers to who asks from within.
+    /// The reply of a function, without changes.
     pub(super) fn ask<'a>(&self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -154,7 +154,7 @@ impl ScenarioScript {
     }
 }
 
-/// A refusal by the CNC that it would not give of itself.
+/// A Write reply with an error that the CNC itself would not return.
 fn write_reply(asked: AmsHeader, result: AdsError) -> Option<Vec<u8>> {
     let data = WriteReply { result }.encode_to_vec().ok()?;
     FrameRef::new(asked.response(), &data).ok()?.encode_to_vec().ok()

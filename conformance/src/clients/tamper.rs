@@ -1,4 +1,4 @@
-//! What is done to a reply on its way: bytes are changed around the codec, or sent otherwise.
+//! Changes of a reply: other bytes, or another way to send them.
 
 use std::time::Duration;
 
@@ -9,49 +9,48 @@ use ads_cnc::operation::Service;
 
 use crate::wire_service::{decode_reply, encode_reply, service_of};
 
-/// What is done to a reply.
+/// How a reply is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tamper {
     /// One byte at a time.
     Bytewise,
-    /// In two pieces, the first of this size, with some time between them.
+    /// In two pieces, the first of this size, with a pause between them.
     Pieces(usize),
-    /// After a reply to another invoke ID with other data, in one piece with it.
+    /// After a reply with another invoke ID and other data, in one segment.
     Foreign,
-    /// The same reply is there twice, in one piece.
+    /// The same reply twice, in one segment.
     Twice,
-    /// After the reply to the request before, in one piece with it.
+    /// After the reply to the previous request, in one segment.
     Late,
-    /// Only to another invoke ID; the connection is closed some time later.
+    /// Only a reply with another invoke ID; the connection is closed later.
     OtherInvokeId,
-    /// With another number in a header or before the data, as it lies at this offset of the frame;
-    /// the connection is closed some time later.
+    /// With a wrong length field; the connection is closed later.
     Length(LengthField, WrongLength),
-    /// As the answer to another command.
+    /// With another command in its header.
     OtherCommand,
-    /// Marked as a request.
+    /// With the flags of a request.
     Request,
-    /// An error in the AMS header and nothing after it.
+    /// An AMS error without payload.
     AmsError,
-    /// A result that is an error, and nothing after it.
+    /// An error result without length and data.
     BareResult,
-    /// A result that is an error, length 0.
+    /// An error result with the length 0.
     EmptyResult,
-    /// A result that is an error, before the data of a success.
+    /// An error result before the data of a success.
     ResultWithData,
-    /// Nothing, and the connection is closed after this many bytes of it.
+    /// The connection is closed after this many bytes of the reply.
     CutAt(usize),
-    /// All but its last byte, and the connection is closed.
+    /// The connection is closed before the last byte.
     CutEnd,
-    /// Nothing ever.
+    /// No reply.
     Silence,
-    /// This many bytes more of data, with all lengths right.
+    /// This many additional bytes of data; all lengths match.
     More(usize),
-    /// This many bytes less of data, with all lengths right.
+    /// This many bytes of data less; all lengths match.
     Less(usize),
-    /// Just this many bytes of data.
+    /// Only this many bytes of data.
     Only(usize),
-    /// The name at the end padded with NULs to its 256 bytes; its start is at this offset.
+    /// The name that begins at this offset is padded with NULs to 256 bytes.
     Padded(usize),
     /// Without the NUL at the end.
     Open,
@@ -61,18 +60,18 @@ pub(super) enum Tamper {
     Descriptors(usize),
 }
 
-/// A number of a frame.
+/// A length field of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LengthField {
     /// The length of the AMS/TCP header.
     AmsTcp,
     /// The data length of the AMS header.
     Ams,
-    /// The length before the data of a reply.
+    /// The length before the data of the reply.
     Data,
 }
 
-/// Another number than the right one.
+/// A wrong number for a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum WrongLength {
     /// One more.
@@ -85,7 +84,7 @@ pub(super) enum WrongLength {
     Huge,
 }
 
-/// What the sending side does.
+/// A step of sending.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum SendStep {
     Send(Vec<u8>),
@@ -93,14 +92,14 @@ pub(super) enum SendStep {
     Close,
 }
 
-/// Long enough for a client to have read what was sent, short enough to wait for.
+/// Long enough for a client to read what was sent before.
 const MOMENT: Duration = Duration::from_millis(40);
 
-/// An error of the AMS header: what a router says of a port that nobody has.
+/// The AMS error of a router for an unknown port.
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
 
 impl Tamper {
-    /// What is done with a reply; `before` is the last one to another request.
+    /// The steps that send a changed reply; `before` is the last reply to another request.
     pub(super) fn steps(self, reply: &[u8], before: Option<&[u8]>) -> Vec<SendStep> {
         let send = |bytes: Vec<u8>| vec![SendStep::Send(bytes)];
         let then_close =
@@ -178,7 +177,7 @@ impl Tamper {
     }
 }
 
-/// A reply taken apart by the codec, to be put together again by it.
+/// A decoded reply, to be changed and encoded again.
 struct ReplyParts {
     header: AmsHeader,
     body: ReplyBody,
@@ -186,17 +185,17 @@ struct ReplyParts {
 
 enum ReplyBody {
     None,
-    /// Of a Write there is never any data.
+    /// Result and data; a Write has no data.
     Result(AdsError, Option<Vec<u8>>),
 }
 
-/// The reply with something in it changed, and all lengths right. One that is not understood stays
-/// as it is.
+/// The reply changed and encoded again with matching lengths. A reply that does not decode stays as
+/// it is.
 fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
         let header = frame.header();
-        // Other commands are refused with a result alone.
+        // The reply to any other command is a result, like that of a Write.
         let service = service_of(header.command).unwrap_or(Service::Write);
         let (result, data) = decode_reply(service, frame.data()).ok()?;
         let body = ReplyBody::Result(result, data.map(<[u8]>::to_vec));
@@ -225,7 +224,7 @@ fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
     })
 }
 
-/// A reply to a request that nobody has made, with data of the same length that is not the same.
+/// A reply with an invoke ID that no request has, and other data of the same length.
 fn foreign(reply: &[u8]) -> Vec<u8> {
     let other = with_data(reply, |data| {
         for byte in data.iter_mut() {
@@ -235,9 +234,9 @@ fn foreign(reply: &[u8]) -> Vec<u8> {
     with_header(&other, |header| header.invoke_id = header.invoke_id.wrapping_add(0x0100_0000))
 }
 
-/// The reply with one number overwritten, whatever it makes of the rest.
+/// The reply with one length field overwritten and all other bytes unchanged.
 fn lying(reply: &[u8], place: LengthField, lie: WrongLength) -> Vec<u8> {
-    // Offsets of the frame: 6 bytes of AMS/TCP header, 32 of AMS header, 4 of result.
+    // Offsets in the frame: 6 bytes of AMS/TCP header, 32 of AMS header, 4 of result.
     let at = match place {
         LengthField::AmsTcp => 2,
         LengthField::Ams => 26,

@@ -1,5 +1,4 @@
-//! The CNC that a client under test talks to: it keeps every byte, and its replies can be turned
-//! into what they should not be.
+//! The CNC that a client under test connects to: it records all frames and can change its replies.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -16,42 +15,41 @@ use crate::judge::Stop;
 use crate::net;
 use crate::simulator::{FRAME_MAX, NET_ID};
 
-/// The most connections of one scenario; of more the number is kept.
+/// Maximum number of connections in a scenario; further ones are counted and closed.
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
-/// The most bytes of requests and replies that are kept until they are judged, and what a request
-/// takes beside them.
+/// Maximum number of recorded bytes of requests and replies, and overhead of a recorded request.
 pub(super) const KEPT_MAX: usize = 8 << 20;
 const TURN: usize = 128;
 
-/// How long a connection that the client has closed is waited for.
+/// How long to wait for a connection that the client has closed.
 const LINGER: Duration = Duration::from_millis(200);
 
-/// One request and what was sent for it.
+/// A request and all bytes sent in return.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turn {
     pub(super) connection: usize,
-    /// The request; of the last one perhaps only a part.
+    /// The request; the last one of a connection may be incomplete.
     pub(super) request: Vec<u8>,
-    /// Everything that was sent for it.
+    /// All bytes sent in return.
     pub(super) sent: Vec<u8>,
     /// Why it is not a frame.
     pub(super) fault: Option<String>,
 }
 
-/// What a client has sent, and what it got.
+/// The recorded exchanges of a scenario.
 #[derive(Debug, Default)]
 struct Turns {
     kept: Vec<Turn>,
-    /// How many were taken to be judged.
+    /// How many were taken to be judged already.
     taken: usize,
     bytes: usize,
-    /// How many were not kept.
+    /// How many were not recorded.
     beyond: usize,
 }
 
 impl Turns {
-    /// The number of a turn; none if there is no room for it.
+    /// Records an exchange; returns its number, or `None` beyond the limit.
     fn record(&mut self, turn: Turn) -> Option<usize> {
         self.grow(turn.request.len().saturating_add(TURN));
         if self.bytes > KEPT_MAX {
@@ -78,7 +76,7 @@ impl Turns {
         turns
     }
 
-    /// All that are kept, in their order.
+    /// Takes all recorded exchanges in their order.
     fn take(&mut self) -> Vec<Turn> {
         let turns = std::mem::take(&mut self.kept);
         self.taken = self.taken.saturating_add(turns.len());
@@ -87,17 +85,17 @@ impl Turns {
     }
 }
 
-/// What there was more of than is kept.
+/// How much exceeded the limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Beyond {
-    /// Requests that were answered and not judged.
+    /// Requests that were answered, but not judged.
     pub(super) requests: usize,
     /// Connections that were closed at once.
     pub(super) connections: usize,
 }
 
 impl Beyond {
-    /// What keeps a case from a pass.
+    /// Why the case cannot pass.
     pub(super) fn stop(self) -> Option<Stop> {
         (self != Self::default()).then(|| Stop::Inconclusive(self.to_string()))
     }
@@ -119,14 +117,14 @@ impl std::fmt::Display for Beyond {
     }
 }
 
-/// A listener that plays one scenario after the other.
+/// A listener that runs one scenario after the other.
 #[derive(Debug)]
 pub struct TestServer {
     acceptor: net::Acceptor,
     run: Arc<Mutex<Option<Arc<TestRun>>>>,
 }
 
-/// What is going on.
+/// The state of the current scenario.
 #[derive(Debug)]
 struct TestRun {
     script: Mutex<ScenarioScript>,
@@ -140,7 +138,7 @@ struct TestRun {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Whatever panicked, what it has written is whole.
+    // A panic leaves the data valid.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -149,25 +147,24 @@ impl TestServer {
         let run: Arc<Mutex<Option<Arc<TestRun>>>> = Arc::default();
         let playing = Arc::clone(&run);
         let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
-            // Between two scenarios no run exists, and the connection is dropped. The lock is kept until
-            // the connection is registered with its scenario, which may end at any time.
+            // Between two scenarios a connection is closed. The lock is held until the connection
+            // is registered with its scenario, which may end at any time.
             let run = lock(&playing);
             let _gone = run.clone().map(|run| run.connect(stream));
         })?;
         Ok(Self { acceptor, run })
     }
 
-    /// Where it listens.
+    /// The address it listens on.
     pub const fn addr(&self) -> SocketAddr {
         self.acceptor.addr()
     }
 
-    /// The AMS NetId it answers for.
     pub const fn net_id(&self) -> AmsNetId {
         NET_ID
     }
 
-    /// From now on this is played.
+    /// Begins a scenario.
     pub(super) fn begin(&self, script: ScenarioScript) {
         *lock(&self.run) = Some(Arc::new(TestRun {
             script: Mutex::new(script),
@@ -180,8 +177,8 @@ impl TestServer {
         }));
     }
 
-    /// Waits until somebody has connected and all connections are closed again, or it is told not
-    /// to wait any longer.
+    /// Waits until a client has connected and all connections are closed again, or `go_on` returns
+    /// false.
     pub(super) fn watch(&self, mut go_on: impl FnMut() -> bool) {
         let Some(run) = lock(&self.run).clone() else { return };
         let mut quiet: Option<Instant> = None;
@@ -198,19 +195,19 @@ impl TestServer {
         }
     }
 
-    /// The requests that came since this was asked before, but for the last, whose answer may not
-    /// be out.
+    /// Takes the requests recorded since the last call, except for the last one, whose reply may
+    /// not be sent yet.
     pub(super) fn turns(&self) -> Vec<Turn> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         lock(&run.turns).take_answered()
     }
 
-    /// Ends what is played: every connection is closed.
+    /// Ends the scenario and closes every connection.
     pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Beyond::default(), None);
         };
-        // A client that has closed may have sent something just before.
+        // Bytes that a client sent just before it closed may still arrive.
         drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
         for stream in lock(&run.streams).iter() {
             let _closed = stream.shutdown(Shutdown::Both);
@@ -247,7 +244,7 @@ impl TestRun {
         let run = Arc::clone(&self);
         let thread = thread::Builder::new().name(format!("client-{connection}"));
         let spawned = thread.spawn(move || {
-            // A client may go at any time.
+            // The client may close the connection at any time.
             let _gone = run.serve(connection, &stream);
             let _closed = stream.shutdown(Shutdown::Both);
             run.opened(-1);
@@ -297,14 +294,14 @@ impl TestRun {
         }
     }
 
-    /// Answers a frame; whether the connection goes on.
+    /// Answers a frame; returns whether the connection stays open.
     fn turn(
         &self,
         connection: usize,
         request: Vec<u8>,
         mut stream: &TcpStream,
     ) -> io::Result<bool> {
-        // Kept before it is answered: who has the answer may be gone at once.
+        // Recorded before it is answered: with the answer the client may close the connection.
         let place = self.record(Turn { connection, request: request.clone(), ..Turn::default() });
         let steps = match lock(&self.script).answer(connection, &request) {
             Ok(steps) => steps,
@@ -339,7 +336,7 @@ impl TestRun {
     }
 }
 
-/// How long a frame says it is; not by the codec, which judges it afterwards.
+/// The length of a frame according to its header, without the codec, which judges the frame later.
 fn frame_len(received: &[u8]) -> Option<usize> {
     let length = received.get(2..6)?.try_into().ok()?;
     Some(usize::try_from(u32::from_le_bytes(length)).unwrap_or(usize::MAX).saturating_add(6))

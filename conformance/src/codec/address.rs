@@ -1,4 +1,4 @@
-//! Index groups and offsets, which are no streams of the codec.
+//! Index groups and offsets, for which the codec has no stream.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable,
@@ -10,7 +10,7 @@ use ads_cnc_vectors::{Context, Type};
 use super::given::Given;
 use super::{Decoded, Refused, collect, name, one, uns32};
 
-/// The number of a stream that is no stream of the codec: an address by itself.
+/// The number in the bytes of an index group or offset.
 fn number(bytes: &[u8]) -> Result<u32, Refused> {
     Ok(ObjectCount::decode(bytes)?.0)
 }
@@ -47,7 +47,7 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Re
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// The group of a base and the number that was added to it, put together from both.
+/// The group with a base and a number, encoded from both parts.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Refused> {
     let lacks = || Refused::Unsupported(format!("{group} of the base {base}"));
     let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
@@ -108,12 +108,13 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, R
     let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::for_axis(stride, axis, element)?;
-    // Neither has more than 16 bits, or the offset would not have been put together again.
+    // Neither has more than 16 bits, otherwise encoding the parts would not have given the same
+    // offset.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// A group by its parts where there are some, for the number has to follow from them.
+/// Encodes a group from its parts if they are given, and checks the number against them.
 pub(super) fn encode_group(of: Given<'_>) -> Result<Vec<u8>, Refused> {
     let number = of.number("index_group")?;
     let group = if of.has("task") { parts(of)?.index_group() } else { IndexGroup::new(number) };

@@ -1,4 +1,4 @@
-//! Bytes whose meaning the context has: values and contents by their types.
+//! Values and contents, decoded and encoded by the type in the context.
 
 use ads_cnc::value::{DataType, EncodeValue as _};
 use ads_cnc::{CncStr, Elements, U32List};
@@ -8,13 +8,13 @@ use super::Refused;
 use super::fields::{data, element};
 use super::given::{bits, hex, integer, text, unfit};
 
-/// Whether the bytes of a field are elements: a value always has a type, a content may have one.
+/// Whether a field has a type: a value always has one, a content may have one.
 fn is_typed(field: &str, context: &Context) -> bool {
     let has_type = context.kind.is_some() && context.dimensions.is_some();
     field == "value" || field == "content" && has_type
 }
 
-/// The type of the elements, and their dimensions.
+/// The type of the elements, and the dimensions.
 fn type_of(context: &Context) -> Result<(Type, DataType, &[u32]), Refused> {
     let lacks = |what: &str| Refused::Unsupported(format!("a value without {what}"));
     let kind = context.kind.ok_or_else(|| lacks("a type"))?;
@@ -25,7 +25,7 @@ fn type_of(context: &Context) -> Result<(Type, DataType, &[u32]), Refused> {
     }
 }
 
-/// The bytes of a field by their type, whose name the elements keep; plain bytes if they have none.
+/// Decodes the bytes of a field by the type; without one as plain bytes.
 pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
     if !is_typed(field, context) {
         return Ok(data(bytes));
@@ -36,7 +36,7 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
     Ok(Value::List(elements.iter().map(named).collect()))
 }
 
-/// The bytes of a field: as many elements of the context's type as its dimensions say.
+/// Encodes a field as the number of elements that the dimensions give.
 pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Vec<u8>, Refused> {
     if !is_typed(field, context) {
         let plain = || unfit(format_args!("{field} is no single value"));
@@ -59,7 +59,7 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
     encode_elements(data_type, &items)
 }
 
-/// The elements in their order, as the codec writes them.
+/// Encodes the elements in order with the codec.
 fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Refused> {
     let element = |one: &Tagged| {
         Ok(match data_type {

@@ -1,10 +1,10 @@
-//! Fields and values as the vectors write them.
+//! Fields and values in the notation of the vectors.
 
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{Element, TextRef};
 use ads_cnc_vectors::{Fields, Hex, Tagged, Type, Value};
 
-/// Fields by their names.
+/// Fields by name.
 pub(super) type NamedFields = Vec<(&'static str, Value)>;
 
 pub(super) fn collect(fields: NamedFields) -> Fields {
@@ -81,7 +81,8 @@ pub(super) fn element(element: Element<'_>) -> Tagged {
     }
 }
 
-/// The shortest decimal of a float as the vectors have it: an exponent has a sign and two digits.
+/// The shortest decimal of a float in the notation of the vectors: an exponent has a sign and two
+/// digits.
 pub(super) fn decimal(number: f64) -> String {
     let shortest = format!("{number:?}").to_lowercase();
     match shortest.split_once('e') {

@@ -1,4 +1,4 @@
-//! Whole frames: two headers, and what the service says.
+//! Whole frames: two headers, and the stream of the service.
 
 use ads_cnc::ads::{AdsError, AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
@@ -9,7 +9,7 @@ use super::given::Given;
 use super::stream::{from_fields, to_fields};
 use super::{Decoded, Refused, collect, data, stream, uns16, uns32};
 
-/// The length of a header only counts.
+/// The length in a header is a counter.
 const LENGTH: &str = "data_length";
 
 const SERVICES: [&str; 6] = [
@@ -21,7 +21,7 @@ const SERVICES: [&str; 6] = [
     "read-write-reply",
 ];
 
-/// The field of a frame that its service has.
+/// The name of the field with the stream of the service.
 fn field_of(stream: &str) -> String {
     stream.replace('-', "_")
 }
@@ -37,7 +37,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         ("ams_tcp_header", Value::Record(collect(vec![("reserved", uns16(0))]))),
         ("ams_header", Value::Record(ams_header)),
     ]);
-    // What is after the frame is too much for its service.
+    // Bytes after the frame are an error of its service's stream.
     let rest = bytes.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if let Some((name, value)) = service(context, &header, rest)? {
         fields.insert(name, value);
@@ -49,7 +49,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
     Ok(Decoded { fields, bytes })
 }
 
-/// Why a frame is none yet: the first part that has not come whole.
+/// The error for an incomplete frame: that of the first incomplete part.
 fn cut(context: &Context, bytes: &[u8]) -> Refused {
     let parts = || -> Result<(), Refused> {
         let (tcp, rest) = bytes.split_at(bytes.len().min(AMS_TCP_HEADER_LEN));
@@ -58,12 +58,12 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
         service(context, &AmsHeader::decode(header)?, data)?;
         Ok(())
     };
-    // Data that no service takes apart do not tell that they are cut; their length does.
+    // Only the length in the header shows that data of another command is truncated.
     let rest = || Refused::Unfit("less data than the header says".to_owned());
     parts().err().unwrap_or_else(rest)
 }
 
-/// The name and fields of the stream after the header, if there has to be one.
+/// Name and fields of the service's stream, if the command has one.
 fn service(
     context: &Context,
     header: &AmsHeader,

@@ -1,4 +1,4 @@
-//! Fields of a value that is to be encoded, under their names and of the types they need.
+//! Access to the fields of a value to be encoded, by name and required type.
 
 use std::fmt::Display;
 
@@ -41,7 +41,7 @@ impl<'f> Given<'f> {
         self.list(name)?.iter().map(record).collect()
     }
 
-    /// A whole number that its type has room for.
+    /// An integer that fits its type.
     pub(super) fn number<T: TryFrom<i128>>(self, name: &str) -> Result<T, Refused> {
         integer(self.one(name)?)
     }
@@ -63,7 +63,7 @@ impl<'f> Given<'f> {
         Ok(hex(self.one(name)?)?.to_vec())
     }
 
-    /// Characters alone: a text without its end.
+    /// A text without its terminator.
     pub(super) fn characters(self, name: &str) -> Result<CncStr<'f>, Refused> {
         Ok(text(self.one(name)?)?.text())
     }

@@ -1,4 +1,4 @@
-//! The lines that go to a testee and come from it.
+//! The lines of the testee protocol.
 
 use ads_cnc_vectors::{Context, Fields, Type};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -31,22 +31,21 @@ pub struct Question {
     pub stream: String,
     /// The edition, such as `en-1.05`.
     pub edition: String,
-    /// What has to be known beside the bytes.
+    /// The facts that the bytes do not contain.
     #[serde(default)]
     pub context: Known,
-    /// Bytes.
     #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
     pub hex: Option<Vec<u8>>,
     /// Fields of a value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Fields>,
-    /// Pieces of an NC program as they are written.
+    /// The packets of an NC program.
     #[serde(default, with = "compact::list", skip_serializing_if = "Option::is_none")]
     pub packets: Option<Vec<Vec<u8>>>,
 }
 
 impl Question {
-    /// A question about nothing yet.
+    /// A question without input.
     pub fn new(op: impl Into<String>, stream: impl Into<String>, edition: &str) -> Self {
         Self {
             op: op.into(),
@@ -60,7 +59,7 @@ impl Question {
     }
 }
 
-/// What a testee is told beside the bytes: no more than it needs.
+/// The facts that the bytes of a question do not contain, only those it needs.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Known {
     /// Type of the elements of a value or content.
@@ -68,7 +67,7 @@ pub struct Known {
     pub kind: Option<Type>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dimensions: Option<Vec<u32>>,
-    /// What an axis counts in an index offset.
+    /// Meaning of the axis in an index offset.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stride: Option<String>,
     /// Index group without its number.
@@ -89,7 +88,7 @@ impl From<&Context> for Known {
 }
 
 impl Known {
-    /// As a context of the vectors; none if an address is none.
+    /// As a context of the vectors; `None` if an address is invalid.
     pub(crate) fn context(&self) -> Option<Context> {
         let address = |text: &Option<String>| match text.as_deref() {
             None => Some(None),
@@ -113,11 +112,10 @@ impl Known {
 pub struct TesteeHello {
     pub protocol: u32,
     pub testee: Identity,
-    /// What it can do.
     pub capabilities: Capabilities,
 }
 
-/// The name, version and language of a program, as its answer to `hello` has them.
+/// Name, version and language of a program from its answer to `hello`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     pub name: String,
@@ -127,10 +125,9 @@ pub struct Identity {
     pub language: String,
 }
 
-/// What a testee claims to be able to do.
+/// The capabilities that a testee claims.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Capabilities {
-    /// Ops.
     pub ops: Vec<String>,
     /// Streams by name.
     pub streams: Vec<String>,
@@ -140,7 +137,7 @@ pub struct Capabilities {
 }
 
 impl Capabilities {
-    /// Whether it claims this op of this stream.
+    /// Whether it claims this op for this stream.
     pub fn claim(&self, op: &str, stream: &str) -> bool {
         let is_text = matches!(op, "packets" | "check");
         self.ops.iter().any(|one| one == op)
@@ -153,20 +150,20 @@ impl Capabilities {
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
     Ok(Output),
-    /// It cannot be.
+    /// The input is invalid.
     Reject(Rejection),
-    /// The testee does not do this.
+    /// The testee does not implement this.
     Unsupported {
-        /// Of the question: `op`, `stream`, `edition`, `context`.
+        /// The unsupported part of the question: `op`, `stream`, `edition`, `context`.
         what: String,
     },
-    /// Something else is wrong.
+    /// Another error.
     Error {
         message: String,
     },
 }
 
-/// What has come of a case.
+/// The output of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
@@ -176,24 +173,24 @@ pub struct Output {
     /// Of `encode`: the bytes.
     #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
     pub hex: Option<Vec<u8>>,
-    /// Of `packets`: what is written one after the other.
+    /// Of `packets`: the packets in the order they are written.
     #[serde(default, with = "compact::list", skip_serializing_if = "Option::is_none")]
     pub packets: Option<Vec<Vec<u8>>>,
 }
 
-/// Why something cannot be.
+/// Why the input is invalid.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejection {
-    /// Sort of fault.
+    /// Class of the fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub class: Option<String>,
-    /// Where, in bytes.
+    /// Byte offset of the fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<u64>,
-    /// Where, in lines from 1.
+    /// Line of the fault, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<u64>,
-    /// Anything that helps a person.
+    /// Message for a person.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
 }
@@ -202,13 +199,13 @@ pub struct Rejection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Keys")]
 pub struct Reply {
-    /// Number of the case; none if the line of the case could not be read.
+    /// Number of the case; `None` if the line of the case could not be parsed.
     pub seq: Option<u64>,
     #[serde(flatten)]
     pub answer: Answer,
 }
 
-/// The most characters that are kept of a text in an answer.
+/// Maximum number of stored characters of a text in an answer.
 const TEXT_MAX: usize = 400;
 
 fn short(text: &str) -> String {
@@ -223,7 +220,7 @@ impl Rejection {
 }
 
 impl Output {
-    /// About how many bytes of memory it takes.
+    /// Estimated memory in bytes.
     pub(crate) fn weight(&self) -> usize {
         let packets = self.packets.iter().flatten().map(|packet| packet.len().saturating_add(NODE));
         let parts = [self.value.as_ref().map(weight), self.hex.as_ref().map(Vec::len)];
@@ -231,10 +228,10 @@ impl Output {
     }
 }
 
-/// About what a value of JSON takes beside its text.
+/// Estimated memory of a JSON value besides its text.
 const NODE: usize = 64;
 
-/// About what the map of an object takes, with room for several keys.
+/// Estimated memory of an object's map.
 const MAP: usize = 1024;
 
 fn weight(value: &Value) -> usize {
@@ -250,7 +247,7 @@ fn weight(value: &Value) -> usize {
     .saturating_add(NODE)
 }
 
-/// The same with every key that an answer may have: who gives two has not answered.
+/// All keys that an answer may have: exactly one must be present.
 #[derive(Deserialize)]
 struct Keys {
     seq: Option<u64>,
@@ -274,7 +271,7 @@ struct OwnError {
     message: String,
 }
 
-/// A key that is there has a value; null is none of these.
+/// A key that is present needs a value other than null.
 fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
     T::deserialize(from).map(Some)
 }

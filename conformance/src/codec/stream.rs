@@ -1,5 +1,5 @@
-//! Streams by their types and tables: serde makes JSON of a value and a value of JSON; the table of the
-//! stream has the types with which vectors tag the fields.
+//! Streams by their Rust types and field tables: serde converts a value to and from JSON; the table
+//! has the types with which the vectors tag the fields.
 
 use ads_cnc::ads::AmsNetId;
 use ads_cnc::dynamic::DynamicValue;
@@ -58,7 +58,7 @@ where
     Ok(from_fields::<T>(context, fields)?.encode_to_vec()?)
 }
 
-/// The fields of a value, without what only counts.
+/// The fields of a value, without counters.
 pub(super) fn to_fields<T>(context: &Context, value: &T) -> Result<Fields, Refused>
 where
     T: for<'a> Decode<'a> + Serialize,
@@ -104,20 +104,20 @@ where
         .map_err(unfit)
 }
 
-/// What vectors call the records of a stream: the last word of its name.
+/// The name of the records of a stream in the vectors: the last word of the stream's name.
 fn records_of(layout: &Layout) -> &'static str {
     layout.name.rsplit('-').next().unwrap_or(layout.name)
 }
 
 fn record(layout: &Layout, context: &Context, json: &Json) -> Result<Fields, Refused> {
-    // A type of a single field may be that field alone.
+    // A type with a single field may be serialized as that field.
     let single = match layout.fields {
         [row] if json.get(row.name).is_none() => Some(json),
         _ => None,
     };
     let mut fields = Fields::new();
     for row in layout.fields {
-        // The JSON has no counts; a field that the stream does not have is null.
+        // The JSON has no counters; an optional field that is absent is null.
         let given = single.or_else(|| json.get(row.name));
         if let Some(given) = given.filter(|given| !given.is_null()) {
             fields.insert(row.name.to_owned(), field(row, context, given)?);
@@ -135,7 +135,7 @@ fn json_record(
     given.map(|(row, value)| Ok((row.name.to_owned(), json_field(row, context, value)?))).collect()
 }
 
-/// A field as vectors write it.
+/// A field in the notation of the vectors.
 fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refused> {
     if let (Json::Array(items), Size::Items { each: 2.., .. }) = (json, row.size) {
         let items = items.iter().map(|item| field(row, context, item));
@@ -173,7 +173,7 @@ fn kind(name: &str) -> Result<Type, Refused> {
     from_value(name.into()).map_err(unfit)
 }
 
-/// A field as its type has it in JSON.
+/// A field in the JSON of its Rust type.
 fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json, Refused> {
     if row.ty == FieldType::Bytes {
         return to_value(elements::encode(row.name, context, value)?).map_err(unfit);
@@ -191,7 +191,7 @@ fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json,
         FieldType::NetId => {
             to_value(tagged.value.as_deref().unwrap_or_default().parse::<AmsNetId>()?)
         }
-        // The codec keeps the width of the number with it.
+        // The codec stores the width of the number.
         FieldType::Unsigned => match tagged.kind {
             Type::Uns08 | Type::Uns16 => Ok(json!({ (tagged.kind.name()): tagged.integer() })),
             _ => Ok(json!({ "UNS32": tagged.integer() })),

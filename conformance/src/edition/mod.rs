@@ -1,11 +1,12 @@
-//! What depends on the edition of the manual that is followed, and on the version of the CNC.
+//! Differences between the editions of the manual, and between versions of the CNC.
 //!
-//! - Which kinds of variables the channel interface has, and which of them by name only, the two
-//!   editions say differently (VAR-18, E-15): [`Edition::permits`].
-//! - From which version on a CNC has V.P, V.L and V.S there (VAR-19), the description by name, and
-//!   the Service Interface (SVC-11): [`CncVersion::has`].
+//! - The editions differ in the kinds of variables of the channel interface, and in those
+//!   accessible by name only (VAR-18, E-15): [`Edition::permits`].
+//! - The versions differ in V.P, V.L and V.S on that interface (VAR-19), the description by name,
+//!   and the Service Interface (SVC-11): [`CncVersion::has`].
 //!
-//! A client asks before it sends, a server before it answers. The codec itself rejects no kind.
+//! A client calls these functions before it sends a request, a server before it answers one. The
+//! codec itself rejects no kind.
 //!
 //! ```
 //! use ads_cnc::VariablePath;
@@ -63,12 +64,12 @@ pub enum Edition {
 const INDEXED: &[Kind<'static>] = &[Kind::V_E, Kind::V_G, Kind::V_A];
 const KIND_REQUIREMENT: &str = "VAR-1";
 
-/// Those by name only of any edition.
+/// The kinds that are by name only in either edition.
 const BY_NAME_ONLY: &[Kind<'static>] = &[Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S];
 const BY_NAME_ONLY_REQUIREMENT: &str = "VAR-18";
 
 impl Edition {
-    /// Both.
+    /// Both editions.
     pub const ALL: [Self; 2] = [Self::English, Self::German];
 
     /// The document: `ads-en`, `ads-de`.
@@ -97,7 +98,7 @@ impl Edition {
     /// The edition with this [`name`](Self::name).
     ///
     /// # Errors
-    /// The names that there are.
+    /// The valid names.
     pub fn by_name(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|edition| edition.name() == name).ok_or_else(|| {
             let names = Self::ALL.map(Self::name).join(" and ");
@@ -113,8 +114,8 @@ impl Edition {
         }
     }
 
-    /// Whether a function of the variables' interfaces may be asked for variables of a kind: that
-    /// in the request, in the name, or of the variable of the handle.
+    /// Whether a function of the channel or axis interface may be called for variables of a kind:
+    /// that in the request or in the name, or that of the variable with the handle.
     ///
     /// Without a version, the newest CNC is assumed. A function without kinds is available. The
     /// requirement is that of the function, except for
@@ -221,7 +222,7 @@ impl AddressedBy {
     }
 }
 
-/// Whether an edition or a version has something, and by which requirement.
+/// Whether an edition or a version has a feature, and the requirement that states it.
 ///
 /// ```
 /// use ads_cnc::Kind;
@@ -236,7 +237,7 @@ impl AddressedBy {
 pub struct Support {
     /// Whether it is available.
     pub available: bool,
-    /// The requirement.
+    /// The requirement that decides it.
     pub requirement: &'static str,
     /// The requirement does not document it: a CNC may do otherwise.
     pub assumed: bool,

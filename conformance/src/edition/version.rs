@@ -89,8 +89,8 @@ impl CncVersion {
         self.patch
     }
 
-    /// Versions that are counted on from one another: V2.11, V3.1, V4. That the second number of
-    /// a V4 counts on is assumed, from V4.18.0 and V4.29.0.
+    /// Major number, and minor number if the numbers after it are counted separately: V2.11, V3.1,
+    /// V4. That V4 continues across minor numbers is assumed, from V4.18.0 and V4.29.0.
     const fn branch(self) -> (u16, u16) {
         match self.major {
             0..=3 => (self.major, self.minor),
@@ -98,7 +98,7 @@ impl CncVersion {
         }
     }
 
-    /// Whether a CNC of this version has something.
+    /// Whether a CNC of this version has a feature.
     ///
     /// | of the versions in [`Feature::since`] this one is | | |
     /// |---|---|---|
@@ -159,7 +159,7 @@ impl fmt::Debug for CncVersion {
     }
 }
 
-/// What a CNC has from some version on, by [`CncVersion::has`].
+/// A feature that a CNC has from some version on, see [`CncVersion::has`].
 ///
 /// ```
 /// use ads_cnc_conformance::edition::{CncVersion, Feature};
@@ -182,7 +182,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    /// All of them.
+    /// All features.
     pub const ALL: &'static [Self] =
         &[Self::DynamicVariables, Self::DescriptionByName, Self::ServiceInterface];
 
@@ -194,7 +194,7 @@ impl Feature {
         }
     }
 
-    /// The versions that are printed for it, in ascending order.
+    /// The printed versions, in ascending order.
     pub const fn since(self) -> &'static [CncVersion] {
         const fn v(major: u16, minor: u16, build: u16, patch: u16) -> CncVersion {
             CncVersion::from_parts(major, minor, build, patch)
@@ -238,7 +238,7 @@ impl Feature {
 #[error("cnc-version: {part} at offset {offset}: {fault}")]
 pub struct VersionError {
     part: &'static str,
-    /// In bytes; all characters before it are ASCII.
+    /// Byte offset; all characters before it are ASCII.
     offset: usize,
     fault: VersionFault,
 }
@@ -257,7 +257,7 @@ enum VersionFault {
 
 struct VersionScan<'a> {
     text: &'a str,
-    /// All characters before it are ASCII.
+    /// Byte offset; all characters before it are ASCII.
     at: usize,
 }
 
@@ -272,7 +272,7 @@ impl VersionScan<'_> {
         skips
     }
 
-    /// The dot before a part.
+    /// Consumes the dot before a part.
     fn dot(&mut self, part: &'static str) -> Result<(), VersionError> {
         if self.skip(b'.') { Ok(()) } else { Err(self.error(part)) }
     }
@@ -290,7 +290,7 @@ impl VersionScan<'_> {
         u16::try_from(number).map_err(|_| VersionError { part, offset: start, fault })
     }
 
-    /// The next character is wrong or missing.
+    /// The error for a wrong or missing next character.
     fn error(&self, part: &'static str) -> VersionError {
         let fault = match self.text.get(self.at..).and_then(|rest| rest.chars().next()) {
             Some(character) if character.is_ascii_graphic() => VersionFault::Unexpected(character),

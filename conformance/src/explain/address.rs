@@ -1,4 +1,4 @@
-//! Index groups and offsets taken apart, and the function they lead to.
+//! Explains index groups and offsets, and the function at an address.
 
 use ads_cnc::address::{Access, AxisStride, Class, ComGroup, Group, IndexOffset};
 use ads_cnc::dynamic::DynamicKind;
@@ -13,7 +13,7 @@ use super::part;
 use crate::edition::Feature;
 use crate::values::ValueFormat;
 
-/// Data of a service at a place.
+/// Data of a service at an address.
 pub(super) fn of_place(
     place: &ServiceAddress,
     bytes: &[u8],
@@ -22,7 +22,7 @@ pub(super) fn of_place(
     of_data(place, 0, bytes, values)
 }
 
-/// Data of a service at a place, from byte `at` of those given.
+/// Data of a service at an address; the data begins at `at` of the input.
 pub(super) fn of_data(
     place: &ServiceAddress,
     at: usize,
@@ -44,9 +44,9 @@ pub(super) fn of_data(
     part
 }
 
-/// A place, without data.
+/// An address without data.
 pub(super) fn alone(place: &ServiceAddress) -> ExplainedStream {
-    // Of a content that is read and written, reading is the one that does no harm.
+    // For a content, which can be read and written, the read is explained.
     let reading = ServiceAddress { reply: true, ..*place };
     let found = find(if place.service.is_none() { &reading } else { place });
     ExplainedStream { address: Some(report(place, found)), ..ExplainedStream::default() }
@@ -63,7 +63,7 @@ fn no_data(
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
     if !place.reply {
-        // VAR-17 is about what comes back.
+        // VAR-17 specifies the reply.
         (part.clause, part.sources) = (None, Vec::new());
     }
     let (service, what) =
@@ -75,7 +75,7 @@ fn no_data(
     part
 }
 
-/// The function that is meant.
+/// The function at the address.
 fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
     if let Some(port) = place.port {
         Task::from_port(port).ok_or(DispatchError::Port(port))?;
@@ -95,13 +95,13 @@ fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
         let takes = spec.service;
         match place.service {
             Some(asked) if asked == takes => return Ok(function),
-            // No content is where a function is (SDA-12).
+            // A function takes precedence over content at the same address (SDA-12).
             Some(asked) if !spec.is_content() => {
                 return Err(DispatchError::Service { expected: takes, found: asked });
             }
             Some(asked) => refusal = DispatchError::Service { expected: takes, found: asked },
             None if !spec.is_content() => return Ok(function),
-            // Of a content, what is read comes back, and what is written goes in.
+            // The direction decides between the read and the write of a content.
             None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
             None => {}
         }
@@ -109,8 +109,8 @@ fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
     content.ok_or(refusal)
 }
 
-/// Whether the port, if it is known, is that of the function's task; SDA and GEO stand in for
-/// each other (ADR-10, assumed).
+/// Whether the port, if known, belongs to the function's task; SDA and GEO are interchangeable
+/// (ADR-10, assumed).
 fn serves(place: &ServiceAddress, spec: &FunctionSpec) -> bool {
     let task = place.port.and_then(Task::from_port);
     task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
@@ -141,7 +141,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     let effect = match spec.effect {
         Effect::Query => "query",
         Effect::Write => "write",
-        // What is not known to be harmless is taken to move.
+        // An effect that is not known to be harmless is shown as motion.
         _ => "motion",
     };
     let numbered = spec.section.starts_with(|first: char| first.is_ascii_digit());
@@ -163,7 +163,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     }
 }
 
-/// What else is at the place of a function, and what has to be known of it.
+/// Other functions at the address, and notes about the function.
 fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
     let spec = function.spec();
     if place.port.is_some_and(|port| port != spec.task.port()) {
@@ -216,7 +216,7 @@ fn of_axis(axis: u32) -> String {
     if axis == 0 { String::new() } else { format!("axis {axis}, ") }
 }
 
-/// What the offset addresses.
+/// Explains the index offset.
 fn offset(place: &ServiceAddress, function: Option<Function>, notes: &mut Vec<String>) -> String {
     let (offset, rule) = (place.offset, function.map(|function| function.spec().offset));
     match (rule, place.group.parts()) {

@@ -1,4 +1,4 @@
-//! The names of codes, and texts.
+//! Names of codes, and formatting of numbers and texts.
 
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
 use ads_cnc::operation::Task;
@@ -34,7 +34,7 @@ pub(super) const fn state_flags(flags: StateFlags) -> Option<&'static str> {
     }
 }
 
-/// What an error number says.
+/// The name of an ADS error.
 pub(super) const fn ads_error(error: AdsError) -> Option<&'static str> {
     Some(match error {
         AdsError::NO_ERROR => "success",
@@ -51,12 +51,12 @@ pub(super) const fn ads_error(error: AdsError) -> Option<&'static str> {
     })
 }
 
-/// A number, decimal and, where that reads differently, in hex.
+/// A number, in decimal, and also in hex if that differs.
 pub(super) fn number(number: u32) -> String {
     if number < 10 { number.to_string() } else { format!("{number} ({number:#x})") }
 }
 
-/// A byte that is TRUE or FALSE.
+/// A byte as TRUE or FALSE.
 pub(super) fn boolean(byte: u8) -> String {
     match byte {
         0 => "FALSE".to_owned(),
@@ -65,13 +65,13 @@ pub(super) fn boolean(byte: u8) -> String {
     }
 }
 
-/// Bytes as text: in quotes, with escapes for what a terminal would act on.
+/// Bytes as quoted text, with control characters escaped.
 pub(super) fn quoted(bytes: &[u8]) -> String {
     let text: String = bytes.iter().copied().map(cp1252_to_char).collect();
     format!("{text:?}")
 }
 
-/// Text with its end.
+/// A text with its terminator.
 pub(super) fn text_of(text: TextRef<'_>) -> String {
     let bytes: Vec<u8> = text.text().bytes().collect();
     let shown = quoted(&bytes);
@@ -85,7 +85,7 @@ pub(super) fn text_of(text: TextRef<'_>) -> String {
     }
 }
 
-/// The text of a field and its end: the first NUL, if there is one.
+/// The text of a field up to the first NUL.
 pub(super) fn text(field: &[u8]) -> String {
     let nul = field.iter().position(|&byte| byte == 0).unwrap_or(field.len());
     let (text, end) = field.split_at_checked(nul).unwrap_or((field, &[]));

@@ -17,10 +17,10 @@ use super::value::bytes as in_words;
 use crate::values::ValueFormat;
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
-/// Requests by who asked whom under which ID.
+/// Index group and offset of requests, by source, target and invoke ID.
 type PendingRequests = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
 
-/// Whether the bytes begin with a frame, or with one whose headers are whole and agree.
+/// Whether the bytes begin with a frame, or at least with valid headers of one.
 pub fn looks_like_frame(bytes: &[u8]) -> bool {
     match FrameRef::split(bytes, u32::MAX) {
         Ok(Some(_)) => true,
@@ -29,7 +29,7 @@ pub fn looks_like_frame(bytes: &[u8]) -> bool {
     }
 }
 
-/// Frames, one after the other.
+/// Explains consecutive frames.
 pub(super) fn of_frames(
     place: Option<&ServiceAddress>,
     bytes: &[u8],
@@ -56,7 +56,7 @@ struct FrameExplainer<'q> {
 }
 
 impl FrameExplainer<'_> {
-    /// One frame; how many bytes it takes, if another may follow.
+    /// Explains one frame; returns its length if another may follow.
     fn frame(&mut self, at: usize, bytes: &[u8]) -> Option<usize> {
         let split = FrameRef::split(bytes, u32::MAX);
         let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
@@ -89,7 +89,7 @@ impl FrameExplainer<'_> {
         len
     }
 
-    /// A header by its table; whether it is whole.
+    /// Explains a header by its table; returns whether it is complete.
     fn header(&mut self, stream: Stream, at: usize, bytes: &[u8]) -> bool {
         let part = part::of_stream(stream, at, bytes, self.values);
         let whole = part.faults.is_empty();
@@ -97,7 +97,7 @@ impl FrameExplainer<'_> {
         whole
     }
 
-    /// A fault of the last header, and what is lost with it.
+    /// Adds a fault of the last header, and the bytes after it as unread.
     fn fault(&mut self, error: &Error, base: usize, rest: &[u8]) {
         let Some(part) = self.parts.last_mut() else { return };
         part.push_fault(ExplainedFault::of(error, base));
@@ -111,7 +111,7 @@ impl FrameExplainer<'_> {
         }
     }
 
-    /// The frame ends before its data do.
+    /// Adds a fault for missing data at the end of a frame.
     fn cut(&mut self, header: &AmsHeader, there: usize) {
         let Some(part) = self.parts.last_mut() else { return };
         let found = u32::try_from(there).unwrap_or(u32::MAX);
@@ -170,7 +170,7 @@ impl FrameExplainer<'_> {
             }
             return;
         };
-        // An error brings nothing back, and of a service that is cut nothing may be left.
+        // An error reply has no data, and of a truncated service none may be left.
         if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
             return;
         }
@@ -182,7 +182,7 @@ impl FrameExplainer<'_> {
         self.parts.push(part);
     }
 
-    /// Where a request goes; remembered for its answer.
+    /// The address of a request; stored for its reply.
     fn asks(
         &mut self,
         header: &AmsHeader,
@@ -197,7 +197,7 @@ impl FrameExplainer<'_> {
         Some(ServiceAddress { port, service, group, offset, reply: false })
     }
 
-    /// Where an answer comes from: by its request, or as the caller gave it.
+    /// The address of a reply: from its request, or as given by the caller.
     fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<ServiceAddress> {
         let key = (header.target, header.source, header.invoke_id);
         let asked = self.asked.get(&key).filter(|(command, ..)| *command == header.command);
@@ -210,7 +210,7 @@ impl FrameExplainer<'_> {
         Some(ServiceAddress { port, service, group, offset, reply: true })
     }
 
-    /// A command that is none of the three services.
+    /// Explains a command other than the three services.
     fn other(&mut self, command: Command, reply: bool, at: usize, data: &[u8]) {
         let name = codes::command(command)
             .map_or_else(|| format!("AMS command {}", command.0), ToOwned::to_owned);
@@ -226,21 +226,21 @@ impl FrameExplainer<'_> {
     }
 }
 
-/// Set in the state flags of an answer.
+/// The bit of the state flags that marks a response.
 const RESPONSE_BIT: u16 = 1;
 
 fn halves(bytes: &[u8], at: usize) -> (&[u8], &[u8]) {
     bytes.split_at_checked(at).unwrap_or((bytes, &[]))
 }
 
-/// What a service carries, as far as it is there, and where it begins.
+/// The data inside a service's stream, as far as present, and its offset.
 fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
     let data = ads_cnc::layout::Field::by_name(stream, "data")?.spec()?;
     let at = super::model::size(data.offset);
     bytes.get(at..).map(|data| (at, data))
 }
 
-/// The number in a field, as far as the stream can be read.
+/// The number in a field, if the stream can be read up to it.
 fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     let mut number = None;
     // A fault after the field does not matter here.
@@ -252,7 +252,7 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     number
 }
 
-/// What of a request is refused though each of its streams is in order.
+/// The codec's error for a request whose streams are valid each by itself.
 fn refused(
     place: &ServiceAddress,
     port: AmsPort,
@@ -271,7 +271,7 @@ fn refused(
         Err(DispatchError::Stream(error)) => {
             Some(format!("the codec refuses the request: {error}"))
         }
-        // That there is no function the address says itself.
+        // A missing function is explained with the address.
         _ => None,
     }
 }

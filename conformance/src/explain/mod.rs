@@ -1,8 +1,8 @@
-//! Bytes field by field: offset, bytes, field, value, meaning, clause.
+//! Explains bytes field by field: offset, bytes, field, value, meaning, requirement.
 //!
-//! [`explain`] takes any bytes and never fails: what is wrong with them is part of the
-//! [`Explanation`], which shows all fields up to the fault, marks the fault and gives what was not
-//! read. The fields are those of [`ads_cnc::layout`]; there is no second table.
+//! [`explain`] accepts any bytes and never fails: faults are part of the [`Explanation`], which
+//! shows all fields up to the fault, marks it, and contains the unread bytes. The fields are those
+//! of [`ads_cnc::layout`]; there is no second table.
 //!
 //! ```
 //! use ads_cnc::layout::Stream;
@@ -59,7 +59,8 @@ pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     Explanation::new(bytes.len(), parts)
 }
 
-/// The streams that take these bytes whole, by name: what somebody may mean who names none.
+/// The streams that these bytes decode as completely, by name: suggestions if no stream is
+/// specified.
 pub fn candidates(bytes: &[u8]) -> Vec<&'static str> {
     let takes = |stream: &Stream| stream.walk(bytes, |_| ()).is_ok();
     Stream::all().filter(takes).map(|stream| stream.layout().name).collect()

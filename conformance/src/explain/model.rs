@@ -1,4 +1,4 @@
-//! What is asked, and what an explanation consists of.
+//! The query and the structure of an explanation.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -18,7 +18,7 @@ use crate::values::ValueFormat;
 pub struct ExplainQuery {
     /// A stream, data of a service, or frames.
     pub subject: ExplainSubject,
-    /// How values and contents are to be read, which no stream says itself.
+    /// Types of values and contents, which no stream contains.
     pub values: ValueFormat,
 }
 
@@ -26,52 +26,51 @@ pub struct ExplainQuery {
 #[derive(Clone, Debug)]
 pub enum ExplainSubject {
     Stream(Stream),
-    /// What goes in or comes out at this place.
+    /// Request or reply data of this address.
     Place(ServiceAddress),
-    /// There are none: what is at this place.
+    /// No bytes: the address alone is explained.
     Address(ServiceAddress),
-    /// AMS/TCP frames, one after the other. The place is that of replies whose request is not
-    /// among them.
+    /// Consecutive AMS/TCP frames, and the address of replies whose request is missing.
     Frames(Option<ServiceAddress>),
 }
 
-/// Where a service is asked for, as far as it is known.
+/// The address of a service, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 pub struct ServiceAddress {
     pub port: Option<AmsPort>,
-    /// The service; without it, that of the function at this address.
+    /// The service; if unknown, that of the function at this address.
     pub service: Option<Service>,
     pub group: IndexGroup,
     pub offset: IndexOffset,
-    /// Whether the bytes are the answer.
+    /// Whether the bytes are the reply.
     pub reply: bool,
 }
 
-/// Bytes, explained. As JSON it is one document, whose shape has a number.
+/// The explanation of bytes; as JSON one document with a format number.
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
-    /// Number of this structure.
+    /// Version of this structure.
     pub format: u32,
-    /// Bytes given.
+    /// Number of bytes.
     pub length: usize,
     pub outcome: ExplanationOutcome,
-    /// Streams in the order of their bytes; what a service carries follows it.
+    /// Streams in the order of their bytes; the data of a service is a stream after the service's.
     pub parts: Vec<ExplainedStream>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ExplanationOutcome {
-    /// Every part is explained.
+    /// Every stream is explained.
     Explained,
-    /// Something is wrong with the bytes.
+    /// The bytes have a fault.
     Faulty,
-    /// Nothing is wrong, but of the bytes nothing is known.
+    /// No fault, but no table describes the bytes.
     Unknown,
 }
 
 impl ExplanationOutcome {
-    /// How a process ends with it.
+    /// The exit code.
     pub const fn exit(self) -> Exit {
         match self {
             Self::Explained => Exit::Success,
@@ -85,23 +84,23 @@ impl ExplanationOutcome {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct ExplainedStream {
     pub title: String,
-    /// The stream's name; none for bytes that no table describes.
+    /// The stream's name; `None` for bytes that no table describes.
     pub stream: Option<&'static str>,
     /// The requirement that defines it.
     pub clause: Option<&'static str>,
     /// Its sources: document, edition, section.
     pub sources: Vec<String>,
-    /// Where the stream begins in the bytes given.
+    /// Offset of the stream in the input.
     pub at: usize,
     pub length: usize,
-    /// Where it is sent to or from.
+    /// The address it is sent to, or comes from.
     pub address: Option<ExplainedAddress>,
     /// Its fields, up to the first fault.
     pub rows: Vec<ExplainedField>,
     pub faults: Vec<ExplainedFault>,
     /// The bytes from the fault on.
     pub unread: Option<Unread>,
-    /// What else there is to say.
+    /// Further notes.
     pub notes: Vec<String>,
 }
 
@@ -115,30 +114,30 @@ pub struct ExplainedField {
     pub hex: String,
     /// The field's name.
     pub field: String,
-    /// Which record of a stream of records, else 0.
+    /// Index of the record in a stream of records, else 0.
     pub record: u32,
-    /// Which item of a field with several, else 0.
+    /// Index of the item in a field with several, else 0.
     pub item: u32,
     /// Name of the type.
     #[serde(rename = "type")]
     pub ty: String,
     pub value: String,
-    /// What the field says.
+    /// The meaning of the field.
     pub meaning: &'static str,
     /// The requirement that defines the field.
     pub clause: &'static str,
-    /// Whether a fault is here.
+    /// Whether the fault is in this field.
     pub faulty: bool,
-    /// What the value says.
+    /// The meaning of the value.
     pub notes: Vec<String>,
-    /// The bytes are a part of their own.
+    /// The bytes are explained as a stream of their own.
     #[serde(skip)]
     pub below: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplainedFault {
-    /// Its class, as in vectors; `nc-line` and `nc-word` for NC text.
+    /// The class of the fault, as in vectors; `nc-line` and `nc-word` for NC text.
     pub class: &'static str,
     /// The field; `stream` for the stream as a whole.
     pub field: String,
@@ -146,7 +145,7 @@ pub struct ExplainedFault {
     /// What was expected, in the unit of the class.
     pub expected: Option<u32>,
     pub found: Option<u32>,
-    /// All of it in words.
+    /// The whole fault as text.
     pub text: String,
 }
 
@@ -160,7 +159,7 @@ pub struct Unread {
     pub hex: String,
 }
 
-/// Where a service is asked for, taken apart.
+/// The address of a service, explained.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplainedAddress {
     /// The AMS port, if it is known.
@@ -169,9 +168,9 @@ pub struct ExplainedAddress {
     pub service: Option<String>,
     pub index_group: u32,
     pub index_offset: u32,
-    /// What the group addresses.
+    /// The meaning of the index group.
     pub group: String,
-    /// What the offset addresses.
+    /// The meaning of the index offset.
     pub offset: String,
     pub function: Option<FunctionReport>,
     /// Other meanings, and why there is no function.
@@ -182,21 +181,21 @@ pub struct ExplainedAddress {
 #[derive(Clone, Debug, Serialize)]
 pub struct FunctionReport {
     pub name: &'static str,
-    /// The service it takes.
+    /// The service it is called with.
     pub service: String,
-    /// The task that serves it.
+    /// The task that executes it.
     pub task: String,
     /// The task's AMS port.
     pub port: u16,
-    /// What it does to the machine: `query`, `write` or `motion`.
+    /// Its effect on the machine: `query`, `write` or `motion`.
     pub effect: String,
     /// The requirement that defines it.
     pub clause: &'static str,
     /// Its sources.
     pub section: String,
-    /// The stream that goes in.
+    /// The stream of the request.
     pub request: Option<&'static str>,
-    /// The stream that comes out.
+    /// The stream of the reply.
     pub reply: Option<&'static str>,
 }
 
@@ -227,7 +226,7 @@ impl ExplainedStream {
         }
     }
 
-    /// Bytes that no table describes.
+    /// A part for bytes that no table describes.
     pub(super) fn opaque(title: String, at: usize, bytes: &[u8]) -> Self {
         let mut part = Self { title, at, length: bytes.len(), ..Self::default() };
         if !bytes.is_empty() {
@@ -253,7 +252,7 @@ impl ExplainedStream {
         self.faults.push(fault);
     }
 
-    /// What follows offset `end` of the stream was not read.
+    /// Marks the bytes after offset `end` of the stream as unread.
     pub(super) fn leave(&mut self, end: usize, bytes: &[u8]) {
         let rest = bytes.get(end..).unwrap_or_default();
         self.unread = (!rest.is_empty()).then(|| Unread {
@@ -285,11 +284,11 @@ impl ExplainedField {
 }
 
 impl ExplainedFault {
-    /// The codec's error; its offset counted from `base` bytes before the stream.
+    /// The fault of a codec error; offsets are counted from `base` bytes before the stream.
     pub(super) fn of(error: &Error, base: usize) -> Self {
         let field: Field = error.field();
         let offset = size(error.offset()).saturating_sub(base);
-        // Without the stream, which the part names.
+        // The stream is omitted because the part names it.
         let whole = error.to_string();
         let reason = whole.split_once(": ").map_or(whole.as_str(), |(_, rest)| rest);
         let reason = reason.split_once(": ").map_or(reason, |(_, rest)| rest);
@@ -306,7 +305,7 @@ impl ExplainedFault {
     }
 }
 
-/// A number of bytes as memory counts them.
+/// Converts a length from the wire.
 pub(super) fn size(number: u32) -> usize {
     usize::try_from(number).unwrap_or(usize::MAX)
 }

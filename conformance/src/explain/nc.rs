@@ -1,4 +1,4 @@
-//! NC text in a stream, line by line, with what streaming does not permit.
+//! NC text in a stream, line by line, with the rules of streaming.
 
 use ads_cnc::layout::Segment;
 use ads_cnc::streaming::{self, LineError, NcText, check_line_ends};
@@ -7,7 +7,7 @@ use super::codes::quoted;
 use super::model::{ExplainedFault, ExplainedField, ExplainedStream};
 use super::value::row;
 
-/// A line: where it begins, its characters and its end.
+/// A line: offset, text and line end.
 struct Line<'a> {
     at: usize,
     bytes: &'a [u8],
@@ -32,7 +32,7 @@ pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
         row.meaning = if number == 1 { whole.meaning } else { "" };
         part.rows.push(row);
     }
-    // A CNC takes the bytes in any case; that a line has no end it finds when it reads.
+    // A CNC accepts these bytes and finds a missing line end only when it reads the line.
     if let Err(error) = check_line_ends(data) {
         let number = streaming::LINE_END_ERROR;
         fault(part, &lines, &error, &format!(": the CNC aborts with error {number}"));

@@ -1,4 +1,4 @@
-//! A stream by its table.
+//! Explains a stream by its field table.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::layout::{Segment, Stream};
@@ -8,7 +8,7 @@ use super::nc;
 use super::value;
 use crate::values::ValueFormat;
 
-/// A stream that begins at `at` of the bytes given.
+/// Explains a stream that begins at `at` of the input.
 pub(super) fn of_stream(
     stream: Stream,
     at: usize,
@@ -18,7 +18,7 @@ pub(super) fn of_stream(
     let mut part = ExplainedStream::new(stream, at, bytes);
     let (mut segments, fault) = walk(stream, bytes);
     if fault.is_some_and(|error| error.kind() == ErrorKind::TooLong) && segments.is_empty() {
-        // Of a stream that is too long, what it may have can be shown all the same.
+        // Of a stream that is too long, the fields up to the maximum length are shown.
         (segments, _) = walk(stream, bytes.get(..size(stream.layout().max)).unwrap_or(bytes));
     }
     let mut end = 0_usize;

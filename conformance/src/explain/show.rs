@@ -1,4 +1,4 @@
-//! An explanation for people: coloured, or plain.
+//! Prints an explanation, plain or coloured.
 
 use std::io::{self, Write};
 
@@ -6,15 +6,15 @@ use anstyle::{AnsiColor, Style};
 
 use super::model::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
 
-/// Bytes shown on one line.
+/// Bytes per line.
 const LINE: usize = 8;
-/// The widest a column of values is made for the sake of one of them.
+/// Maximum width of the column of values.
 const VALUE_MAX: usize = 40;
 
-/// Whether there is colour.
+/// Whether to use colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paint {
-    /// None: for pipes and files.
+    /// No colour: for pipes and files.
     Plain,
     /// ANSI escape sequences, for terminals.
     Colour,
@@ -86,7 +86,7 @@ fn show_part(
     if let Some(unread) = &part.unread {
         for (number, chunk) in chunks(&unread.hex).enumerate() {
             let at = unread.offset + number * LINE;
-            // The field that does not get its bytes.
+            // The field whose bytes are missing.
             let mut cut = part.faults.iter().filter(|fault| fault.offset == at);
             let name =
                 cut.next().map(|fault| fault.field.as_str()).filter(|name| *name != "stream");
@@ -175,7 +175,7 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
     Ok(())
 }
 
-/// Hex in lines of this many bytes.
+/// Splits hex into lines of this many bytes.
 fn chunks(hex: &str) -> impl Iterator<Item = &str> {
     let width = LINE * 3;
     let mut rest = hex;

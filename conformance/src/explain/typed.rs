@@ -1,4 +1,4 @@
-//! Values and contents, typed by what their description or descriptor says.
+//! Values and contents with the type from their description or descriptor.
 
 use ads_cnc::value::{DataType, Element, Elements};
 use ads_cnc::{Error, U32List};
@@ -9,7 +9,7 @@ use super::codes::text_of;
 pub(super) struct Typed {
     /// Its number of bytes.
     pub(super) len: usize,
-    /// Its indices in brackets, if there are any.
+    /// Its indices in brackets, or empty.
     pub(super) place: String,
     pub(super) value: String,
 }

@@ -1,4 +1,4 @@
-//! From the bytes of a field to its rows.
+//! Makes rows from the bytes of a field.
 
 use ads_cnc::address::IndexGroup;
 use ads_cnc::ads::{AdsError, Command, StateFlags};
@@ -11,7 +11,7 @@ use super::model::{ExplainedFault, ExplainedField, ExplainedStream, size};
 use super::typed;
 use crate::values::ValueFormat;
 
-/// Bytes of a value that are tried as every type of their size.
+/// Maximum length of a value of unknown type that is shown as every type of its size.
 const GUESSED: usize = 8;
 
 /// Adds the rows of a segment to its part.
@@ -53,12 +53,12 @@ fn is_value(stream: Stream, field: &str) -> bool {
     field == "value" || stream == Stream::Content
 }
 
-/// A length in words.
+/// A length as text.
 pub(super) fn bytes(length: usize) -> String {
     if length == 1 { "1 byte".to_owned() } else { format!("{length} bytes") }
 }
 
-/// A number or NetId, with what it says.
+/// A number or NetId, with its meaning.
 fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     match (ty, bytes) {
         (Type::NetId, _) => {
@@ -78,7 +78,7 @@ fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     }
 }
 
-/// What a number says in its field.
+/// Adds the meaning of a number.
 fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     let low = u16::try_from(read).unwrap_or_default();
     let name = match (stream, row.field.as_str()) {
@@ -125,7 +125,7 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     }
 }
 
-/// A value or content: typed if its type is known, else what it might be.
+/// A value or content: by its type if known, else as every possible type.
 fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
         row.value = bytes(all.len());
@@ -138,7 +138,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
         part.rows.push(row);
         return;
     };
-    // With indices it is one element, whatever the variable is.
+    // With indices the value is one element, of any variable.
     let one = part.rows.iter().any(|before| before.field == "indices");
     let dimensions = if one { &[][..] } else { values.dimensions.as_slice() };
     match typed::elements(ty, dimensions, all) {
@@ -161,7 +161,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
             }
         }
         Err(error) => {
-            // The error counts from the value on, and names a table of its own.
+            // The error's offset is relative to the value, and it names another table.
             row.value = bytes(all.len());
             let shape: String = dimensions.iter().map(|length| format!("[{length}]")).collect();
             let mut fault = ExplainedFault::of(&error, 0);
@@ -176,7 +176,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
     }
 }
 
-/// What a few bytes would be as each type of their size.
+/// A few bytes as each type of their size.
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));

@@ -1,6 +1,7 @@
-//! Bytes of one field changed on their way into or out of the codec.
+//! Defects of one field: its bytes are changed before the codec decodes them, or after it has
+//! encoded them.
 //!
-//! They are generated from the codec's field tables, so every field has its own.
+//! They are generated from the field tables of the codec, so that every field has defects.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::FieldDefect;
@@ -15,18 +16,18 @@ use ads_cnc::layout::{Field, Segment, Size, Stream};
 
 use crate::text::named;
 
-/// One field done wrong.
+/// A defect of one field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldDefect {
     /// Stream, field and change: `variable-description.size.flip`.
     pub id: String,
     pub stream: Stream,
     pub field: Field,
-    /// What happens to its bytes.
+    /// The change of its bytes.
     pub change: FieldChange,
 }
 
-/// What happens to the bytes of a field. Their number never changes.
+/// A change of the bytes of a field. The length never changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FieldChange {
     /// The lowest bit of the first byte is inverted.
@@ -53,15 +54,15 @@ impl FieldChange {
 }
 
 impl FieldDefect {
-    /// The defects of every stream that goes over the wire.
+    /// The defects of every stream that is sent alone.
     ///
-    /// Descriptors in sequence have none of their own: a defect of the descriptor is in each.
+    /// A list of descriptors has none of its own: a defect of the descriptor is in each record.
     pub fn all() -> Vec<Self> {
         let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
         streams.flat_map(Self::of_stream).collect()
     }
 
-    /// The defects of one stream: every change of every field. One byte has no order to reverse.
+    /// The defects of one stream: every change of every field, except reversing a single byte.
     pub fn of_stream(stream: Stream) -> Vec<Self> {
         let each = |field: Field| {
             let one = field.spec().is_some_and(|spec| spec.size == Size::Fixed(1));
@@ -81,17 +82,17 @@ impl FieldDefect {
         Stream::all().flat_map(Self::of_stream).find(|defect| defect.id == id)
     }
 
-    /// Whether the field is one of this stream's: of its own, or of the records it is made of.
+    /// Whether the field belongs to this stream, or to the records in it.
     pub fn touches(&self, stream: Stream) -> bool {
         self.stream == stream || stream == self.sequence()
     }
 
-    /// The stream with the bytes of the field changed, of each record and item.
+    /// The stream with the bytes of the field changed, in each record and item.
     ///
     /// Bytes that the walk over the stream does not reach stay as they are.
     pub fn apply(&self, bytes: &[u8]) -> Vec<u8> {
         let mut places = Vec::new();
-        // A fault ends the walk: what it has reached is changed nonetheless.
+        // The walk ends at a fault; the fields before it are changed all the same.
         let _reached = self.sequence().walk(bytes, |segment: Segment<'_>| {
             if segment.field.name() == self.field.name() {
                 let start = usize::try_from(segment.offset).unwrap_or(usize::MAX);
@@ -107,7 +108,7 @@ impl FieldDefect {
         changed
     }
 
-    /// What one record is a sequence of one of, so that one walk serves both.
+    /// The stream of several such records for a record, so that the same walk serves both.
     fn sequence(&self) -> Stream {
         match self.stream {
             Stream::ObjectDescriptor => Stream::ObjectDescriptors,
@@ -132,7 +133,7 @@ impl fmt::Display for FieldDefect {
 mod tests {
     use super::*;
 
-    /// The printed one but for its handle, which reads the same from both ends.
+    /// The printed description, except for its handle, which reads the same in reverse byte order.
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 

@@ -1,8 +1,8 @@
-//! Seeded defects: what a codec or a CNC can get wrong, and what it may do otherwise.
+//! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
-//! They change bytes around the codec and the simulated CNC, which know nothing of them, or set up
-//! the CNC with another model or policy. The suite is tried with them: who has a defect has to fail
-//! by a requirement that it breaks, who only does things in another way may not.
+//! They are middleware around the codec and the simulated CNC, or give the CNC another model or
+//! policy. They test the suite: a defect must fail by a requirement that it breaks, and a valid
+//! variant must not fail.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, SeedKind};
@@ -40,10 +40,9 @@ pub fn by_id(id: &str) -> Option<&'static Seed> {
     all().iter().find(|seed| seed.id == id)
 }
 
-/// Musts that none of these breaks, and why.
+/// Requirements of level must that no seed breaks, with the reason.
 ///
-/// What a client alone can break has its defects among those of
-/// [clients](crate::clients::defects).
+/// Requirements of clients alone are broken by [defects of a client](crate::clients::defects).
 pub const fn without() -> &'static [(&'static str, &'static str)] {
     &[
         (

@@ -1,4 +1,4 @@
-//! What a CNC may do otherwise: nothing of it is wrong.
+//! Valid variants of a CNC: different from the simulated CNC, but permitted.
 
 mod elements;
 mod models;
@@ -17,7 +17,7 @@ use super::cnc::{
 };
 use row::{sent, unprinted};
 
-/// The handles of replies and, back, of requests made others.
+/// Changes the handles in replies, and back in requests.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     let spec = function(call).map(Function::spec);
     match spec.map(|spec| (first(spec.request), first(spec.reply))) {
@@ -32,7 +32,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
     }
 }
 
-/// The text at the end of a reply, from a place on, padded with NULs to a length.
+/// The text at the end of a reply, from an offset on, padded with NULs to a length.
 fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);

@@ -9,9 +9,9 @@ use super::{Entry, Moment, Reason};
 /// The AMS NetId of the simulated CNC, unless it is given another.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
-/// What may be written, to whom and until when.
+/// The permitted writes: target, values and expiry.
 ///
-/// As a file, every table any number of times, numbers of channels and axes as the CNC counts them:
+/// As a file. Every table may be repeated; channels and axes have the numbers of the CNC:
 ///
 /// ```
 /// let file = r#"
@@ -66,11 +66,11 @@ pub struct Allowed {
 }
 
 impl Allowed {
-    /// Why nothing may be sent to this target now, whatever the file names; `address` is the one
-    /// that the connection goes to, if it is known.
+    /// Checks whether the file applies to this target now; `address` is that of the connection, if
+    /// known.
     ///
     /// # Errors
-    /// The first reason.
+    /// The first reason why it does not.
     pub(super) fn check_target(
         &self,
         target: AmsNetId,

@@ -19,7 +19,7 @@ use toml::value::Datetime;
 
 use super::{Allowed, AllowedList, Entry, Moment};
 
-/// Why a file allows nothing.
+/// An error in the file of `--allow-write`.
 #[derive(Clone, Debug)]
 pub struct AllowFileError {
     file: Option<PathBuf>,
@@ -41,21 +41,21 @@ impl Allowed {
     /// Reads a file.
     ///
     /// # Errors
-    /// A file that cannot be read, and those of [`from_toml`](Self::from_toml).
+    /// If the file cannot be read, and those of [`from_toml`](Self::from_toml).
     pub fn from_file(file: &Path) -> Result<Self, AllowFileError> {
         let failed = |why: String| AllowFileError { file: Some(file.to_owned()), why };
         let text = fs::read_to_string(file).map_err(|error| failed(error.to_string()))?;
         Self::from_toml(&text).map_err(|error| failed(error.why))
     }
 
-    /// Reads the text of a file.
+    /// Parses the text of a file.
     ///
     /// # Errors
-    /// The line and what is wrong in it: keys that are unknown or missing, values out of range, an
-    /// address that nothing is written to.
+    /// The line and what is wrong in it: unknown or missing keys, values out of range, an address
+    /// that is not written to.
     pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
         let file: AllowListFile = toml::from_str(text).map_err(|error| {
-            // As it shows itself it draws the line; the message alone does not say which.
+            // `Display` quotes the line; `message` has no line number.
             let why = error.to_string().trim_end().to_owned();
             AllowFileError { file: None, why }
         })?;

@@ -1,13 +1,14 @@
-//! What may leave for a target. A machine may move: everything not allowed is refused.
+//! Decides which frames may be sent to a target. A frame may move a machine, so every frame that is
+//! not allowed is rejected.
 //!
-//! A frame reaches a socket only with the [`Permit`] that [`Gate::check`] gave for its bytes, see
-//! [`Wire::send`](crate::net::Wire::send). What passes by default comes from the function table:
-//! queries to the port they are documented for, ReadDeviceInfo and ReadState. Whatever changes
-//! something needs an entry in a file that says what, on whom and until when: [`Allowed`].
+//! A frame reaches a socket only with the [`Permit`] that [`Gate::check`] returns for its bytes,
+//! see [`Wire::send`](crate::net::Wire::send). By default the gate allows the queries of the
+//! function table at their documented port, ReadDeviceInfo and ReadState. A write needs an entry in
+//! a file with the value, the target and an expiry: [`Allowed`].
 //!
-//! A file names variables and objects, a write has a handle or an address, and which that is the
-//! device says. So the gate learns each name that a reply gives to a handle or an address, and lets
-//! no write pass by one that any reply gives to what the file does not name: see [`Doubt`].
+//! A file contains names, a write contains a handle or an address, and only the device knows which
+//! name belongs to it. So the gate observes the names in replies, and rejects a write by a handle
+//! or address to which any reply gives a name that is not in the file: see [`Doubt`].
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -49,17 +50,17 @@ use observed::Observed;
 /// Decides over every frame before a byte of it is sent.
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
-    /// Whether malformed frames pass, if a file permits them.
+    /// Whether malformed frames are allowed if the file permits them.
     malformed: bool,
-    /// Of a CNC in this process, which is thrown away.
+    /// The address of a simulated CNC in this process, to which every write is allowed.
     simulated: Option<SocketAddr>,
-    /// Where the frames go, if that is known.
+    /// The IP address that the frames go to, if known.
     peer: Option<IpAddr>,
     allowed: Option<Allowed>,
     observed: Observed,
 }
 
-/// Leave for one frame to go to a target. Only a gate gives it.
+/// The permission to send one frame. Only a gate creates it.
 #[derive(Clone, Copy, Debug)]
 pub struct Permit<'f> {
     frame: &'f [u8],
@@ -71,83 +72,82 @@ impl<'f> Permit<'f> {
         self.frame
     }
 
-    /// Whether sending it twice does no more than sending it once.
+    /// Whether sending the frame twice has the same effect as sending it once.
     pub const fn is_repeatable(&self) -> bool {
         self.repeatable
     }
 }
 
-/// Whether a frame may be sent by default, without any file: see [`Gate::queries`]. It depends on
-/// nothing but the bytes.
+/// Checks a frame without a file, see [`Gate::queries`].
 ///
 /// # Errors
-/// Why not, and which entry would allow it.
+/// Why it may not be sent, and which entry would allow it.
 pub fn check(frame: &[u8]) -> Result<Permit<'_>, Refusal> {
     Gate::queries().check(frame, Moment::EPOCH)
 }
 
 impl Gate {
-    /// Well-formed queries of the function table only.
+    /// A gate that allows only well-formed queries of the function table.
     pub fn queries() -> Self {
         Self::default()
     }
 
-    /// Anything but what is never sent, to this address only: that of a
-    /// [`Server`](crate::simulator::Server) of this process, see [`Gate::of_server`].
+    /// A gate that allows every request except those that are never sent, and only to this address:
+    /// that of a [`Server`](crate::simulator::Server) of this process, see [`Gate::of_server`].
     pub(crate) fn of_address(simulated: SocketAddr) -> Self {
         Self { simulated: Some(simulated), ..Self::default() }
     }
 
-    /// The only address that it allows, if there is but one.
+    /// The only address that the gate allows, if it is restricted to one.
     pub const fn simulated(&self) -> Option<SocketAddr> {
         self.simulated
     }
 
-    /// Whether any write may pass at all.
+    /// Whether any write may be allowed at all.
     pub const fn may_let_writes_pass(&self) -> bool {
         self.simulated.is_some() || self.allowed.is_some()
     }
 
-    /// What a file allows.
+    /// The content of the file.
     pub const fn allowed(&self) -> Option<&Allowed> {
         self.allowed.as_ref()
     }
 
-    /// And the writes that a file allows.
+    /// Allows the writes of a file too.
     #[must_use]
     pub fn with_allowed(self, allowed: Option<Allowed>) -> Self {
         Self { allowed, ..self }
     }
 
-    /// And what no client should send, to the target that a file permits that for.
-    /// [`Client`](crate::client::Client) takes no target with it but a CNC on this machine.
+    /// Allows malformed requests too, to the target for which a file permits them.
+    /// [`Client`](crate::client::Client) accepts such a gate only for a CNC on this machine.
     #[must_use]
     pub fn and_malformed(self) -> Self {
         Self { malformed: true, ..self }
     }
 
-    /// With the address that the frames go to, which a file may bind.
+    /// Sets the IP address that the frames go to, which a file may require.
     #[must_use]
     pub fn to_address(self, peer: IpAddr) -> Self {
         Self { peer: Some(peer.to_canonical()), ..self }
     }
 
-    /// Whether malformed frames may pass: some of them may be writes to whoever takes them.
+    /// Whether malformed frames are allowed: a CNC may execute some of them as writes.
     pub fn lets_malformed_pass(&self) -> bool {
         let permits = |allowed: &Allowed| allowed.malformed;
         self.simulated.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
     }
 
-    /// Why nothing of what the file allows may be sent to this target now.
+    /// Checks whether the file applies to this target now.
     ///
     /// # Errors
-    /// The first reason; none if there is no file.
+    /// Why it does not; none without a file.
     pub fn check_target(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         let Some(allowed) = &self.allowed else { return Ok(()) };
         allowed.check_target(target, self.peer, now).map_err(Refusal::from)
     }
 
-    /// Whether malformed requests may be sent to this target now.
+    /// Checks whether malformed requests may be sent to this target now.
     pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         match &self.allowed {
             _ if self.simulated.is_some() => Ok(()),
@@ -156,15 +156,16 @@ impl Gate {
         }
     }
 
-    /// Whether this frame may be sent now. It depends on nothing but the gate and what is given.
+    /// Checks whether this frame may be sent now. The result depends on the gate and the arguments
+    /// only.
     ///
     /// # Errors
-    /// Why not, and which entry would allow it.
+    /// Why it may not be sent, and which entry would allow it.
     pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, Refusal> {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
         let whole = match whole(frame) {
             Ok(whole) => whole,
-            // To whom it goes is not known either.
+            // Without a valid header the target is unknown.
             Err(_) if self.simulated.is_some() => return permit(false),
             Err(reason) => return Err(reason.into()),
         };
@@ -177,7 +178,7 @@ impl Gate {
             }
         };
         let header = whole.header();
-        // What is never sent is not sent with odd flags either.
+        // A command that is never sent is not sent with invalid flags either.
         let repeatable = match header.command {
             Command::WRITE_CONTROL
             | Command::ADD_NOTIFICATION
@@ -203,26 +204,26 @@ impl Gate {
         permit(repeatable)
     }
 
-    /// Keeps what a reply says of handles and of addresses of objects: whether a write by one is of
-    /// what the file names.
+    /// Records the handles and object addresses in a reply, to check later whether a write by one
+    /// of them is to a name in the file.
     pub fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
             self.observed.learn(allowed, call, reply);
         }
     }
 
-    /// Whether a reply on this connection gave this handle to any name.
+    /// Whether a reply on this connection returned this handle.
     pub fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         self.observed.knows_handle(channel, handle)
     }
 
-    /// Forgets what would let writes pass, as the next answers may come from another device. What
-    /// keeps writes from passing stays.
+    /// Forgets the observations that allow writes, because the next replies may come from another
+    /// device. Those that forbid writes are kept.
     pub fn forget(&mut self) {
         self.observed.forget();
     }
 
-    /// Whether it can be repeated.
+    /// Checks a call; returns whether it is repeatable.
     fn check_call(&self, call: &Call<'_>, to: AmsNetId, now: Moment) -> Result<bool, Refusal> {
         never(call)?;
         let lets_malformed_pass = self.lets_malformed_pass();
@@ -237,7 +238,7 @@ impl Gate {
         match spec.effect {
             Effect::Query if at_home => Ok(true),
             Effect::Query if lets_malformed_pass => self.check_malformed(to, now).map(|()| true),
-            // An entry does not tell the tasks apart: it is about SDA and COM.
+            // The entries are for SDA and COM only.
             _ if call.port != spec.task.port() => {
                 Err(Reason::Port(call.port, request.function()).into())
             }
@@ -246,7 +247,7 @@ impl Gate {
         }
     }
 
-    /// Whether the file names this, this target and no time gone by.
+    /// Checks a write against the file: target, time and entries.
     fn check_change(
         &self,
         request: &Request<'_>,
@@ -274,8 +275,8 @@ impl Gate {
     }
 }
 
-/// The queries of classes, which the manual has for SDA and GEO alike (section 2.2). That the rest of
-/// SDA's functions are answered by GEO too is assumed, and nothing is sent there for it.
+/// The queries of classes, which the manual documents for SDA and GEO alike (section 2.2). That GEO
+/// serves the other functions of SDA too is assumed, so they are not sent to GEO.
 const OF_CLASSES: [Function; 8] = [
     Function::FindInstance,
     Function::CountElements,
@@ -287,9 +288,9 @@ const OF_CLASSES: [Function; 8] = [
     Function::ReadElementWriteFlag,
 ];
 
-/// What no opt-in and no entry lets through.
+/// Rejects calls that neither an option nor an entry allows.
 fn never(call: &Call<'_>) -> Result<(), Refusal> {
-    // Requests with requests inside, writes among them.
+    // A sum command contains requests, which may be writes.
     if SUMS.contains(&call.index_group.get()) {
         return Err(Reason::Sum(call.index_group).into());
     }
@@ -297,17 +298,17 @@ fn never(call: &Call<'_>) -> Result<(), Refusal> {
     let stream = call.index_offset == streaming::INDEX_OFFSET
         && com.access == Access::Element
         && com.table == ComTable::Channel;
-    // As channel 0 the platform may be what channel 1 is, and what a read does nobody says, nor what a
-    // write does at another port than COM's.
+    // Channel 0, the platform, may have the same stream as channel 1. Reads of the stream, and
+    // writes at another port than COM's, are not documented.
     let documented =
         call.service == Service::Write && com.instance != 0 && call.port == AmsPort::COM;
     if stream && !documented { Err(Reason::Stream.into()) } else { Ok(()) }
 }
 
-/// The index groups of ADS for several requests in one.
+/// The index groups of ADS sum commands.
 const SUMS: RangeInclusive<u32> = 0xF080..=0xF08F;
 
-/// The one frame that these bytes are.
+/// Decodes the bytes as exactly one frame.
 fn whole(bytes: &[u8]) -> Result<FrameRef<'_>, Reason> {
     match FrameRef::split(bytes, u32::MAX) {
         Ok(Some((frame, len))) if len == bytes.len() => Ok(frame),

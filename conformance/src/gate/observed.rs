@@ -1,4 +1,4 @@
-//! Which names the replies of a session give to handles and to addresses of objects.
+//! The names that replies give to handles and to object addresses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,30 +13,30 @@ use super::{Allowed, Doubt, Entry};
 /// it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
-    /// By the channel as it was addressed: whether a rank and a number are one channel is not known.
+    /// By channel as addressed: whether a rank and a number are the same channel is unknown.
     handles: BTreeMap<(Channel, u32), HandleNames>,
-    /// The handle of each variable that the file names; none if replies give it several.
+    /// The handle of each variable in the file; `None` if replies give it several.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
-    /// The lists that the file names an object of.
+    /// The lists with an object in the file.
     lists: BTreeMap<IndexGroup, ObservedObjects>,
-    /// The name of the object at an address, and another one that some list gives it.
+    /// By address: the name of the object, and a different name from another list.
     contents: BTreeMap<(IndexGroup, IndexOffset), (CncString, Option<CncString>)>,
     kept: usize,
     full: bool,
 }
 
-/// The names of one handle.
+/// The names of a handle.
 #[derive(Clone, Debug, Default)]
 struct HandleNames {
-    /// Those that the file names.
+    /// Names in the file.
     allowed: BTreeMap<CncString, Sources>,
-    /// The one of the axis interface, at which axis.
+    /// Axis and name if the handle is one of the axis interface.
     of_axis: Option<(ChannelAxis, CncString)>,
-    /// One that the file does not name; more of them make no difference.
+    /// The first name that is not in the file.
     foreign: Option<CncString>,
 }
 
-/// Which replies gave a handle to a name.
+/// The replies that gave a handle to a name.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sources {
     handle_by_name: bool,
@@ -48,7 +48,7 @@ impl Sources {
     const DESCRIPTION: Self = Self { handle_by_name: false, description: true };
 }
 
-/// What is known of a list of objects.
+/// A list of objects as observed so far.
 #[derive(Clone, Debug, Default)]
 struct ObservedObjects {
     count: Option<u32>,
@@ -57,9 +57,9 @@ struct ObservedObjects {
 }
 
 impl Observed {
-    /// Forgets what lets writes pass; names that the file does not have are kept.
+    /// Forgets the observations that allow writes; foreign names are kept.
     pub(super) fn forget(&mut self) {
-        // A name with several handles keeps its variable from being written by any.
+        // A variable with several handles stays forbidden.
         self.variables.retain(|_, handle| handle.is_none());
         self.lists.clear();
         self.handles.values_mut().for_each(|named| named.allowed.clear());
@@ -68,16 +68,16 @@ impl Observed {
         self.kept = kept.into_iter().fold(0, usize::saturating_add);
     }
 
-    /// Whether a reply gave this handle to any name, as far as all of them are kept.
+    /// Whether a reply returned this handle; false once the limit was exceeded.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         let has_names = |named: &HandleNames| !named.allowed.is_empty() || named.foreign.is_some();
         self.full || self.handles.get(&(channel, handle.0)).is_some_and(has_names)
     }
 
-    /// Whether the file names the variable of a handle.
+    /// Checks whether a handle belongs to a variable in the file.
     ///
     /// # Errors
-    /// Why the handle may be that of another variable all the same.
+    /// Why the handle may belong to another variable too.
     pub(super) fn is_variable(&self, channel: Channel, handle: Handle) -> Result<bool, Doubt> {
         let Some(named) = self.handles.get(&(channel, handle.0)) else { return Ok(false) };
         let Some(name) = named.allowed.keys().next() else { return Ok(false) };
@@ -87,7 +87,7 @@ impl Observed {
         if let Some(foreign) = &named.foreign {
             return Err(Doubt::Shared(foreign.clone()));
         }
-        // On the axis interface the same variable has its name without the axis.
+        // The axis interface has the same variable without the axis in its name.
         let without_axis = |name: &CncString| {
             VariablePath::from_text(name.as_cnc_str()).and_then(|path| path.without_axis()).ok()
         };
@@ -109,11 +109,11 @@ impl Observed {
         }
     }
 
-    /// Whether the one object of a name in a list is at this address. Only a list that was read
-    /// whole tells that there is no other of the same name.
+    /// Checks whether the only object with a name in a list is at this address. Only a list that
+    /// was read completely shows that no other object has the same name.
     ///
     /// # Errors
-    /// Why another object may be there all the same.
+    /// Why another object may be at the address.
     pub(super) fn is_object(
         &self,
         list: ObjectList,
@@ -147,7 +147,7 @@ impl Observed {
         }
     }
 
-    /// Checks that the lists give no two names to an address that the file has.
+    /// Checks that no list gives a second name to an address in the file.
     ///
     /// # Errors
     /// The second name.
@@ -181,7 +181,7 @@ impl Observed {
                 if is_named(allowed, op.list) =>
             {
                 let objects = self.lists.entry(op.list.index_group()).or_default();
-                // Another list than before, if it has another length.
+                // A different length means a different list.
                 if objects.count != Some(count.0) {
                     *objects =
                         ObservedObjects { count: Some(count.0), ..ObservedObjects::default() };
@@ -194,14 +194,14 @@ impl Observed {
         }
     }
 
-    /// Whether there is room for one more.
+    /// Counts an entry; returns whether it is within the limit.
     fn has_room(&mut self) -> bool {
         self.full |= self.kept >= LEARNT_MAX;
         self.kept = self.kept.saturating_add(1);
         !self.full
     }
 
-    /// The names of a handle, for one more.
+    /// The names of a handle, to add one.
     fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut HandleNames> {
         let key = (channel, handle.0);
         let is_new = !self.handles.contains_key(&key);
@@ -218,7 +218,7 @@ impl Observed {
         name: CncStr<'_>,
         from: Sources,
     ) {
-        // A handle reaches all elements, so the entry has to as well: an index in its name does not.
+        // A handle reaches all elements, so an entry for a single element does not allow it.
         let whole = |entry: &Entry| match entry {
             Entry::Variable { name, .. } => !name.as_bytes().ends_with(b"]"),
             _ => true,
@@ -249,7 +249,7 @@ impl Observed {
         let asked = (axis, CncString::from(name));
         let Some(named) = self.named(key) else { return };
         let known = named.of_axis.get_or_insert_with(|| asked.clone());
-        // Of two axes it is the variable of neither.
+        // A handle of two axes belongs to neither.
         if *known != asked {
             named.foreign.get_or_insert(asked.1);
         }
@@ -263,7 +263,7 @@ impl Observed {
         all: &DescriptorsRef<'_>,
     ) {
         let is_of_list = |entry: &Entry, name: &CncString| matches!(entry, Entry::Object { list: of, name: one } if of.list() == list && one == name);
-        // A device may answer at an index after which there is no other.
+        // Some CNCs return descriptors for indices after the last.
         for (object, index) in all.iter().zip(first..=u32::MAX) {
             let address = (object.index_group(), object.index_offset());
             let name = CncString::from(object.name());
@@ -293,7 +293,7 @@ impl Observed {
 }
 
 impl ObservedObjects {
-    /// Whether each object was read that the list has.
+    /// Whether every object of the list was read.
     fn is_whole(&self) -> bool {
         let Some(count) = self.count else { return false };
         let seen = self.seen.range(1..=count.max(1)).count();
@@ -307,7 +307,8 @@ fn is_named(allowed: &Allowed, asked: ObjectList) -> bool {
     entries.any(|entry| matches!(entry, Entry::Object { list, .. } if list.list() == asked))
 }
 
-/// Whether a content may be that of a list's own object. Which number a rank has is not known.
+/// Whether a content may belong to an object of the list. The number of a channel given by rank is
+/// unknown.
 fn is_of(list: ObjectList, group: IndexGroup) -> bool {
     let (list, Some(Group::Com(content))) = (list.parts(), group.parts()) else { return false };
     let same = list.instance == content.instance;

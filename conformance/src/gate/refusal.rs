@@ -1,4 +1,4 @@
-//! Why a frame does not pass, and what would let it.
+//! Why the gate rejects a frame, and which entry would allow it.
 
 use std::fmt;
 use std::net::IpAddr;
@@ -22,65 +22,65 @@ pub struct Refusal {
     pub needed: Option<Entry>,
 }
 
-/// Why a frame does not pass.
+/// Why a frame is rejected.
 #[derive(Clone, Debug)]
 pub enum Reason {
-    /// Not one whole frame.
+    /// The bytes are not one complete frame.
     NoFrame,
-    /// The frame or the service's part of it does not hold together.
+    /// The lengths of the frame or of the service's data are inconsistent.
     Malformed(Error),
-    /// No request, by its state flags.
+    /// The state flags are not those of a request.
     NoRequest(StateFlags),
-    /// No task has this port.
+    /// The port is not that of a task.
     NoTask(AmsPort),
-    /// Data after a command that has none.
+    /// The command has no data, but data follows.
     Data(Command),
-    /// A command that nothing here sends.
+    /// The command is never sent.
     Never(Command),
-    /// Several requests in one, which may write.
+    /// A sum command, which may contain writes.
     Sum(IndexGroup),
-    /// The program stream, other than by a write to a channel's: what that does nobody documents.
+    /// The program stream, but not written to a channel's at the port of COM: the effect is not
+    /// documented.
     Stream,
-    /// No function of the table takes this: it might be anything.
+    /// No documented function: the effect is unknown.
     Unknown(operation::DispatchError),
-    /// The function is documented for another port, or changes something at GEO, which no entry is
-    /// about.
+    /// The function is documented for another port, or is a write to GEO, for which the file has no
+    /// entries.
     Port(AmsPort, Function),
-    /// The function changes something, and no file allows anything.
+    /// The function is a write, and there is no file.
     NoFile(Function, AmsNetId),
-    /// The function changes something that the file does not name.
+    /// The function is a write to a name that is not in the file.
     NoEntry(Function),
-    /// The file is about another target.
+    /// The file is for another target.
     OtherTarget { allowed: AmsNetId, target: AmsNetId },
     /// The file is for another IP address.
     OtherAddress {
         allowed: Option<IpAddr>,
-        /// The one that the connection goes to, if it is known.
+        /// The address of the connection, if known.
         address: Option<IpAddr>,
     },
-    /// The file is for 127.0.0.1.1.1, which is the local machine, and the address is another's.
+    /// The file is for 127.0.0.1.1.1, the local machine, but the connection is not to it.
     LocalNetId(Option<IpAddr>),
-    /// The file expires at this time.
+    /// The file has expired at this time.
     Expired(Moment),
-    /// The file names what is to be written, but what the device says of it leaves open whether the
-    /// handle or the address is that of something else.
+    /// The name is in the file, but the handle or the address may belong to another name too.
     Doubtful(Function, Doubt),
-    /// No file permits malformed requests.
+    /// The file does not permit malformed requests.
     NoMalformed(AmsNetId),
 }
 
-/// Why a handle or an address may be that of something which the file does not name.
+/// Why a handle or an address may belong to a name that is not in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Doubt {
     /// The device gives it to this name too.
     Shared(CncString),
-    /// The device gives several to this name.
+    /// The device gives several handles to this name.
     Several(CncString),
-    /// Not both of HandleByName and a description gave it to this name.
+    /// Only one of HandleByName and a description gave it to this name.
     Unconfirmed(CncString),
-    /// The address of the object of this name is that of another channel or axis.
+    /// The address of the object with this name belongs to another channel or axis.
     Elsewhere(CncString),
-    /// There are more names than are kept.
+    /// More names were returned than can be stored.
     TooMuch,
 }
 
@@ -109,7 +109,7 @@ impl Refusal {
         Self { reason, needed }
     }
 
-    /// What to do about it, over several lines; empty if nothing can be done.
+    /// Advice over several lines; empty if there is none.
     pub fn advice(&self) -> String {
         match (&self.reason, &self.needed) {
             (Reason::NoFile(_, target), Some(entry)) => format!(

@@ -30,7 +30,7 @@ fn gate(tables: &str) -> Gate {
     Gate::queries().with_allowed(Some(Allowed::from_toml(&file(tables)).unwrap()))
 }
 
-/// Of a file that names nothing, but permits malformed requests.
+/// A gate with a file that has no entries, but permits malformed requests.
 fn malformed() -> Gate {
     gate("malformed = true").and_malformed()
 }
@@ -73,7 +73,7 @@ fn element() -> ElementAddress {
     ElementAddress::for_channel(channel(1), Class::Hld, 1).unwrap()
 }
 
-/// One of each function that is no query, with the table that allows it.
+/// A request for each function that is not a query, with the table that allows it.
 fn writes() -> Vec<(Vec<u8>, &'static str)> {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(1));
     let axis = ChannelAxis::new(2).unwrap();
@@ -102,7 +102,7 @@ fn only_queries_pass_by_default() {
         if spec.effect != Effect::Query {
             continue;
         }
-        // Its address is let through to its own port only; some data fits each.
+        // The address is allowed at its own port only; each accepts some data.
         let offset = match spec.offset {
             ads_cnc::operation::OffsetRule::At(at) => at,
             ads_cnc::operation::OffsetRule::OfKind([first, ..]) => first,
@@ -128,7 +128,7 @@ fn only_queries_pass_by_default() {
         };
         assert!(passes(spec.task.port()), "{}", spec.name);
         for port in [1, 550, 551, 552, 553, 554, 851, 10000].map(AmsPort) {
-            // Section 2.2 has its functions for SDA and GEO.
+            // Section 2.2 documents its functions for SDA and GEO.
             let of_geo = port == AmsPort::GEO && spec.section.starts_with("2.2");
             let documented = port == spec.task.port() || of_geo;
             assert_eq!(passes(port), documented, "{} at {port}", spec.name);
@@ -150,7 +150,7 @@ fn what_is_never_sent_no_opt_in_sends() {
     let everything = "[[stream]]\nchannel = 1\n[[object]]\ngroup = 0x120101\noffset = 1";
     let sda = AmsPort::SDA;
     let never = [
-        // WriteControl to RUN, notifications, and requests in requests
+        // WriteControl to RUN, notifications, and sum commands
         frame(Command::WRITE_CONTROL, AmsPort::COM, &[5, 0, 0, 0, 0, 0, 0, 0]),
         frame(Command::ADD_NOTIFICATION, AmsPort::COM, &[0; 40]),
         frame(Command::DELETE_NOTIFICATION, AmsPort::COM, &[0; 4]),
@@ -158,13 +158,13 @@ fn what_is_never_sent_no_opt_in_sends() {
         at(sda, Service::ReadWrite, 0xF080, 1, &[0; 12]),
         at(sda, Service::ReadWrite, 0xF081, 1, &[0; 13]),
         at(sda, Service::ReadWrite, 0xF082, 1, &[0; 17]),
-        // The program stream, read, and written as if the platform had one
+        // The program stream: read, and written as if the platform had one
         at(AmsPort::COM, Service::Read, 0x12_0101, 0x90, &[]),
         at(AmsPort::COM, Service::Read, 0x2_0101, 0x90, &[]),
         at(AmsPort::COM, Service::Read, 0x12_0100, 0x90, &[]),
         at(AmsPort::COM, Service::ReadWrite, 0x12_0101, 0x90, &[1]),
         at(AmsPort::COM, Service::Write, 0x12_0100, 0x90, b"M30\r\n"),
-        // Written where it is not
+        // Written to an address without a function
         at(AmsPort::SDA, Service::Write, 0x12_0101, 0x90, b"M30\r\n"),
     ];
     for frame in never {
@@ -205,7 +205,7 @@ fn an_entry_is_for_one_target_and_one_time() {
         other[6] ^= 1;
         let refusal = gate.check(&other, now()).unwrap_err();
         assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
-        // Whoever it is for, a frame is one frame.
+        // Two frames are rejected for every target.
         let two = [frame.clone(), frame].concat();
         assert!(gate.check(&two, now()).is_err());
     }
@@ -233,7 +233,7 @@ fn a_variable_stands_for_its_elements_only() {
     assert!(one.check(&by_name("V.E.list[3]"), now()).is_ok());
     assert!(one.check(&by_name("V.E.list"), now()).is_err());
     assert!(one.check(&by_name("V.E.list[31]"), now()).is_err());
-    // A rank is no number: another channel may be there.
+    // A channel by rank may be another channel.
     let by_rank = WriteByName::new(Channel::by_index(1).unwrap(), "V.E.list", &[1][..]).unwrap();
     assert!(list.check(&request(by_rank), now()).is_err());
     let other = WriteByName::new(channel(2), "V.E.list", &[1][..]).unwrap();
@@ -295,7 +295,7 @@ fn a_handle_is_good_for_what_was_asked() {
         describe(&mut gate, name, handle);
     }
     assert!(gate.check(&by_handle(7), now()).is_ok());
-    // No entry, and one for an element, whose handle reaches the others too.
+    // Without an entry, and with one for an element, whose handle reaches the other elements too.
     assert!(matches!(gate.check(&by_handle(8), now()).unwrap_err().reason, Reason::NoEntry(_)));
     assert!(matches!(gate.check(&by_handle(9), now()).unwrap_err().reason, Reason::NoEntry(_)));
     gate.forget();
@@ -304,7 +304,7 @@ fn a_handle_is_good_for_what_was_asked() {
     assert_eq!(doubt(&gate, &by_handle(7)), unconfirmed());
 }
 
-/// A handle that the device gives to anything else too, whichever reply it does so in.
+/// A write by a handle is rejected if any reply gives it to another name too.
 #[test]
 fn a_handle_of_several_names_is_not_written_by() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
@@ -337,13 +337,13 @@ fn a_handle_of_several_names_is_not_written_by() {
     learn(&mut described, DescribeByName::new(channel(1), "V.E.b").unwrap(), &reply);
     assert_eq!(doubt(&described, &by_handle(7)), shared("V.E.b"));
 
-    // In another channel a handle is another.
+    // Handles of different channels are independent.
     let mut other = confirmed("V.E.a");
     let of_other = HandleByName::new(channel(2), "V.E.b").unwrap();
     learn(&mut other, of_other, &7_u32.to_le_bytes());
     assert!(other.check(&by_handle(7), now()).is_ok());
 
-    // The handle of another name that the file has is all right, several for one name are not.
+    // Another name in the file may have the same handle; several handles for one name are rejected.
     let mut both = confirmed("V.E.a");
     give_handle(&mut both, "V.A.p.X", 7);
     assert!(both.check(&by_handle(7), now()).is_ok());
@@ -351,7 +351,7 @@ fn a_handle_of_several_names_is_not_written_by() {
     assert_eq!(doubt(&both, &by_handle(7)), Some(Doubt::Several("V.E.a".parse().unwrap())));
     assert_eq!(doubt(&both, &by_handle(8)), Some(Doubt::Several("V.E.a".parse().unwrap())));
 
-    // On the axis interface the axis is no part of the name.
+    // On the axis interface the name does not contain the axis.
     let of_axis = |gate: &mut Gate, axis: u32, name: &str| {
         let axis = ChannelAxis::new(axis).unwrap();
         let ask = AxisHandleByName::new(channel(1), axis, name).unwrap();
@@ -367,7 +367,7 @@ fn a_handle_of_several_names_is_not_written_by() {
     assert_eq!(doubt(&axis, &by_handle(7)), shared("V.A.q"));
 }
 
-/// What does not fit any more closes the gate; nothing that was observed makes room for it.
+/// Beyond the limit the gate rejects every write by handle; later observations do not change that.
 #[test]
 fn what_is_learnt_is_bounded() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
@@ -386,14 +386,16 @@ fn what_is_learnt_is_bounded() {
     }
     assert!(gate.check(&by_name("V.E.a"), now()).is_ok());
     assert!(gate.knows_handle(channel(1), Handle(2)));
-    // It stays closed on another connection too: what was not kept is not known there.
+    // Writes by handle stay rejected on another connection: names that were not stored are unknown
+    // there too.
     gate.forget();
     describe(&mut gate, "V.E.a", 7);
     give_handle(&mut gate, "V.E.a", 7);
     assert!(gate.check(&by_handle(7), now()).is_err());
 }
 
-/// Another connection confirms a handle anew. A foreign name of a handle is not forgotten.
+/// A handle must be confirmed again on a new connection. A foreign name of a handle is not
+/// forgotten.
 #[test]
 fn another_connection_forgets_what_lets_writes_pass() {
     let confirm = |gate: &mut Gate, handle| {
@@ -431,7 +433,7 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     let mut known = gate(table);
     learn(&mut known, CountObjects::new(channel(1)), &three);
     learn(&mut known, ask(2, 1), &object("b_w", 2));
-    // There might be another.
+    // There might be another object with the same name.
     assert!(known.check(&write(2), now()).is_err());
     learn(&mut known, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("c_w", 3)]));
     assert!(known.check(&write(2), now()).is_ok());
@@ -442,7 +444,7 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     learn(&mut twice, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("b_w", 3)]));
     assert!(twice.check(&write(2), now()).is_err() && twice.check(&write(3), now()).is_err());
 
-    // Beyond the last there is none: what a device says to be there does not make the list whole.
+    // A descriptor for an index after the last does not complete the list.
     let mut beyond = gate(table);
     learn(&mut beyond, CountObjects::new(channel(1)), &three);
     learn(&mut beyond, ask(2, 3), &list([("b_w", 2), ("c_w", 3), ("d_w", 4)]));
@@ -466,8 +468,8 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     assert_eq!(doubt(&elsewhere, &write(2)), Some(Doubt::Elsewhere("b_w".parse().unwrap())));
 }
 
-/// A file may bind the address that its NetId is asked at, and has to be about this machine if it
-/// is about the NetId that each machine has for itself.
+/// A file may require an IP address, and must require a loopback address for the NetId
+/// 127.0.0.1.1.1, which every machine uses for itself.
 #[test]
 fn a_file_binds_an_address() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"";
@@ -495,8 +497,8 @@ fn a_file_binds_an_address() {
     }
 }
 
-/// What no client should send passes for the target of a file that permits it, for its time; the
-/// option alone, or the file alone, lets nothing of it pass.
+/// Malformed requests pass for the target and time of a file that permits them; neither the option
+/// nor the file alone allows any.
 #[test]
 fn malformed_requests_need_a_file() {
     let bad = at(AmsPort::SDA, Service::ReadWrite, 0xF005, 0, b"x");
@@ -514,7 +516,7 @@ fn malformed_requests_need_a_file() {
         other[6] ^= 1;
         let refusal = malformed().check(&other, now()).unwrap_err();
         assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
-        // To whom it goes is not known.
+        // The target is unknown.
         assert!(malformed().check(&frame[..frame.len() - 1], now()).is_err());
     }
     let refusal = Gate::queries().and_malformed().check_malformed(TARGET, now()).unwrap_err();
@@ -579,7 +581,7 @@ fn a_bad_file_is_refused_with_its_line() {
     assert!(lost.to_string().starts_with("/no/such/file.toml: "));
 }
 
-/// What a refusal says is needed is what a file takes.
+/// The entry that a rejection suggests is accepted in a file.
 #[test]
 fn entries_are_shown_as_they_are_read() {
     let entries = [

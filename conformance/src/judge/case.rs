@@ -1,4 +1,4 @@
-//! What a case is.
+//! A case of the suite: its metadata.
 
 use std::fmt;
 
@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::text::named;
 
-/// One thing the suite tries.
+/// A case of the suite.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// A slug that keeps its meaning.
+    /// A slug whose meaning never changes.
     pub id: String,
-    /// What is tried, in a sentence.
+    /// The subject of the case, as a sentence.
     pub title: String,
     pub subject: CaseSubject,
     /// The requirements it can judge.
     pub requirements: Vec<&'static str>,
-    /// What it asks of the target beyond a first channel.
+    /// What the target must permit or have.
     pub needs: Needs,
     pub body: Body,
 }
@@ -27,14 +27,14 @@ pub struct Case {
 pub enum CaseSubject {
     /// This project's codec.
     Codec,
-    /// A codec that is asked over pipes.
+    /// A codec in another process.
     Testee,
     Target,
-    /// What asks a CNC.
+    /// A client of a CNC.
     Client,
-    /// Clients in traffic that was captured.
+    /// Clients in captured traffic.
     CapturedClient,
-    /// CNCs in traffic that was captured.
+    /// CNCs in captured traffic.
     CapturedCnc,
 }
 
@@ -49,48 +49,47 @@ impl fmt::Display for CaseSubject {
     }
 }
 
-/// What a case asks of the target.
+/// What a case requires of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
     /// Well-formed queries.
     Queries,
-    /// Requests that no client should send: only for a target that cannot move.
+    /// Malformed requests: only for a target that cannot move.
     Malformed,
-    /// Writes, which are undone: only what may be written.
+    /// Writes that are undone, of values that may be written.
     Writes,
-    /// Writes that no client should send: only to a target that cannot move.
+    /// Malformed writes: only for a target that cannot move.
     MalformedWrites,
     /// The simulated CNC in this process, whose state the case reads or changes directly.
     Simulator,
-    /// A target that claims to answer the manuals' examples.
+    /// A target whose profile claims the manuals' printed examples.
     PrintedExamples,
-    /// The frames that all other cases, or others altogether, exchanged.
+    /// The frames that the other cases or other clients exchanged.
     Frames,
-    /// No target: the codec itself is judged.
+    /// No target: this project's codec is judged.
     Codec,
 }
 
-/// How a case is done.
+/// How a case is executed.
 #[derive(Clone, Copy, Debug)]
 pub enum Body {
-    /// By a function of the suite, which knows it by the case's ID.
+    /// By a function of the suite with the case's ID.
     Probe,
     /// By sending a printed request and comparing the reply with the printed one.
     Printed(&'static Vector),
     /// By decoding and encoding a vector.
     Vector(&'static Vector),
-    /// By putting an NC text into packets, or looking through one.
+    /// By splitting an NC text into packets, or checking one.
     Sequence(&'static Sequence),
-    /// By watching how a testee answers all the others.
+    /// By checking a testee's answers in all other cases.
     Protocol,
-    /// By watching what a client sends and says.
+    /// By checking a client's requests and answers.
     Client,
-    /// By looking through traffic of others.
+    /// By checking captured traffic.
     Traffic,
 }
 
-/// The IDs, each of which the catalogue has; a table with another does not compile.
-#[allow(clippy::panic, reason = "runs when a table is compiled")]
+/// Checks at compile time that all IDs are in the catalogue.
 pub(crate) const fn in_catalogue(ids: &'static [&'static str]) -> &'static [&'static str] {
     let mut rest = ids;
     while let [id, others @ ..] = rest {

@@ -1,4 +1,4 @@
-//! Checks: the rule of each, and what came of it.
+//! Checks: the rule of each, and its verdict.
 
 use std::error::Error;
 use std::fmt::{self, Display};
@@ -8,56 +8,56 @@ use ads_cnc_vectors::{Hex, Level, clause};
 use super::{CLIENT, Evidence, Verdict};
 use crate::text::shorten;
 
-/// How a step of a case goes on.
+/// The result of a step of a case.
 pub type Step<T = ()> = Result<T, Stop>;
 
-/// Why a case ends before its end.
+/// Why a case ends early.
 #[derive(Clone, Debug)]
 pub enum Stop {
-    /// A judgement has been made that leaves nothing to go on with.
+    /// A failed check leaves nothing to continue with.
     Judged,
-    /// The target has nothing to try this on.
+    /// The target does not have what the case needs.
     NotApplicable(String),
-    /// What came back does not tell.
+    /// The replies do not decide the case.
     Inconclusive(String),
     Refused(String),
-    /// The run is to end.
+    /// The run is being interrupted.
     Interrupted,
-    /// The suite itself is wrong.
+    /// An error of the suite itself.
     Harness(String),
 }
 
 impl Stop {
-    /// The target has nothing to try this on.
+    /// The target does not have what the case needs.
     pub(crate) fn not_applicable(why: impl Into<String>) -> Self {
         Self::NotApplicable(why.into())
     }
 
-    /// What came back does not tell.
+    /// The replies do not decide the case.
     pub(crate) fn inconclusive(why: impl Into<String>) -> Self {
         Self::Inconclusive(why.into())
     }
 }
 
-/// An error that a case returns with `?` is the suite's own, such as a request that has no form on the
-/// wire. A reply that cannot be decoded is a failed check, or None, but never such an error.
+/// An error that a case returns with `?` is one of the suite, such as a request that cannot be
+/// encoded. A reply that cannot be decoded is a failed check or `None`, but never such an error.
 impl<E: Error> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Harness(error.to_string())
     }
 }
 
-/// Ends a case as not applicable unless it judged anything.
+/// Ends a case as not applicable if it had nothing to judge.
 pub(crate) fn applicable(any: bool, why: &str) -> Step {
     if any { Ok(()) } else { Err(Stop::not_applicable(why)) }
 }
 
-/// Ends a case that lacks a value.
+/// Ends a case if a value is missing.
 pub(crate) trait OrStop<T> {
-    /// The value, or the case is not applicable.
+    /// The value; without one the case ends as not applicable.
     fn or_not_applicable(self, why: &str) -> Step<T>;
 
-    /// The value, or the case is inconclusive.
+    /// The value; without one the case ends as inconclusive.
     fn or_inconclusive(self, why: &str) -> Step<T>;
 }
 
@@ -71,13 +71,13 @@ impl<T> OrStop<T> for Option<T> {
     }
 }
 
-/// Goes on with a case that lacks a value.
+/// Continues a case without a value.
 pub(crate) trait IfThere<T> {
-    /// The value, or None where the target does not have it.
+    /// The value; `None` if the target does not have it.
     fn if_applicable(self) -> Step<Option<T>>;
 
-    /// The value, or None where the target does not have it or it could not be read: other cases judge
-    /// that.
+    /// The value; `None` if the target does not have it or it could not be read, which other cases
+    /// judge.
     fn if_known(self) -> Step<Option<T>>;
 }
 
@@ -101,7 +101,7 @@ impl<T> IfThere<T> for Step<T> {
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
     pub id: &'static str,
-    /// The level it is judged at.
+    /// The level, if it is not that of the catalogue.
     pub level: Option<Level>,
 }
 
@@ -117,17 +117,17 @@ impl From<&'static str> for Rule {
     }
 }
 
-/// A part of a requirement that is assumed, whatever its rest is.
+/// A part of a requirement that is assumed, even if the rest is stated.
 pub const fn assumed(id: &'static str) -> Rule {
     Rule { id, level: Some(Level::Info) }
 }
 
-/// A part of a requirement that is known from help pages only, whatever its rest is.
+/// A part of a requirement that is documented in online help only.
 pub const fn online(id: &'static str) -> Rule {
     Rule { id, level: Some(Level::Should) }
 }
 
-/// The requirements of one check.
+/// The requirements of a check.
 pub trait Rules {
     /// Each of them.
     fn rules(self) -> impl Iterator<Item = Rule>;
@@ -172,7 +172,7 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
 /// What a check expected, or found. Only a check that fails formats it: for a pass no closure is called
 /// and no `format_args!` is formatted.
 pub trait Describe {
-    /// As a report shows it.
+    /// The text in a report.
     fn describe(self) -> String;
 }
 
@@ -200,32 +200,33 @@ pub struct Judgement {
     /// The level it was judged at; that of an assumed part may be lower.
     pub level: Option<Level>,
     pub verdict: Verdict,
-    /// What was expected; empty for a pass.
+    /// The expected result; empty for a pass.
     pub expected: String,
-    /// What was there; empty for a pass.
+    /// The actual result; empty for a pass.
     pub found: String,
-    /// The request and the answer in question.
+    /// The request and the reply.
     pub evidence: Option<Evidence>,
-    /// Checks with the same verdict that are not kept.
+    /// The number of further checks with the same verdict, which are not stored.
     pub more: usize,
 }
 
-/// The most failed checks a case keeps of one requirement; of the others it keeps the number.
+/// Maximum number of failed checks stored for a requirement of a case; the others are counted.
 const KEPT: usize = 3;
 
-/// The most characters that are kept of what was expected, and of what was found.
+/// Maximum number of characters of the expected, and of the actual result.
 pub(crate) const TEXT_MAX: usize = 1024;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     pub(crate) judgements: Vec<Judgement>,
-    /// How many there were.
+    /// Number of all checks.
     pub(crate) checks: usize,
 }
 
-/// Records checks: of a case that sends requests, or of captured traffic.
+/// Records the checks of a case or of captured traffic.
 pub(crate) trait Checks {
-    /// Judges a check for each of the rules; returns `kept`. The words are formatted if it fails.
+    /// Records a check for each of the rules; returns `kept`. The texts are formatted only if it
+    /// fails.
     fn check(
         &mut self,
         rules: impl Rules,
@@ -236,7 +237,7 @@ pub(crate) trait Checks {
 }
 
 impl Rule {
-    /// What comes of it if it is kept or not.
+    /// The verdict for a check that passed or failed.
     pub(crate) const fn verdict(self, kept: bool) -> Verdict {
         match (kept, self.level) {
             (true, _) => Verdict::Pass,
@@ -247,7 +248,7 @@ impl Rule {
 }
 
 impl Record {
-    /// Adds one check of several rules.
+    /// Adds a check of several rules.
     pub(crate) fn add_all(
         &mut self,
         rules: impl Rules,
@@ -263,7 +264,8 @@ impl Record {
         }
     }
 
-    /// Adds a check; of those that passed, and of many alike, the first are kept.
+    /// Adds a check; of passed checks, and of several with the same verdict, only the first are
+    /// stored.
     pub(crate) fn add(
         &mut self,
         rule: Rule,
@@ -272,7 +274,7 @@ impl Record {
         found: impl Describe,
         evidence: impl FnOnce() -> Option<Evidence>,
     ) {
-        self.checks = self.checks.saturating_add(1);
+        self.checks += 1;
         let passed = verdict == Verdict::Pass;
         let same = self
             .judgements
@@ -281,7 +283,7 @@ impl Record {
         let mut same: Vec<_> = same.collect();
         if same.len() >= if passed { 1 } else { KEPT } {
             if let Some(last) = same.last_mut() {
-                last.more = last.more.saturating_add(1);
+                last.more += 1;
             }
             return;
         }
@@ -297,17 +299,17 @@ impl Record {
         self.judgements.push(judgement);
     }
 
-    /// What it has of a requirement.
+    /// The part of the record about a requirement.
     pub(crate) fn of(&self, requirement: &str) -> Self {
         let mine = self.judgements.iter().filter(|one| one.requirement == requirement);
         let judgements: Vec<Judgement> = mine.cloned().collect();
-        let checks = judgements.iter().map(|one| one.more.saturating_add(1));
-        Self { checks: checks.fold(0, usize::saturating_add), judgements }
+        let checks = judgements.iter().map(|one| one.more + 1).sum();
+        Self { checks, judgements }
     }
 
-    /// Adds what another record has, which is of other requirements.
+    /// Adds a record of other requirements.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.judgements.append(&mut other.judgements);
-        self.checks = self.checks.saturating_add(other.checks);
+        self.checks += other.checks;
     }
 }

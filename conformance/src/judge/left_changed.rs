@@ -1,4 +1,4 @@
-//! What a run left changed.
+//! Values that a run changed and did not restore.
 
 use std::fmt;
 
@@ -8,19 +8,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LeftChanged {
-    /// What it is the value of.
+    /// The name of the value.
     pub name: String,
-    /// What it was, in hex.
+    /// The original value in hex.
     pub was: String,
-    /// What it is, in hex, as it was read or written last; none if that is not known.
+    /// The current value in hex, as last read or written; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub is: Option<String>,
-    /// Why the suite sent no write that restores it, if it sent none.
+    /// Why no write was sent to restore it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refused: Option<String>,
 }
 
-/// As every form of a report says it.
+/// The text in every format of the report.
 impl fmt::Display for LeftChanged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, was, is, refused } = self;

@@ -1,4 +1,4 @@
-//! The words of a judgement: case, check, evidence, outcome, verdict, plan, waiver. Nothing here
+//! The terms of a judgement: case, check, evidence, outcome, verdict, plan, waiver. No module here
 //! opens a file or a socket.
 
 mod case;
@@ -26,8 +26,8 @@ pub(crate) use vectors::{case_of, codec_cases, typed};
 pub use verdict::{Exit, Verdict, VerdictTally};
 pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
 
-/// What the protocol with a codec demands, beside the requirements of the catalogue.
+/// The ID of the rules of the testee protocol, which are not in the catalogue.
 pub const TESTEE: &str = "TESTEE";
 
-/// What the protocol with a client demands, beside the requirements of the catalogue.
+/// The ID of the rules of the client protocol, which are not in the catalogue.
 pub const CLIENT: &str = "CLIENT";

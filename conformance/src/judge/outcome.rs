@@ -1,4 +1,4 @@
-//! What came of a case.
+//! The outcome of a case.
 
 use std::panic::{self, AssertUnwindSafe};
 
@@ -9,32 +9,32 @@ pub struct CaseOutcome {
     pub case: Case,
     pub verdicts: Vec<RequirementVerdict>,
     pub checks: usize,
-    /// Why it did not run, or not to its end.
+    /// Why it did not run, or not completely.
     pub note: Option<String>,
-    /// Whether the gate refused a request of it.
+    /// Whether the gate rejected one of its requests.
     pub refused: bool,
 }
 
-/// What came of one requirement in a case.
+/// The verdict on a requirement in a case.
 #[derive(Clone, Debug)]
 pub struct RequirementVerdict {
     pub requirement: &'static str,
     /// The gravest verdict of its checks.
     pub verdict: Verdict,
-    /// The checks that were not passed.
+    /// The checks that did not pass.
     pub judgements: Vec<Judgement>,
 }
 
-/// Why a case did not come to its end.
+/// The note of an interrupted case.
 const INTERRUPTED: &str = "interrupted before its end";
 
 impl CaseOutcome {
-    /// A case that was not begun when the run was interrupted.
+    /// A case that had not begun when the run was interrupted.
     pub(crate) fn interrupted(case: Case) -> Self {
         Self::untried(case, Verdict::Interrupted, "interrupted before it was begun")
     }
 
-    /// A case that was not tried.
+    /// A case that was not run.
     pub(crate) fn untried(case: Case, verdict: Verdict, note: impl Into<String>) -> Self {
         let verdicts = case.requirements.iter().map(|&requirement| RequirementVerdict {
             requirement,
@@ -89,7 +89,7 @@ fn of_requirement(
 ) -> RequirementVerdict {
     let mine = || judgements.iter().filter(|judgement| judgement.requirement == requirement);
     let judged = gravest(mine().map(|judgement| judgement.verdict));
-    // A case that could not be finished does not pass by its beginning.
+    // A case that ended early does not pass because its first checks did.
     let verdict = match judged {
         Some(Verdict::Pass) if unjudged.gravity() > Verdict::Pass.gravity() => unjudged,
         Some(judged) => judged,
@@ -99,12 +99,12 @@ fn of_requirement(
     RequirementVerdict { requirement, verdict, judgements: failed.cloned().collect() }
 }
 
-/// The verdict of several together.
+/// The gravest of several verdicts.
 pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
     verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
 }
 
-/// Runs a case; its error is the message of a panic, which ends this case alone.
+/// Calls a function; the error is the message of a panic, which ends only the current case.
 pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let text = payload.downcast_ref::<&str>().copied();

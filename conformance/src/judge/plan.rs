@@ -1,4 +1,4 @@
-//! Which cases are run, and in which order.
+//! The selection and order of cases.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher as _, RandomState};
@@ -8,7 +8,7 @@ use ads_cnc_vectors::{Source, requirement};
 use super::{Body, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
 
-/// What is to be run.
+/// The selection of cases.
 ///
 /// ```
 /// use ads_cnc_conformance::judge::{Selection, Unmatched};
@@ -27,53 +27,53 @@ use crate::edition::Edition;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
-    /// The one edition of the manual on ADS access that is judged by; without it both.
+    /// The only edition of the manual to judge by; `None` for both.
     pub edition: Option<Edition>,
-    /// Areas such as VAR, requirements such as VAR-11, cases by their ID. Case does not matter;
-    /// none selects all.
+    /// Areas such as VAR, requirements such as VAR-11, IDs of cases. Upper and lower case are
+    /// equal; an empty list selects all.
     pub only: Vec<String>,
 }
 
-/// Nothing is called that.
+/// A word that selects nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no case is called {0} or judges it")]
 pub struct Unmatched(String);
 
-/// What is run, in its order, and what is not.
+/// The selected cases in order, and the others.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The cases to run. Their outcomes go to [`finish`](Self::finish).
     pub cases: Vec<Case>,
-    /// Those the edition does not have, each with the reason.
+    /// Cases that do not belong to the edition, each with the reason.
     pub foreign: Vec<(Case, String)>,
     /// Those that were not selected.
     left_out: Vec<Case>,
-    /// What is judged of a case that is not judged whole.
+    /// The selected requirements of cases that are only partly selected.
     judged: HashMap<String, Vec<&'static str>>,
 }
 
-/// What was left out of a run because something else was selected.
+/// The cases of a subject that were not selected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
     pub id: String,
-    /// Whom it would have judged.
+    /// Their subject.
     pub subject: CaseSubject,
-    /// And by what.
+    /// Their requirements.
     pub requirements: Vec<&'static str>,
 }
 
-/// A seed that nobody chose.
+/// A random seed.
 pub fn any_seed() -> u32 {
     let random = RandomState::new().hash_one(());
     u32::try_from(random >> 32).unwrap_or(u32::MAX)
 }
 
 impl Selection {
-    /// Puts cases in an order that comes from the seed. Those of one selection keep their order in
-    /// another; what judges all the others comes last.
+    /// Selects cases and orders them by the seed. The order of two cases is the same in every
+    /// selection; cases that judge the frames of the others are last.
     ///
     /// # Errors
-    /// Something that is to be run is not there.
+    /// A word of the selection that no case or requirement has.
     pub fn plan(&self, mut cases: Vec<Case>, seed: u32) -> Result<Plan, Unmatched> {
         let unmatched = self.only.iter().find(|word| {
             let judges = |case: &Case| case.requirements.iter().any(|id| names(word, id));
@@ -108,7 +108,7 @@ impl Selection {
         Ok(plan)
     }
 
-    /// What of a case is to be judged.
+    /// The requirements of a case that are selected.
     fn selected_requirements(&self, case: &Case) -> Vec<&'static str> {
         let whole = self.only.is_empty()
             || self.only.iter().any(|word| word.eq_ignore_ascii_case(&case.id));
@@ -119,7 +119,7 @@ impl Selection {
             requirement(id).is_none_or(|requirement| has(edition, &requirement.sources))
         };
         match all.iter().copied().filter(has).collect::<Vec<_>>() {
-            // Of what only the other edition has, the reason is told with the case.
+            // All requirements of the case, so that it is listed with the reason.
             none if none.is_empty() => all,
             some => some,
         }
@@ -127,8 +127,7 @@ impl Selection {
 }
 
 impl Plan {
-    /// What judges frames needs some: if nothing else is selected that exchanges any, the other
-    /// queries are made for their sake.
+    /// Adds query cases if only cases about frames are selected, which need frames to judge.
     fn carry_frames(&mut self) {
         let of_target = |case: &&Case| case.subject == CaseSubject::Target;
         let frames = |case: &Case| case.needs == Needs::Frames;
@@ -150,7 +149,7 @@ impl Plan {
             .filter(|case| self.judged.get(&case.id).is_none_or(|judged| !judged.is_empty()))
     }
 
-    /// Keeps of the outcomes what was asked for, and says what was not run.
+    /// Limits the outcomes to the selected requirements, and adds the cases that were not run.
     pub fn finish(self, outcomes: Vec<CaseOutcome>) -> (Vec<CaseOutcome>, Vec<LeftOut>) {
         let Self { foreign, left_out, judged, .. } = self;
         let mut left_out: Vec<LeftOut> = left_out.iter().map(|case| left(case, &[])).collect();
@@ -179,20 +178,21 @@ fn left(case: &Case, judged: &[&str]) -> LeftOut {
     LeftOut { id: case.id.clone(), subject: case.subject, requirements: requirements.collect() }
 }
 
-/// Whether a word means a requirement: by its area, or itself.
+/// Whether a word is the area of a requirement or its ID.
 pub(crate) fn names(word: &str, requirement: &str) -> bool {
     let area = requirement.split_once('-').map_or("", |(area, _)| area);
     word.eq_ignore_ascii_case(requirement) || word.eq_ignore_ascii_case(area)
 }
 
-/// Whether an edition has one of these places; what is in neither is not of the editions.
+/// Whether any of these sources belongs to an edition, or none to either.
 fn has(edition: Edition, sources: &[Source]) -> bool {
     let has_source =
         |edition: Edition| sources.iter().any(|source| source.document == edition.document());
     has_source(edition) || !Edition::ALL.into_iter().any(has_source)
 }
 
-/// Why a case is not judged by an edition: only the other one prints it, or requires it.
+/// Why a case does not belong to an edition: only the other edition prints its example, or has its
+/// requirements.
 fn foreign(case: &Case, edition: Edition) -> Option<String> {
     let provenance = match case.body {
         Body::Vector(vector) | Body::Printed(vector) => Some(&vector.provenance),
@@ -212,8 +212,8 @@ fn foreign(case: &Case, edition: Edition) -> Option<String> {
     Some(format!("{edition} {why}"))
 }
 
-/// The place of a case among the others: FNV-1a over seed and ID, its bits mixed as splitmix64
-/// does. No library's hash or shuffle stays the same for good, and a seed in a report has to.
+/// The sort key of a case: FNV-1a over seed and ID, mixed as in splitmix64. Implemented here
+/// because a seed in a report must mean the same order in every version.
 pub(crate) fn order(seed: u32, id: &str) -> u64 {
     let bytes = seed.to_le_bytes().into_iter().chain(id.bytes());
     let hash = bytes.fold(0xCBF2_9CE4_8422_2325_u64, |hash, byte| {
@@ -245,12 +245,12 @@ mod tests {
         assert_ne!(ids(&one), ids(&two));
         assert_eq!(one.cases.len(), cases().len());
         assert_eq!(ids(&one).last(), Some(&"ads-every-frame"));
-        // A part keeps the order of the whole.
+        // A selection has the order of the whole.
         let part = plan(None, &["var"], 1);
         let mut whole = ids(&one);
         whole.retain(|id| ids(&part).contains(id));
         assert_eq!(whole, ids(&part));
-        // For good: known from outside, so that a seed of an old report still means its order.
+        // Fixed values: the seed of an old report must keep its order.
         assert_eq!(order(0, ""), 0xACA6_D6B5_4BE3_ED05);
     }
 

@@ -1,4 +1,4 @@
-//! Cases made of golden vectors and of NC texts, for a codec.
+//! Cases for a codec, made of golden vectors and NC texts.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use ads_cnc_vectors::{Context, Given, Sequence, Vector, sequence, sequences, vec
 use super::{Body, Case, CaseSubject, Needs};
 use crate::values::{ValueFormat, type_by_name};
 
-/// One case for each vector, and for each text that is put into packets or looked through.
+/// A case for each vector, and for each text that is split into packets or checked.
 pub(crate) fn codec_cases() -> Vec<Case> {
     let vectors = vectors().iter().map(|one| case_of(one, "vec", Needs::Codec, Body::Vector(one)));
     let texts = sequences().iter().filter(|one| is_text(one)).map(of_text);
@@ -29,7 +29,7 @@ fn of_text(sequence: &'static Sequence) -> Case {
     }
 }
 
-/// The siblings of the refused ones among these cases that are not among them.
+/// The accepted siblings of rejected vectors that are not among these cases.
 pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
     let mut known: HashSet<&str> = HashSet::new();
     let mut wanted: Vec<&str> = Vec::new();
@@ -64,7 +64,7 @@ pub(crate) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -
     }
 }
 
-/// How a report reads the value of a vector.
+/// The types by which a report decodes the value of a vector.
 pub(crate) fn typed(context: &Context) -> ValueFormat {
     let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
     ValueFormat { ty, dimensions: context.dimensions.clone().unwrap_or_default() }

@@ -1,4 +1,4 @@
-//! What a judgement can be, and what a run of them means for the caller.
+//! Verdicts, and the exit code of a run.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -12,27 +12,27 @@ use crate::text::named;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// Done as required.
+    /// The requirement is met.
     Pass,
     /// A must was not met.
     Fail,
     /// A should was not met.
     Warning,
-    /// Something assumed was done otherwise.
+    /// A part that is assumed is different.
     Differs,
-    /// Refused as required, but its accepted sibling was refused too.
+    /// The rejection is right, but the accepted sibling was rejected too.
     Vacuous,
-    /// What came back does not tell.
+    /// The replies do not decide it.
     Inconclusive,
-    /// The target does not claim it.
+    /// The profile does not claim it.
     NotApplicable,
-    /// Nothing that happened touches it.
+    /// No request or reply touched the requirement.
     NotObserved,
-    /// Not asked for.
+    /// Not selected.
     NotRun,
-    /// The run was interrupted before it was done.
+    /// The run was interrupted before it.
     Interrupted,
-    /// The suite itself failed.
+    /// An error of the suite itself.
     HarnessError,
 }
 
@@ -43,7 +43,7 @@ named! { Verdict:
 }
 
 impl Verdict {
-    /// The verdict on something of this level that was not done.
+    /// The verdict on a requirement of this level that is not met.
     pub const fn missed(level: Level) -> Self {
         match level {
             Level::Must => Self::Fail,
@@ -52,24 +52,24 @@ impl Verdict {
         }
     }
 
-    /// Whether something was judged at all.
+    /// Whether it is a judgement of the target.
     pub const fn is_judged(self) -> bool {
         matches!(self, Self::Pass | Self::Fail | Self::Warning | Self::Differs | Self::Vacuous)
     }
 
-    /// Whether a run with it is no success.
+    /// Whether a run with it is not a success.
     pub const fn is_trouble(self) -> bool {
         let open = matches!(self, Self::Inconclusive | Self::Interrupted);
         open || matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
     }
 
-    /// Whether somebody may put up with it.
+    /// Whether a waiver can accept it.
     pub const fn is_waivable(self) -> bool {
         let known = matches!(self, Self::Fail | Self::Vacuous | Self::Inconclusive);
         known || matches!(self, Self::Warning | Self::Differs)
     }
 
-    /// How much of a reader's attention it needs; the verdict of a group is its gravest.
+    /// The order of severity; the verdict of a group is its gravest.
     pub const fn gravity(self) -> u8 {
         match self {
             Self::HarnessError => 10,
@@ -93,20 +93,20 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// How the process ends. Never a count.
+/// The exit code, which is never a count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Everything judged is in order; warnings and differences leave it so.
+    /// All judgements are in order; warnings and differences are permitted.
     Success,
     /// A fail, or a vacuous verdict.
     Failure,
     /// The command line is wrong.
     Usage,
-    /// Nothing was judged, or something stayed inconclusive, or the run was interrupted.
+    /// Nothing was judged, a verdict is inconclusive, or the run was interrupted.
     Nothing,
-    /// Refused for safety.
+    /// The gate rejected a request.
     Refused,
-    /// A waiver no longer holds.
+    /// A waiver is stale.
     Stale,
     /// A value was changed and could not be restored.
     LeftChanged,
@@ -131,7 +131,7 @@ impl Exit {
         Self::ALL.into_iter().find(|exit| exit.code() == code)
     }
 
-    /// All of them, in the order in which they win over one another.
+    /// All exit codes, in the order of precedence.
     pub const ALL: [Self; 8] = [
         Self::Internal,
         Self::LeftChanged,
@@ -143,7 +143,7 @@ impl Exit {
         Self::Success,
     ];
 
-    /// The first that holds for these verdicts.
+    /// The exit code for these verdicts.
     pub fn of(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
         let mut tally = VerdictTally::default();
         verdicts.into_iter().for_each(|verdict| tally.add(verdict, false));
@@ -151,23 +151,23 @@ impl Exit {
     }
 }
 
-/// What a run had, as far as it decides how the process ends.
+/// The facts of a run that determine the exit code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VerdictTally {
     judged: bool,
     failed: bool,
     open: bool,
     broken: bool,
-    /// Something was refused for safety.
+    /// The gate rejected a request.
     pub refused: bool,
-    /// A waiver no longer holds.
+    /// A waiver is stale.
     pub stale: bool,
     /// A value was changed and could not be restored.
     pub left_changed: bool,
 }
 
 impl VerdictTally {
-    /// Counts a verdict. One that is put up with is judged, and that is all.
+    /// Counts a verdict. A waived one counts as judged only.
     pub const fn add(&mut self, verdict: Verdict, waived: bool) {
         if verdict.is_judged() || waived {
             self.judged = true;
@@ -183,7 +183,7 @@ impl VerdictTally {
         }
     }
 
-    /// The first that holds.
+    /// The exit code with the highest precedence.
     pub const fn exit(self) -> Exit {
         let Self { judged, failed, open, broken, refused, stale, left_changed } = self;
         match (broken, left_changed, refused, failed, stale) {
@@ -208,7 +208,7 @@ impl From<Exit> for ExitCode {
 mod tests {
     use super::*;
 
-    /// The order of exit codes: the gravest cause decides, and nothing judged is no success.
+    /// The precedence of exit codes; a run without judgements is not a success.
     #[test]
     fn the_first_cause_decides() {
         use Verdict::*;
@@ -230,7 +230,7 @@ mod tests {
         }
     }
 
-    /// What is put up with does not decide; that it is known no longer does, but a failure first.
+    /// A waived failure is a success; a stale waiver is not, but a failure takes precedence.
     #[test]
     fn waivers_decide_in_their_turn() {
         use Verdict::*;

@@ -1,4 +1,4 @@
-//! Known failures that a run puts up with: the file of `--waivers`.
+//! Known failures that a run accepts: the file of `--waivers`.
 //!
 //! ```
 //! use ads_cnc_conformance::judge::Waivers;
@@ -15,8 +15,8 @@
 //! # Ok::<(), ads_cnc_conformance::judge::WaiverError>(())
 //! ```
 //!
-//! One that no longer holds makes the run end with the exit code 5: its day is over, nothing that
-//! ran is called that, or the verdict is another one by now. Of what was not run nothing is known.
+//! A stale waiver makes the run end with the exit code 5: it has expired, no case that ran matches
+//! it, or the verdict is another one. A waiver whose case was not run is not stale.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -34,7 +34,7 @@ use crate::text::Moment;
 #[derive(Clone, Debug, Default)]
 pub struct Waivers(Vec<Waiver>);
 
-/// Why a file waives nothing: where it says what cannot be, and why not.
+/// An error in the file, with its line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{why}", file.as_deref().map(|file| format!("{file}: ")).unwrap_or_default())]
 pub struct WaiverError {
@@ -42,41 +42,41 @@ pub struct WaiverError {
     why: String,
 }
 
-/// A known failure, and what became of it.
+/// A waiver and its state in a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WaiverReport {
     pub test: String,
     pub requirement: String,
     pub verdict: Verdict,
-    /// Why it is put up with.
+    /// Why the failure is accepted.
     pub reason: String,
-    /// The first day on which it holds no longer.
+    /// The first day after its validity.
     pub expires: String,
     pub state: WaiverState,
-    /// The verdict in this run, if there is one.
+    /// The verdict in this run, if the case was run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub found: Option<Verdict>,
 }
 
-/// What became of a waiver.
+/// The state of a waiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WaiverState {
     /// The verdict is the expected one.
     Used,
-    /// What it is about was not run: nothing is known.
+    /// Its case was not run.
     NotRun,
-    /// Its time is over. Stale.
+    /// It has expired. Stale.
     Expired,
-    /// Nothing that ran is called that. Stale.
+    /// No case or requirement that ran has this ID. Stale.
     Unmatched,
     /// The verdict is another one. Stale.
     Otherwise,
 }
 
 impl WaiverState {
-    /// Whether the file has to be mended.
+    /// Whether the file must be corrected.
     pub const fn is_stale(self) -> bool {
         matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
     }
@@ -115,7 +115,7 @@ struct WaiverFile {
 }
 
 impl WaiverError {
-    /// Names the file that the text is of.
+    /// Adds the file name to the error.
     #[must_use]
     pub fn in_file(self, file: &Path) -> Self {
         Self { file: Some(file.display().to_string()), ..self }
@@ -123,24 +123,23 @@ impl WaiverError {
 }
 
 impl Waivers {
-    /// Reads the text of a file.
+    /// Parses the text of a file.
     ///
     /// # Errors
-    /// The line and what is wrong in it: keys that are unknown or missing, a requirement that does
-    /// not exist, a verdict that needs no waiver, no reason, no day, or one waiver twice.
+    /// The line and what is wrong in it: unknown or missing keys, a requirement that does not
+    /// exist, a verdict that cannot be waived, no reason, no date, or a duplicate waiver.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
         let file: WaiverFile = toml::from_str(text).map_err(|error| {
-            // As it shows itself it draws the line; the message alone does not say which.
+            // `Display` quotes the line; `message` has no line number.
             failed(error.to_string().trim_end().to_owned())
         })?;
         let mut known = HashSet::new();
         for waiver in &file.waiver {
             let Waiver { test, requirement, .. } = waiver.get_ref();
             if !known.insert((test, requirement)) {
-                let before = text.as_bytes().get(..waiver.span().start).unwrap_or_default();
-                let newlines = before.iter().filter(|&&byte| byte == b'\n').count();
-                let line = newlines.saturating_add(1);
+                let before = &text.as_bytes()[..waiver.span().start];
+                let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
                 let why = format!("line {line}: a second waiver of {requirement} in {test}");
                 return Err(failed(why));
             }
@@ -148,12 +147,10 @@ impl Waivers {
         Ok(Self(file.waiver.into_iter().map(Spanned::into_inner).collect()))
     }
 
-    /// How many there are.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -218,7 +215,7 @@ fn known_requirement<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::E
     let id = String::deserialize(value)?;
     match requirement(&id) {
         Some(_) => Ok(id),
-        None => Err(D::Error::custom(format!("there is no requirement {id}"))),
+        None => Err(D::Error::custom(format!("no such requirement: {id}"))),
     }
 }
 

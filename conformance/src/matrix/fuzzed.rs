@@ -1,5 +1,5 @@
-//! Which fuzz targets reach what a requirement is about. The targets' own crate depends on this one
-//! and checks that they are there.
+//! The fuzz targets that reach a requirement. The crate of the targets depends on this one and
+//! checks that these names exist.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ pub(super) fn targets<'n>(names: impl IntoIterator<Item = &'n str>) -> BTreeSet<
     names.into_iter().flat_map(of).copied().collect()
 }
 
-/// The targets of functions, which are dispatched and answered.
+/// The targets of the dispatch of requests and replies.
 pub(super) const FUNCTIONS: &[&str] =
     &["operation_dispatch", "operation_request", "operation_reply"];
 
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
     use ads_cnc_vectors::{sequences, vectors};
 
-    /// Whatever has a vector is fuzzed.
+    /// Every stream with a vector has a fuzz target.
     #[test]
     fn every_vector_leads_to_a_target() {
         let names = vectors().iter().map(|vector| vector.stream.as_str());

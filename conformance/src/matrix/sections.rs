@@ -1,4 +1,4 @@
-//! The matrix the other way round: from each section of the manuals to what is made of it.
+//! The matrix by section of the manuals.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -13,9 +13,10 @@ use super::{RequirementRow, joined};
 const HEAD: &str = "| section | requirements | functions | types | vectors | cases | fuzz targets |\n\
                     |---|---|---|---|---|---|---|\n";
 
-/// For people: a table of the areas, and one of each manual's sections.
+/// A table of the areas, and one of each manual's sections.
 ///
-/// Both editions of the manual on ADS access share one, as their sections have the same numbers.
+/// Both editions of the manual on ADS access are one table, because their sections have the same
+/// numbers.
 pub fn to_sections(rows: &[RequirementRow]) -> String {
     let mut text = String::from("# What covers which section of the manuals\n\n");
     text += "Made by `ads-cnc requirements --format sections`, from the catalogue, the vectors, the \
@@ -44,7 +45,7 @@ pub fn to_sections(rows: &[RequirementRow]) -> String {
     text
 }
 
-/// The areas alone, which the README has.
+/// The table of the areas, which the README contains.
 fn areas(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| area | about | manual | types | requirements | vectors | cases | fuzz targets |\n\
@@ -73,12 +74,12 @@ fn titled(document: &Document) -> String {
     format!("{} {}", document.document, document.edition).trim_end().to_owned()
 }
 
-/// What both editions of one manual have in common.
+/// The name of a manual without its language.
 fn manual(document: &str) -> &str {
     document.strip_prefix("ads-").map_or(document, |_| "ads")
 }
 
-/// What leads from some requirements, each once.
+/// What covers some requirements, each entry once.
 #[derive(Default)]
 struct SectionCoverage<'r> {
     ids: Vec<&'r str>,
@@ -144,7 +145,7 @@ fn line(
     )
 }
 
-/// Whether the function's section is this one.
+/// Whether the function is documented in this section.
 fn is_in(function: &Function, document: &str, section: &str) -> bool {
     let place = function.spec().section;
     match (place.split_once(" … "), place.split_once(' ')) {
@@ -154,8 +155,8 @@ fn is_in(function: &Function, document: &str, section: &str) -> bool {
     }
 }
 
-/// The types of the streams whose fields these requirements are about; where there is none, the
-/// modules of their areas.
+/// The Rust types of the streams with fields of these requirements; without one, the modules of
+/// their areas.
 fn types_of(ids: &[&str]) -> String {
     let is_about = |stream: &Stream| {
         let layout = stream.layout();

@@ -1,10 +1,10 @@
-//! Where in the codec a requirement is at home.
+//! The Rust types and modules of a requirement.
 
 use ads_cnc::layout::Stream;
 
 macro_rules! types {
     ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
-        /// The types that read and write a stream.
+        /// The types that decode and encode a stream.
         pub(super) fn of_stream(stream: Stream) -> Vec<&'static str> {
             let paths: &[&str] = match stream {
                 $( Stream::$stream => &[stringify!($view) $( , stringify!($owned) )?], )+
@@ -25,9 +25,9 @@ ads_cnc::streams! { types }
 pub(super) struct Area {
     pub(super) area: &'static str,
     pub(super) about: &'static str,
-    /// The chapters that it is mostly about.
+    /// Its main chapters.
     pub(super) chapters: &'static str,
-    /// Where it is in the codec.
+    /// Its modules in the codec.
     pub(super) modules: &'static str,
 }
 
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
     use ads_cnc_vectors::requirements;
 
-    /// A stream that is added to the codec is added here.
+    /// Fails if a new stream of the codec is missing here.
     #[test]
     fn every_stream_has_types() {
         for stream in Stream::all() {
@@ -66,7 +66,7 @@ mod tests {
         }
     }
 
-    /// Each area of the catalogue is here once, and its chapters are cited for it.
+    /// Each area of the catalogue is here once, and its requirements cite its chapters.
     #[test]
     fn areas_are_those_of_the_catalogue() {
         for one in requirements() {

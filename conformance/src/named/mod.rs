@@ -1,4 +1,4 @@
-//! Finds what has a name: a variable, an element of one, a parameter, an object.
+//! Finds a variable, an element, a parameter or an object by its name.
 
 mod lookup;
 mod object;
@@ -35,7 +35,7 @@ use crate::session::{Session, Trouble};
 /// ```
 ///
 /// # Errors
-/// That there is nothing of this name, or several, and what to do about it.
+/// If no object or several objects have this name, with advice.
 pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
@@ -44,10 +44,10 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     }
 }
 
-/// What is asked for, if its name alone says where it is. Its type is what somebody takes it for.
+/// The object, if its name alone determines its address; its type is the one the caller gives.
 ///
 /// # Errors
-/// A name that has no form on the wire.
+/// A name that cannot be encoded.
 pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, Trouble> {
     let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
     is_variable.then(|| variable::unasked(lookup)).transpose()

@@ -7,10 +7,10 @@ use crate::objects::{Object, Options, Pattern, walk};
 use crate::session::{Session, Trouble};
 use crate::values::Type;
 
-/// Candidates that are shown.
+/// Maximum number of candidates in an error.
 const SHOWN: usize = 12;
 
-/// Looks through all lists that may have the name: if two have it, neither is meant more.
+/// Searches all lists that may have the name; two matches are an error.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     let Lookup { name, channel, lists, offset, ty, .. } = lookup;
     let wanted: CncString = name.parse().map_err(Trouble::Unsendable)?;
@@ -22,7 +22,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
     };
     let mut found = walk(session, &options, &mut |_| {})?;
     if found.is_cut {
-        // Whether another has the name too is not known.
+        // The search is incomplete: another object may have the same name.
         let why = found.notes.pop().unwrap_or_default();
         return Err(Trouble::Enough(format!("{name} was not found for certain: {why}")));
     }

@@ -11,7 +11,7 @@ use crate::objects::{List, Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, Trouble};
 use crate::values::Type;
 
-/// Kinds of variables, as lists have them.
+/// The kinds of variables that have lists.
 const KINDS: [&str; 4] = ["V.E", "V.G", "V.A", "V.CYC"];
 
 /// Whether the name is one of a variable or a parameter.
@@ -29,7 +29,7 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
     number.starts_with(|digit: char| digit.is_ascii_digit()).then_some(DynamicKind::P)
 }
 
-/// What the name alone says.
+/// The object, from its name alone.
 pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
     let text: CncString = name.parse().map_err(Trouble::Unsendable)?;
@@ -69,7 +69,8 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
     }
 }
 
-/// The variable with its type: by its name if the CNC describes that, else by index.
+/// The variable with its type: from the description by name if the CNC has that function, else from
+/// the descriptions by index.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
@@ -84,7 +85,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
     let told = match told {
         Some(told) => Some(told),
         None => {
-            // What is not there need not be looked for.
+            // Fails early if the variable does not exist.
             session.read(&object.address)?;
             listed(session, channel, &path, axis.is_some())?
         }
@@ -100,14 +101,15 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
     Ok(Object { ty, access, handle, ..object })
 }
 
-/// What a description tells.
+/// The facts from a description that are used here.
 struct DescribedVariable {
     ty: Type,
     access: ReportedAccess,
     handle: Option<Handle>,
 }
 
-/// By its name; none if the CNC does not describe that (0x4C is documented online only).
+/// Reads the description by name; `None` if the CNC does not have the function (0x4C is documented
+/// online only).
 fn described(
     session: &mut Session,
     channel: Channel,
@@ -118,7 +120,7 @@ fn described(
         Ok(variable) => Ok(Some(DescribedVariable {
             ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
             access: ReportedAccess::of_variable(variable.access),
-            // One that is by name only has none.
+            // A variable that is accessible by name only has the handle 0.
             handle: Some(variable.handle).filter(|handle| handle.0 != 0),
         })),
         Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
@@ -126,8 +128,9 @@ fn described(
     }
 }
 
-/// From the descriptions of its kind; none of a kind that has no indices. One of the axis interface
-/// is what the channel interface has with the name of any axis after it (assumed).
+/// Searches the descriptions by index of the variable's kind; `None` for a kind without indices.
+/// The axis interface has the same variables as the channel interface, without the axis in their
+/// names (assumed).
 fn listed(
     session: &mut Session,
     channel: Channel,
@@ -150,12 +153,12 @@ fn listed(
                 return Ok(Some(DescribedVariable {
                     ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
                     access: ReportedAccess::of_variable(variable.access),
-                    // The handle is that of another place.
+                    // The handle belongs to another axis.
                     handle: Some(variable.handle).filter(|_| !of_axis),
                 }));
             }
             Ok(_) | Err(Trouble::Reply(_)) => {}
-            // They have become fewer.
+            // The number of variables has decreased meanwhile.
             Err(Trouble::Ads { .. }) => return Ok(None),
             Err(trouble) => return Err(trouble),
         }

@@ -1,4 +1,4 @@
-//! What a CNC has: an object of the COM task, an element, a variable or a parameter.
+//! An object of the COM task, an element, a variable or a parameter.
 
 use std::fmt;
 
@@ -11,14 +11,14 @@ use super::{List, ValueAddress};
 use crate::gate::Entry;
 use crate::values::Type;
 
-/// One thing that has a value.
+/// An entry of a list, with its value's address.
 #[derive(Clone, Debug)]
 pub struct Object {
     pub list: List,
     pub name: CncString,
     pub address: ValueAddress,
     pub ty: Type,
-    /// Its unit, if it has one.
+    /// Its unit, if any.
     pub unit: Option<CncString>,
     pub access: ReportedAccess,
     /// Its handle, if it is a variable.
@@ -55,8 +55,8 @@ impl Object {
         }
     }
 
-    /// A dynamic parameter: one number. No function of its own writes it; V.L, V.P and V.S some CNCs
-    /// have among the variables too (VAR-18).
+    /// A dynamic parameter: one number. It has no write function of its own, but on some CNCs V.L,
+    /// V.P and V.S are variables too (VAR-18).
     pub(crate) fn of_parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Self {
         Self {
             list: List::Parameters { kind, channel: channel.number() },
@@ -73,12 +73,12 @@ impl Object {
         }
     }
 
-    /// Bytes of its value; 0 if the CNC does not say.
+    /// Size of its value in bytes; 0 if unknown.
     pub fn size(&self) -> u32 {
         self.ty.size.unwrap_or(0)
     }
 
-    /// Whether the CNC says that it may be written.
+    /// Whether the CNC describes it as writable.
     pub fn is_writable(&self) -> bool {
         self.access == ReportedAccess::ReadWrite
     }
@@ -87,8 +87,8 @@ impl Object {
         self.ty.name == "STRING"
     }
 
-    /// Whether it is of the axis with this index: the objects of a channel's axes have a stride that
-    /// only their descriptors tell.
+    /// Whether it belongs to the axis with this index. The offsets of a channel's axes have a
+    /// stride that is known from the descriptors only.
     pub(crate) fn is_of_axis(&self, index: u32) -> bool {
         let Some((_, offset)) = self.address.content() else { return false };
         let strides = [AxisStride::X1000, AxisStride::X10000];
@@ -96,7 +96,7 @@ impl Object {
         split.any(|(axis, element)| axis == index && element > 0)
     }
 
-    /// The entry that allows writing it, and nothing else.
+    /// The entry of an allow file for exactly this object.
     pub fn entry(&self) -> Entry {
         let of_variable = |channel: Channel, axis| {
             let name = self.name.clone();
@@ -116,26 +116,26 @@ impl Object {
     }
 }
 
-/// Whether something may be written, as the CNC says.
+/// Access as described by the CNC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportedAccess {
     /// It may be read.
     Read,
     /// It may be read and written.
     ReadWrite,
-    /// The CNC says this, which no manual has.
+    /// A code that no manual documents.
     Code(u32),
-    /// The CNC does not say.
+    /// Not described.
     Unknown,
 }
 
 impl ReportedAccess {
-    /// As a flag has it.
+    /// From a write flag.
     pub const fn of_flag(writable: bool) -> Self {
         if writable { Self::ReadWrite } else { Self::Read }
     }
 
-    /// As a description has it.
+    /// From a description.
     pub const fn of_variable(access: VariableAccess) -> Self {
         match access {
             VariableAccess::READ_ONLY => Self::Read,

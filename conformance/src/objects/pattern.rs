@@ -1,6 +1,6 @@
 //! Patterns for names.
 
-/// A pattern for names. Case does not matter.
+/// A case-insensitive pattern for names.
 ///
 /// ```
 /// use ads_cnc_conformance::objects::Pattern;
@@ -36,7 +36,7 @@ impl Pattern {
     pub fn matches(&self, name: &str) -> bool {
         let name: Vec<char> = folded(name).collect();
         let (mut pattern, mut rest) = (self.wanted.as_slice(), name.as_slice());
-        // Where to go on if it does not match: after the last star, one character further.
+        // Where to continue after a mismatch: after the last star, one character further.
         let mut back: Option<(&[char], &[char])> = None;
         loop {
             match (pattern.split_first(), rest.split_first()) {

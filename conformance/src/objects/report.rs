@@ -1,4 +1,4 @@
-//! Objects as data.
+//! Objects as JSON.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -12,17 +12,17 @@ use crate::values::value_of;
 #[derive(Clone, Debug, Serialize)]
 pub struct ObjectsReport {
     pub format: u32,
-    /// Where the target listens.
+    /// TCP address of the target.
     pub target: String,
     /// Its AMS NetId.
     pub net_id: String,
     pub objects: Vec<ObjectReport>,
-    /// What the CNC did not tell.
+    /// Notes about objects that could not be read.
     pub notes: Vec<String>,
 }
 
 impl ObjectsReport {
-    /// Of a target.
+    /// The report of a target.
     pub fn new(target: &Target, objects: Vec<ObjectReport>, notes: Vec<String>) -> Self {
         let (target, net_id) = (target.addr.to_string(), target.net_id.to_string());
         Self { format: 1, target, net_id, objects, notes }
@@ -33,16 +33,16 @@ impl ObjectsReport {
 pub struct ObjectReport {
     pub list: String,
     pub name: String,
-    /// The name of its type.
+    /// Name of its type.
     pub r#type: Option<String>,
-    /// Elements in each dimension.
+    /// Number of elements in each dimension.
     pub dimensions: Vec<u32>,
-    /// Bytes of its value.
+    /// Size of its value in bytes.
     pub size: Option<u32>,
     pub unit: Option<String>,
-    /// `R`, `RW`, or a code that no manual has.
+    /// `R`, `RW`, or another code.
     pub access: Option<String>,
-    /// AMS port of the task that has its content.
+    /// AMS port of the task with its content.
     pub port: Option<u16>,
     /// Index group of its content.
     pub group: Option<u32>,
@@ -56,7 +56,7 @@ pub struct ObjectReport {
     /// Its value, if its type is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
-    /// Why it was not read.
+    /// Why the value was not read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }
@@ -85,7 +85,7 @@ impl From<&Object> for ObjectReport {
 }
 
 impl ObjectReport {
-    /// With what was read.
+    /// The entry of an object with its value.
     pub fn read(object: &Object, content: &Result<Vec<u8>, String>) -> Self {
         let report = Self::from(object);
         match content {

@@ -1,14 +1,14 @@
-//! Objects as a table: for people, and as CSV.
+//! Objects as a text table and as CSV.
 
 use std::io::{self, Write};
 
 use super::Object;
 use crate::values::printable;
 
-/// A column: its head, and what it has of an object.
+/// A column: its head, and the cell of an object.
 #[derive(Clone, Copy, Debug)]
 pub struct Column {
-    /// What the column is called.
+    /// The head of the column.
     pub head: &'static str,
     pub cell: fn(&Object) -> String,
 }
@@ -65,7 +65,7 @@ const VARIABLE: &[Column] = &[
     },
 ];
 
-/// Writes rows of cells under their heads, each column as wide as it has to be.
+/// Writes rows with heads, each column as wide as its longest cell.
 pub fn table(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
@@ -85,8 +85,8 @@ pub fn table(
     Ok(())
 }
 
-/// Writes rows of cells as comma-separated values with CR LF, as in RFC 4180. A cell that a
-/// spreadsheet would take for a formula has an apostrophe before it.
+/// Writes rows as comma-separated values with CR LF, as in RFC 4180. A cell that a spreadsheet
+/// would take for a formula gets a leading apostrophe.
 pub fn csv(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>>,
@@ -109,8 +109,8 @@ fn quoted(cell: &str) -> String {
     }
 }
 
-/// Whether a spreadsheet may take a cell for more than text. Numbers, several of an array too, are
-/// no formulas, nor is a sign alone.
+/// Whether a spreadsheet may take a cell for a formula. Numbers, lists of numbers and a single sign
+/// are not formulas.
 fn is_formula(cell: &str) -> bool {
     let begins = cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
     let is_number = |part: &str| part.parse::<f64>().is_ok();

@@ -17,7 +17,7 @@ use ads_cnc::{CncString, Error, ErrorKind, Handle};
 
 use crate::session::{Session, Trouble};
 
-/// Where a value is; a variable has several addresses.
+/// The address of a value; a variable has several.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueAddress {
     /// A variable, or with indices an element of one.
@@ -79,7 +79,7 @@ impl ValueAddress {
             Self::Handle { channel, handle, indices } => {
                 WriteByHandle::new(*channel, *handle, indices, value).into()
             }
-            // Parameters have no function of their own to be written.
+            // Parameters have no write function of their own.
             Self::Name { channel, name } | Self::Parameter { channel, name, .. } => {
                 WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
                     .into()
@@ -104,7 +104,7 @@ impl ValueAddress {
         }
     }
 
-    /// The task that has the value.
+    /// The task that serves the address.
     pub const fn task(&self) -> Task {
         match self {
             Self::Object { .. } => Task::Com,
@@ -113,14 +113,14 @@ impl ValueAddress {
         }
     }
 
-    /// Why there is no request for it.
+    /// The error for an address without a request.
     fn no_request(&self, error: Error) -> Trouble {
         match (self, error.kind()) {
-            // Of the functions of COM the program stream alone is where contents are.
+            // Of the functions of COM only the program stream is in the groups of contents.
             (Self::Object { .. }, ErrorKind::Function) => Trouble::Unable(
                 "it is the program stream, which is written only: by ads-cnc stream".to_owned(),
             ),
-            // Where a function is, no content is (SDA-12).
+            // The offset of a function has no content (SDA-12).
             (_, ErrorKind::Function) => {
                 Trouble::Unable("a function is at its address, no content".to_owned())
             }
@@ -133,7 +133,8 @@ impl Session {
     /// Reads the bytes of a value.
     ///
     /// # Errors
-    /// Those of [`request`](Self::request), and [`Trouble`] for a reply that does not decode to a value.
+    /// Those of [`request`](Self::request), and [`Trouble`] for a reply that does not decode to a
+    /// value.
     pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, Trouble> {
         let read = address.read().map_err(|error| address.no_request(error))?;
         let data = self.request(address.task(), read)?;
@@ -151,10 +152,10 @@ impl Session {
         write.decode_reply(&data).map(drop).map_err(Trouble::Reply)
     }
 
-    /// Whether the gate lets the value be written. Nothing is sent.
+    /// Checks whether the gate allows a write of the value. Nothing is sent.
     ///
     /// # Errors
-    /// That it does not.
+    /// If it does not.
     pub fn check_write(&self, address: &ValueAddress) -> Result<(), Trouble> {
         let write = address.write(&[]).map_err(|error| address.no_request(error))?;
         self.check(address.task(), write)

@@ -1,5 +1,4 @@
-//! Signals that end a process, on Windows the events of a console, and how a tool puts things in
-//! order before it ends.
+//! Signals that end a process (on Windows console events), and cleanup before the end.
 
 use std::io;
 use std::process;
@@ -11,18 +10,18 @@ use crate::judge::Exit;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// What a shell gives a process that Ctrl-C has ended.
+/// The exit code of a process ended by Ctrl-C, as in a shell.
 const INTERRUPTED: i32 = 130;
 
-/// How often a wait that can be interrupted looks whether it is.
+/// The polling interval of interruptible waits.
 pub(crate) const LOOK: Duration = Duration::from_millis(20);
 
-/// Whether a signal that ends the process was caught.
+/// Whether a signal has been received.
 pub(crate) fn is_requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
 }
 
-/// SIGSTKFLT, SIGPWR and the real-time signals end a process too. Their numbers are Linux's.
+/// Linux: SIGSTKFLT, SIGPWR and the real-time signals end a process too.
 #[cfg(unix)]
 fn numbered() -> impl Iterator<Item = i32> {
     let is_linux = cfg!(all(
@@ -37,8 +36,7 @@ fn numbered() -> impl Iterator<Item = i32> {
     [16, 30].into_iter().chain(34..=64).filter(move |_| is_linux)
 }
 
-/// Those that a terminal, a service manager, a timer or a limit sends; whichever ends the process
-/// and can be caught.
+/// Registers a handler for all catchable signals that end a process.
 #[cfg(unix)]
 fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::signal::{
@@ -52,7 +50,7 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     ];
     let mut signals = signal_hook::iterator::Signals::new(all)?;
     for signal in numbered() {
-        // A C library may keep one for itself.
+        // The C library may reserve a signal.
         let _kept = signals.add_signal(signal);
     }
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
@@ -66,19 +64,19 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(handler).map_err(io::Error::other)
 }
 
-/// A signal no longer ends the process: the tool does, when it has put things in order. A second
-/// one ends it at once, with all commands that it has started.
+/// After the first signal the tool cleans up and ends by itself. A second one ends the process at
+/// once, with all commands that it has started.
 #[derive(Debug)]
 pub(crate) struct Interrupt(Receiver<()>);
 
 impl Interrupt {
-    /// Catches the signals; possible once in a process.
+    /// Catches the signals; possible once per process.
     pub(crate) fn catch() -> io::Result<Self> {
         Self::catch_telling(|| (), || None)
     }
 
-    /// Catches the signals. `first_words` is called at the first one. `last_words` is called before a
-    /// second one ends the process, and gives the exit code if it is another than that of an
+    /// Catches the signals. `first_words` is called at the first signal. `last_words` is called
+    /// before a second one ends the process, and may return another exit code than that of an
     /// interrupted process.
     pub(crate) fn catch_telling(
         first_words: impl Fn() + Send + 'static,
@@ -91,7 +89,7 @@ impl Interrupt {
                 super::end_all();
                 process::exit(code);
             }
-            // Who does not wait looks.
+            // Without a waiting thread the flag is polled.
             let _waiting = tell.send(());
             first_words();
         };
@@ -99,20 +97,20 @@ impl Interrupt {
         Ok(Self(told))
     }
 
-    /// Waits until a signal comes.
+    /// Waits for a signal.
     pub(crate) fn wait(&self) {
-        // The other end is never dropped.
+        // The sender is never dropped.
         let _came = self.0.recv();
     }
 
-    /// Whether a signal has come.
+    /// Whether a signal has been received.
     pub(crate) fn is_requested(&self) -> bool {
         is_requested()
     }
 
-    /// Waits for this time, or less if a signal comes; whether one has come.
+    /// Waits for this time or until a signal; returns whether one was received.
     pub(crate) fn sleep(&self, time: Duration) -> bool {
-        // Told once; who asks again looks.
+        // The channel delivers once; afterwards the flag is true.
         self.is_requested() || self.0.recv_timeout(time).is_ok()
     }
 }

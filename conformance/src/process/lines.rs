@@ -1,4 +1,4 @@
-//! A command that is spoken with over stdin and stdout, a line at a time.
+//! A command that exchanges lines over stdin and stdout.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, BufReader, Read, Write as _};
@@ -11,22 +11,22 @@ use std::time::{Duration, Instant};
 use super::{RunningCommand, interrupt};
 use crate::text::escape_lines;
 
-/// The longest line that is taken. The longest right answer has some thousand bytes.
+/// Maximum length of a line. The longest valid answer has some thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
 
-/// The most commas and opening brackets in a line. Each may begin a value, and a value may take 7 kB
-/// when it is parsed.
+/// Maximum number of commas and opening brackets in a line. Each may begin a JSON value, which
+/// takes up to 7 kB when parsed.
 const VALUES_MAX: usize = 1 << 13;
 
-/// The last of what a command wrote to stderr that is kept.
+/// Maximum number of stored bytes of stderr: the last ones.
 const STDERR_KEPT: usize = 64 << 10;
 
-/// What a command says to stderr: the last of it.
+/// The end of a command's stderr.
 #[derive(Clone, Debug, Default)]
 pub struct Stderr(Arc<Mutex<VecDeque<u8>>>);
 
 impl Stderr {
-    /// It as text that can be shown.
+    /// The stored bytes as printable text.
     pub fn text(&self) -> String {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
@@ -43,22 +43,22 @@ impl Stderr {
     }
 }
 
-/// Why there is no line.
+/// Why no line was received.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RecvError {
-    /// None came in time.
+    /// No line within the time.
     Silence,
-    /// This process is to end.
+    /// This process was interrupted.
     Interrupted,
-    /// It has closed its stdout.
+    /// The command has closed its stdout.
     Closed,
-    /// What came is no line, and nothing after it is read.
+    /// The output is not a line; the rest is not read.
     Garbled(String),
-    /// A line that is no text, or has too many values.
+    /// The line is not UTF-8, or has too many values.
     NoText(String),
 }
 
-/// A command that runs; ended with all that it has started when it is dropped.
+/// A running command; dropping it ends it with all processes it started.
 #[derive(Debug)]
 pub struct LineProcess {
     child: RunningCommand,
@@ -67,7 +67,7 @@ pub struct LineProcess {
 }
 
 impl LineProcess {
-    /// Starts a command, apart from this process.
+    /// Starts a command in a process group of its own.
     pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let child = RunningCommand::start(command)?;
@@ -95,7 +95,7 @@ impl LineProcess {
         Ok(Self { child, to, from })
     }
 
-    /// Says a line. Who has ended reads nothing: its end is seen when the answer is waited for.
+    /// Sends a line. A command that has ended is detected when its answer is received.
     pub fn send(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         let _gone = self.to.send(line);
@@ -119,21 +119,22 @@ impl LineProcess {
         }
     }
 
-    /// A line it has sent without a request, if that is here already.
+    /// An additional line, if one has already been received.
     pub fn unasked(&self) -> Option<String> {
         self.from.try_recv().ok().map(|line| show(&line))
     }
 
-    /// Closes its stdin and waits for its end; none if it does not end in time, and is ended then.
+    /// Closes stdin and waits for the end; returns `None` if the command does not end in time and
+    /// is killed.
     pub fn ended(self, limit: Duration) -> Option<ExitStatus> {
         self.finish(limit).0
     }
 
-    /// The same, with the first it says until then.
+    /// Like `ended`, and also returns the first line received until then.
     pub fn finish(mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.to = mpsc::channel().0;
         let mut unasked = None;
-        // Who is not listened to may not come to its end.
+        // A command blocks if its stdout is not read.
         let mut listen = |time| match self.from.recv_timeout(time) {
             Ok(line) => {
                 unasked.get_or_insert_with(|| show(&line));
@@ -148,7 +149,7 @@ impl LineProcess {
             }
         });
         let until = Instant::now().checked_add(LAST_WORDS);
-        // What it has started may hold its stdout open.
+        // A process that it started may keep stdout open.
         while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
         {
         }
@@ -156,10 +157,10 @@ impl LineProcess {
     }
 }
 
-/// How often is looked whether a command has ended.
+/// Interval at which the command is polled.
 const POLL: Duration = Duration::from_millis(2);
 
-/// How long the last words of one that has ended are waited for.
+/// How long to wait for output after the command has ended.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
 fn show(line: &Result<Vec<u8>, String>) -> String {
@@ -173,7 +174,7 @@ fn spawn(name: &str, run: impl FnOnce() + Send + 'static) -> io::Result<()> {
     thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
 }
 
-/// A command that does not read must not keep this process from waiting for its answer.
+/// Writes in a thread of its own: a command that does not read must not block this process.
 fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
     while let Ok(line) = lines.recv() {
         if stdin.write_all(&line).and_then(|()| stdin.flush()).is_err() {
@@ -182,7 +183,7 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
     }
 }
 
-/// The next line without its end; none at the end of the stream.
+/// The next line without its end; `None` at the end of the stream.
 ///
 /// ```
 /// use ads_cnc_conformance::process::read_line;
@@ -195,8 +196,8 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// ```
 ///
 /// # Errors
-/// The error for a line with more bytes than `most`, its end not counted; no more of it is kept,
-/// and nothing after it can be read as a line.
+/// A line with more than `most` bytes without its end. It is dropped, and the rest of the stream
+/// cannot be read as lines.
 pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>, String>> {
     let limit = u64::try_from(most).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();
@@ -219,7 +220,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
 /// A line of JSON as text.
 ///
 /// # Errors
-/// The error for one that has too many values, or is not UTF-8.
+/// If it has too many values, or is not UTF-8.
 pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
         return Err(RecvError::NoText(format!("a line with more than {VALUES_MAX} values")));
@@ -246,7 +247,7 @@ fn wait(
     }
 }
 
-/// The front of a line in quotes, for a message.
+/// The beginning of a line in quotes, for an error message.
 pub fn cut(line: &str) -> String {
     let shown: String = line.chars().take(120).collect();
     if shown.len() < line.len() { format!("{shown:?}…") } else { format!("{shown:?}") }

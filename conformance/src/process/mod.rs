@@ -1,4 +1,5 @@
-//! Commands that a user names: started apart from this process, and ended with all they started.
+//! Commands given by the user: started in a process group of their own, and ended with all
+//! processes they started.
 
 pub(crate) mod interrupt;
 mod lines;
@@ -18,11 +19,10 @@ use process_wrap::std::{CreationFlags, JobObject};
 pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
 pub use subprocess::{GRACE, Reaction, Subprocess};
 
-/// How long a command has at least for its first word: some languages take longer for starting than
-/// for any answer.
+/// Minimum time limit for the first line of a command: some languages start slowly.
 pub const START: Duration = Duration::from_secs(20);
 
-/// A command line as the user's shell understands it.
+/// A command line for the user's shell.
 pub fn shell(line: &str) -> Command {
     #[cfg(windows)]
     {
@@ -43,14 +43,14 @@ pub fn shell(line: &str) -> Command {
 
 type SharedChild = Mutex<Box<dyn ChildWrapper>>;
 
-/// Commands that run.
+/// The running commands.
 static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 
-/// A command that was started. When it is dropped, it is ended with what it has started, also if it
-/// has ended itself: on Unix the processes of its group - one that has made a group or a session of
-/// its own goes on -, on Windows those of its job.
+/// A running command. Dropping it ends it and the processes it started, even if it has ended
+/// itself: on Unix its process group (a process that created a group or session of its own
+/// continues), on Windows its job.
 ///
-/// Ctrl-C of a terminal is for this tool alone, which answers for the command.
+/// Ctrl-C of a terminal reaches this tool only, which ends the command.
 #[derive(Debug)]
 pub struct RunningCommand(Arc<SharedChild>);
 
@@ -63,7 +63,7 @@ impl RunningCommand {
         command
             .wrap(CreationFlags(windows::Win32::System::Threading::CREATE_NEW_PROCESS_GROUP))
             .wrap(JobObject);
-        // Held while it starts: what ends all commands ends this one too.
+        // Locked during the start, so that `end_all` cannot miss the new command.
         let mut running = lock(&RUNNING);
         let child = Arc::new(Mutex::new(command.spawn()?));
         running.retain(|one| one.strong_count() > 0);
@@ -71,22 +71,22 @@ impl RunningCommand {
         Ok(Self(child))
     }
 
-    /// Its stdin, if that is a pipe and was not taken before.
+    /// Its stdin, if it is a pipe and was not taken before.
     pub fn take_stdin(&self) -> Option<ChildStdin> {
         lock(&self.0).stdin().take()
     }
 
-    /// Its stdout, if that is a pipe and was not taken before.
+    /// Its stdout, if it is a pipe and was not taken before.
     pub fn take_stdout(&self) -> Option<ChildStdout> {
         lock(&self.0).stdout().take()
     }
 
-    /// Its stderr, if that is a pipe and was not taken before.
+    /// Its stderr, if it is a pipe and was not taken before.
     pub fn take_stderr(&self) -> Option<ChildStderr> {
         lock(&self.0).stderr().take()
     }
 
-    /// How it has ended, if it has.
+    /// Its exit status, if it has ended.
     pub fn try_wait(&self) -> io::Result<Option<ExitStatus>> {
         lock(&self.0).try_wait()
     }
@@ -95,24 +95,24 @@ impl RunningCommand {
 impl Drop for RunningCommand {
     fn drop(&mut self) {
         let mut child = lock(&self.0);
-        // What it has started may run on when it has ended. Of a group of which nothing runs any
-        // more the number is not given anew in so short a time.
+        // Processes that it started may still run. The number of an empty group is not reused that
+        // soon.
         let _ended = child.start_kill();
         let _waited = child.inner_mut().wait();
     }
 }
 
-/// Ends all commands that run; none can be started any more.
+/// Ends all running commands; no further one can be started.
 pub(crate) fn end_all() {
     let running = lock(&RUNNING);
     for child in running.iter().filter_map(Weak::upgrade) {
-        // Who holds it ends it just now, or looks whether it has ended.
+        // A locked child is being ended or polled by another thread.
         let _ended = lock(&child).start_kill();
     }
     std::mem::forget(running);
 }
 
 fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Whatever panicked, what it has written is whole.
+    // A panic leaves the data valid.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

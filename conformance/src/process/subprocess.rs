@@ -13,13 +13,13 @@ pub const GRACE: Duration = Duration::from_secs(2);
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reaction<A> {
     Answer(A),
-    /// It sends a line that is not an answer.
+    /// A line that is not an answer.
     Garbled(String),
-    /// It ends, or closes its stdout.
+    /// The program ended, or closed its stdout.
     Died(String),
-    /// It sends no line within this time.
+    /// No line within this time.
     Silent(Duration),
-    /// The line could not be sent to it.
+    /// The line could not be sent.
     Broken(String),
 }
 
@@ -27,11 +27,11 @@ pub enum Reaction<A> {
 #[derive(Debug)]
 pub struct Subprocess {
     line: String,
-    /// The time for each answer.
+    /// The time limit for each answer.
     pub timeout: Duration,
     stderr: Stderr,
     deadline: Option<Deadline>,
-    /// While it runs.
+    /// The process, while it runs.
     pub(crate) running: Option<LineProcess>,
 }
 
@@ -41,7 +41,7 @@ impl Subprocess {
         Self { line, timeout, stderr, deadline: None, running: None }
     }
 
-    /// Sends nothing after a deadline.
+    /// Sets a deadline after which no more lines are sent.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
@@ -52,12 +52,12 @@ impl Subprocess {
         self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
     }
 
-    /// The last of what it wrote to stderr.
+    /// The end of its stderr.
     pub fn stderr(&self) -> String {
         self.stderr.text()
     }
 
-    /// Starts it anew, with these variables.
+    /// Starts it, or starts it again, with these variables.
     ///
     /// # Errors
     /// [`Reaction::Broken`]: why it cannot be started.
@@ -113,13 +113,13 @@ impl Subprocess {
         }
     }
 
-    /// Closes its stdin and waits for its end: how it ended, if it did, and the first line it
-    /// sent until then.
+    /// Closes its stdin and waits for its end: exit status, if it ended, and the first line it sent
+    /// until then.
     pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
-    /// Tells one that runs to end; the first line it sent until then.
+    /// Tells a running program to end; returns the first line it sent until then.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

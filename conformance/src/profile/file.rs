@@ -18,10 +18,10 @@ use serde::de::{Deserializer, Error as _};
 use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
 
-/// A profile with a comment on everything in it: what is taken of a device without one.
+/// A profile with a comment on every key; its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
 
-/// Why a file is no profile.
+/// An error in the file of `--profile`.
 #[derive(Clone, Debug)]
 pub struct ProfileFileError {
     file: Option<PathBuf>,
@@ -43,14 +43,14 @@ impl Profile {
     /// Reads a file.
     ///
     /// # Errors
-    /// A file that cannot be read, and those of [`from_toml`](Self::from_toml).
+    /// If the file cannot be read, and those of [`from_toml`](Self::from_toml).
     pub fn from_file(file: &Path) -> Result<Self, ProfileFileError> {
         let failed = |why: String| ProfileFileError { file: Some(file.to_owned()), why };
         let text = fs::read_to_string(file).map_err(|error| failed(error.to_string()))?;
         Self::from_toml(&text).map_err(|error| failed(error.why))
     }
 
-    /// Reads the text of a file; what it does not say is as of [`DEVICE`](Self::DEVICE).
+    /// Parses the text of a file; missing keys have the values of [`DEVICE`](Self::DEVICE).
     ///
     /// ```
     /// use ads_cnc_conformance::profile::Profile;
@@ -63,10 +63,10 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// The line and what is wrong in it: keys that are unknown, values that nothing can have.
+    /// The line and what is wrong in it: unknown keys, or invalid values.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
         let file: ProfileFile = toml::from_str(text).map_err(|error| {
-            // As it shows itself it draws the line; the message alone does not say which.
+            // `Display` quotes the line; `message` has no line number.
             ProfileFileError { file: None, why: error.to_string().trim_end().to_owned() }
         })?;
         Ok(file.into())
@@ -132,7 +132,7 @@ impl From<ProfileFile> for Profile {
     }
 }
 
-/// Reads a value and checks it: an error names its line.
+/// Deserializes a value and checks it, so that the error has its line.
 fn checked<'de, D, T, U>(
     value: D,
     check: impl FnOnce(T) -> Result<U, String>,
@@ -253,7 +253,7 @@ fn timeout<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Duration>, D::E
     })
 }
 
-/// Everything in a list, if each of it is right and there once.
+/// Checks every item of a list, and that none occurs twice.
 fn each<T: Ord>(list: Vec<T>, check: impl Fn(&T) -> Result<(), String>) -> Result<Vec<T>, String> {
     list.iter().try_for_each(check)?;
     let different = list.iter().collect::<BTreeSet<&T>>().len();
@@ -264,12 +264,12 @@ fn each<T: Ord>(list: Vec<T>, check: impl Fn(&T) -> Result<(), String>) -> Resul
 mod tests {
     use super::*;
 
-    /// What is printed to be filled in says nothing else than what holds without it.
+    /// The printed example has the default values.
     #[test]
     fn the_example_is_the_device() {
         let profile = Profile::from_toml(EXAMPLE).unwrap();
         assert_eq!(format!("{profile:?}"), format!("{:?}", Profile::DEVICE));
-        // And so does every line in it that is left out.
+        // Lines that are commented out have the default values too.
         let is_key = |rest: &str| rest.contains(" = ") || rest.starts_with(['\"', ']']);
         let shown = |line: &'static str| {
             let rest = line.strip_prefix('#').map(str::trim_start);
@@ -283,7 +283,7 @@ mod tests {
         assert_eq!(profile.timeout, Some(Duration::from_secs(2)));
     }
 
-    /// Everything that nothing can have is refused with its line and a reason.
+    /// Invalid values are rejected with their line and the reason.
     #[test]
     fn what_is_wrong_is_said_with_its_line() {
         for (line, why) in [

@@ -1,4 +1,5 @@
-//! What a target claims. What it does not claim is not applicable; what it claims must work.
+//! The profile of a target: parts that it does not claim are not applicable; those it claims must
+//! work.
 
 mod file;
 
@@ -22,40 +23,39 @@ pub struct Profile {
     /// The edition of the manual it follows.
     #[serde(serialize_with = "edition")]
     pub edition: Edition,
-    /// The version of its CNC, if that is known.
+    /// The version of its CNC, if known.
     #[serde(serialize_with = "version")]
     pub cnc_version: Option<CncVersion>,
-    /// The ports that answer.
+    /// The AMS ports that reply.
     pub ports: Cow<'static, [u16]>,
     /// Logical numbers of the active channels, in the order of their ranks.
     pub channels: Cow<'static, [u32]>,
     /// A channel number that is not configured.
     pub absent_channel: Option<u32>,
-    /// Platform axes, from 1; 0 if nobody says.
+    /// Number of platform axes; 0 if unknown.
     pub platform_axes: u32,
-    /// Spindles, from 0; nobody says if there is none.
+    /// Number of spindles; `None` if unknown.
     pub spindles: Option<u32>,
-    /// Places where no axis is: channel and place.
+    /// Axis places without an axis: channel and place.
     pub empty_places: Cow<'static, [(u32, u32)]>,
     /// The kinds of variables that can be listed.
     pub kinds: Cow<'static, [Cow<'static, str>]>,
-    /// Names of variables of the first channel that are by name only.
+    /// Variables of the first channel that are accessible by name only.
     pub by_name_only: Cow<'static, [Cow<'static, str>]>,
-    /// What is never written, whatever may be: names of objects, elements and variables.
+    /// Names of objects, elements and variables that are never written, even if a file allows it.
     pub unwritten: Cow<'static, [Cow<'static, str>]>,
-    /// What of the manuals it claims.
+    /// The sections of the manuals that it claims.
     pub sections: Cow<'static, [Section]>,
-    /// Of these sections only these functions, by their names in the function table; all if nobody
-    /// says.
+    /// The claimed functions of these sections, by name in the function table; `None` for all.
     pub functions: Option<Cow<'static, [Cow<'static, str>]>>,
-    /// Answers the examples the manuals print, with the values they print.
+    /// It answers the printed examples with the printed values.
     pub printed_examples: bool,
-    /// How long to wait for its answers, in milliseconds in a report.
+    /// How long to wait for its replies; in milliseconds in a report.
     #[serde(serialize_with = "milliseconds", skip_serializing_if = "Option::is_none")]
     pub timeout: Option<Duration>,
 }
 
-/// A part of the manuals that a target may have or not.
+/// A part of the manuals that a target may or may not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Section {
@@ -69,12 +69,12 @@ pub enum Section {
     Variables,
     /// Data streaming.
     Streaming,
-    /// The Service Interface, which is made of variables.
+    /// The Service Interface, which consists of variables.
     Service,
 }
 
 impl Section {
-    /// All of them.
+    /// All sections.
     pub const ALL: &'static [Self] = &[
         Self::Objects,
         Self::Elements,
@@ -84,7 +84,7 @@ impl Section {
         Self::Service,
     ];
 
-    /// Where a function is.
+    /// The section of a function.
     pub fn of(function: Function) -> Self {
         let section = function.spec().section;
         match section.get(..3) {
@@ -92,20 +92,20 @@ impl Section {
             Some("2.2") => Self::Elements,
             Some("str") => Self::Streaming,
             Some(section) if section.starts_with('3') => Self::Parameters,
-            // What is online only is about variables.
+            // Functions that are documented online only are about variables.
             _ => Self::Variables,
         }
     }
 }
 
-/// Whether a target claims something.
+/// Whether a target claims a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// It has to work.
+    /// It must work.
     Yes,
-    /// It may be there: what there is of it has to be right.
+    /// It is optional: if present, it must be right.
     Open,
-    /// It is not asked for.
+    /// It is not tested.
     No,
 }
 
@@ -115,7 +115,7 @@ const LISTED: &[Cow<'static, str>] =
 const PORTS: &[u16] = &[AmsPort::GEO.0, AmsPort::SDA.0, AmsPort::COM.0];
 
 impl Profile {
-    /// A device of which nothing is known but that it has a first channel.
+    /// The profile of an unknown device that has at least a first channel.
     pub const DEVICE: Self = Self {
         name: Cow::Borrowed("device"),
         edition: Edition::English,
@@ -135,7 +135,7 @@ impl Profile {
         timeout: None,
     };
 
-    /// Whether it claims to have a function.
+    /// Whether it claims a function.
     ///
     /// ```
     /// use ads_cnc::operation::Function;
@@ -165,7 +165,7 @@ impl Profile {
         functions.iter().any(|name| name == function.spec().name)
     }
 
-    /// Whether it claims what comes with a version.
+    /// Whether it claims a feature that depends on the version.
     pub fn has(&self, feature: Feature) -> Claim {
         match self.cnc_version.map(|version| version.has(feature)) {
             Some(answer) if answer.available && !answer.assumed => Claim::Yes,
@@ -174,33 +174,33 @@ impl Profile {
         }
     }
 
-    /// Whether it claims a part of the manuals.
+    /// Whether it claims a section of the manuals.
     pub fn has_section(&self, section: Section) -> bool {
         self.sections.contains(&section)
     }
 
-    /// Whether a port answers.
+    /// Whether it claims a port.
     pub fn has_port(&self, port: AmsPort) -> bool {
         self.ports.contains(&port.0)
     }
 
-    /// Whether a task answers.
+    /// Whether it claims a task.
     pub fn has_task(&self, task: Task) -> bool {
         self.has_port(task.port())
     }
 
-    /// Whether a kind of variables can be listed.
+    /// Whether it claims that a kind of variables can be listed.
     pub fn has_kind(&self, kind: Kind<'_>) -> bool {
         self.kinds.iter().any(|name| kind.text() == **name)
     }
 
-    /// Whether something of this name is never to be written.
+    /// Whether a value with this name must never be written.
     pub fn leaves(&self, name: &str) -> bool {
         self.unwritten.iter().any(|one| one == name)
     }
 }
 
-/// As `--edition` has it.
+/// Serialized as in `--edition`.
 fn edition<S: Serializer>(edition: &Edition, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&edition.name())
 }

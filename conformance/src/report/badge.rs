@@ -8,7 +8,7 @@ use super::model::Report;
 use crate::judge::{Exit, LeftChanged, Verdict};
 use crate::text::{json, shorten};
 
-/// As shields.io reads it from an endpoint; it takes no other keys.
+/// The JSON that shields.io reads from an endpoint; it rejects other keys.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Badge {
@@ -19,9 +19,8 @@ struct Badge {
     is_error: bool,
 }
 
-/// Writes a badge as shields.io reads it from an endpoint: the suite's version, how the run ended,
-/// the editions and, if any, the waivers. A value that was left changed is named; of several the
-/// first is, with their number.
+/// Writes a badge for shields.io: version of the suite, result, editions and, if any, the number of
+/// waivers. A value that was not restored is named; of several the first, with their number.
 pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let (word, color) = match report.exit() {
         Exit::Success => ("passed", "brightgreen"),
@@ -55,7 +54,7 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     json::write(&badge, out)
 }
 
-/// The name and the values, each cut to what a badge has room for.
+/// Name and values, truncated to fit a badge.
 fn describe(left: &LeftChanged) -> String {
     let cut = |text: &str| shorten(text, 40);
     let is = left.is.as_deref().map_or_else(|| "not known".to_owned(), cut);

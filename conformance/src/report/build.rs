@@ -1,4 +1,4 @@
-//! From the outcomes of a run to its report.
+//! Builds the report from the outcomes of a run.
 
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
@@ -17,28 +17,28 @@ use crate::judge::{
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
 
-/// What a run was, apart from what came of it.
+/// The parameters of a run.
 #[derive(Clone, Debug)]
 pub struct About {
     /// When it began.
     pub time: Moment,
-    /// The one edition that is judged by; without it both.
+    /// The only edition judged by; `None` for both.
     pub edition: Option<Edition>,
-    /// From which the order of the cases comes.
+    /// The seed of the order of cases.
     pub seed: u32,
-    /// What was selected; all if it is empty.
+    /// The selection; empty for all.
     pub only: Vec<String>,
     pub target: TargetReport,
     pub profile: Option<Profile>,
     /// Known failures.
     pub waivers: Waivers,
     pub frames: usize,
-    /// Values that were changed and could not be restored.
+    /// Values that were changed and not restored.
     pub left_changed: Vec<LeftChanged>,
 }
 
 impl Report {
-    /// Puts the outcomes of a run together.
+    /// Builds the report of a run.
     pub fn new(about: About, outcomes: &[CaseOutcome], left_out: &[LeftOut]) -> Self {
         let About { time, edition, seed, only, target, profile, waivers, frames, left_changed } =
             about;
@@ -47,12 +47,12 @@ impl Report {
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
         let mut tally = VerdictTally::default();
         for one in cases.iter().flat_map(|case| &case.requirements) {
-            // Who keeps to the protocol and claims nothing has not been judged.
+            // A pass of the protocol alone is not a judgement of requirements.
             if one.verdict != Verdict::Pass || requirement(&one.requirement).is_some() {
                 tally.add(one.verdict, one.waived);
             }
         }
-        // The simulated CNC refuses nothing; a device for which the gate closed was not judged whole.
+        // The simulated CNC has no gate; a device with rejected requests was not judged completely.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
@@ -110,7 +110,7 @@ fn of_subject(subject: CaseSubject, cases: &[&CaseReport], only: &[String]) -> S
             last.requirements.push(of_requirement(&requirement.id, cases, only));
         }
     }
-    // A protocol is in no catalogue; who breaks it fails all the same, and that has to be counted.
+    // The protocols are not in the catalogue, but a failure there must be counted.
     for protocol in [TESTEE, CLIENT] {
         let all = cases.iter().flat_map(|case| &case.requirements);
         if all.into_iter().any(|one| one.requirement == protocol) {
@@ -136,8 +136,8 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
     totals
 }
 
-/// The verdict on a requirement by all cases: one that nothing touches is not observed, or not run
-/// if something else was selected.
+/// The verdict on a requirement in all cases: without a case it is not observed, or not run if it
+/// was not selected.
 fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> RequirementReport {
     let all = cases.iter().flat_map(|case| &case.requirements);
     let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
@@ -147,7 +147,7 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The gravest verdict. What is put up with does not hide what is not.
+/// The gravest verdict. A waived one does not hide one that is not waived.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
     let open = gravest(open).filter(|verdict| verdict.is_trouble());
@@ -202,7 +202,7 @@ fn case(outcome: &CaseOutcome, waivers: &[WaiverReport]) -> CaseReport {
 
 fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
     let clause = requirement(judgement.requirement);
-    // What is in no catalogue is of one of the protocols.
+    // An ID that is not in the catalogue belongs to a protocol.
     let protocol = match judgement.requirement {
         CLIENT => ("The protocol between the suite and a client.", "CLIENTS.md"),
         _ => ("The protocol between the suite and a testee.", "README.md"),
@@ -247,7 +247,7 @@ impl From<&Evidence> for EvidenceReport {
     }
 }
 
-/// What a requirement says at a level: the whole of it, or its parts of that level.
+/// The text of a requirement at a level: the whole, or its parts of that level.
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
     let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
@@ -268,7 +268,7 @@ mod tests {
     use super::*;
     use crate::judge::RequirementVerdict;
 
-    /// Whoever claims nothing, and keeps to the protocol in that, has not passed.
+    /// A testee that keeps to the protocol, but claims no requirement, has not passed.
     #[test]
     fn a_protocol_kept_is_nothing_judged() {
         let outcome = |requirement, verdict| {

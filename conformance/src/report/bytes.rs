@@ -1,4 +1,4 @@
-//! Bytes field by field, with those marked that are not the expected ones.
+//! Bytes field by field, with those marked that differ from the expected ones.
 
 use ads_cnc::layout::Stream;
 use serde::{Deserialize, Serialize};
@@ -10,13 +10,13 @@ use crate::text::hex::{compact, spaced};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BytesReport {
-    /// The stream they are; none if no table describes them.
+    /// Name of their stream; `None` if no table describes them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
     pub length: usize,
-    /// The fields in their order; together they are all of the bytes.
+    /// The fields in order; together they contain all bytes.
     pub fields: Vec<FieldReport>,
-    /// What is wrong with them by themselves.
+    /// Faults of the bytes themselves.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<String>,
 }
@@ -28,20 +28,20 @@ pub struct FieldReport {
     pub offset: usize,
     /// Its bytes in hex.
     pub hex: String,
-    /// Its name; `?` for what cannot be read, empty for bytes that no table describes.
+    /// Its name; `?` for unreadable bytes, empty for bytes that no table describes.
     pub field: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub value: String,
-    /// What the field says.
+    /// The meaning of the field.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub meaning: String,
-    /// Which of its bytes, from 0, are not those expected there.
+    /// Offsets within the field of bytes that differ from the expected ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub differs: Vec<usize>,
 }
 
 impl BytesReport {
-    /// Takes bytes apart; `other` is what they are held against.
+    /// Splits bytes into fields; `other` are the bytes to compare them with.
     pub fn new(
         stream: Option<&str>,
         bytes: &[u8],
@@ -91,15 +91,15 @@ impl BytesReport {
     }
 }
 
-/// What is shown of bytes: a field, or how many are passed over for being like those around.
+/// A shown field, or a number of omitted items.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ShownField<'r> {
     Field(&'r FieldReport),
-    /// How many items of the field above are left out.
+    /// The number of omitted items of the field above.
     More(usize),
 }
 
-/// Items of one field that are shown before the rest is passed over.
+/// Number of items of a field that are shown.
 const ITEMS: usize = 6;
 
 impl BytesReport {
@@ -107,7 +107,7 @@ impl BytesReport {
         self.fields.iter().flat_map(FieldReport::bytes).collect()
     }
 
-    /// The fields, without most items of a long list; those that differ are always shown.
+    /// The fields, without most items of a long list; items that differ are always shown.
     pub(super) fn visible_fields(&self) -> Vec<ShownField<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);
         for list in self.fields.chunk_by(|one, next| one.field == next.field) {
@@ -146,7 +146,7 @@ mod tests {
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 
-    /// All bytes are there, once, and just those are marked that are not as expected.
+    /// The fields contain all bytes once, and exactly the differing ones are marked.
     #[test]
     fn fields_are_the_bytes() {
         let mut wrong = DESCRIPTION.to_vec();
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(report.faults, [""; 0]);
     }
 
-    /// What is missing differs at the side that has it.
+    /// A missing byte is marked on the side that has it.
     #[test]
     fn a_byte_too_many_differs() {
         let values = ValueFormat::default();
@@ -177,7 +177,7 @@ mod tests {
         assert_eq!(BytesReport::new(None, &[], None, &values).fields, []);
     }
 
-    /// A long list is not shown whole, but what differs in it is.
+    /// A long list is truncated, but its differing items are shown.
     #[test]
     fn lists_are_shown_in_part() {
         let mut bytes = [1_u32.to_le_bytes(), 40_u32.to_le_bytes()].concat();
@@ -199,7 +199,7 @@ mod tests {
         );
     }
 
-    /// What is shown of a broken stream goes up to its fault and names it.
+    /// A broken stream is shown up to its fault, with the name of the field.
     #[test]
     fn a_fault_is_shown_where_it_is() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];

@@ -1,4 +1,4 @@
-//! The report for people.
+//! The report as text.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -8,7 +8,7 @@ use super::lines::{lines, marked};
 use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals};
 use crate::judge::{CaseSubject, Exit, Verdict, WaiverReport};
 
-/// Writes the report. `verbose` shows the cases made of vectors one by one too.
+/// Writes the report. `verbose` shows the cases made of vectors one by one.
 pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
     head(report, out)?;
@@ -47,7 +47,7 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Who was judged, in a line.
+/// The subject on one line.
 pub(super) fn describe(target: &TargetReport) -> String {
     let TargetReport { name, version, language, command, address, net_id, file, .. } = target;
     let mut text = name.clone();
@@ -76,7 +76,7 @@ pub(super) const fn heading(subject: CaseSubject) -> &'static str {
     }
 }
 
-/// The cases of one who was judged: of vectors one line for each stream.
+/// The cases of a subject; those of vectors on one line per stream.
 fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(who))?;
     let mine = || report.cases.iter().filter(|case| case.subject == who);
@@ -100,7 +100,7 @@ fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) 
         }
     }
     let mut others: Vec<&CaseReport> = mine().filter(|case| case.stream.is_none()).collect();
-    // The order in which they were run is the seed's; a reader looks for what belongs together.
+    // The cases ran in random order; the report lists them by requirement.
     let places = places(report, who);
     others.sort_by_key(|case| {
         let first = case.requirements.first().map(|one| one.requirement.as_str());
@@ -110,7 +110,7 @@ fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) 
     writeln!(out)
 }
 
-/// The place of each requirement in the catalogue.
+/// The position of each requirement in the catalogue.
 fn places(report: &Report, who: CaseSubject) -> BTreeMap<&str, usize> {
     let mine = report.subjects.iter().filter(|one| one.subject == who);
     let all = mine.flat_map(|one| &one.areas).flat_map(|area| &area.requirements);
@@ -128,12 +128,12 @@ fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// A verdict, and whether somebody puts up with it.
+/// A verdict, and whether it is waived.
 pub(super) fn worded(verdict: Verdict, waived: bool) -> String {
     if waived { format!("{verdict}, waived") } else { verdict.to_string() }
 }
 
-/// Each check that was not passed, with its clauses and its bytes.
+/// Each check that did not pass, with requirements and bytes.
 fn failures(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     for all in case.findings() {
         if let Some(failure) = all.first() {
@@ -146,7 +146,7 @@ fn failures(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// A check that was not passed, and for which requirements.
+/// A check that did not pass, and its requirements.
 pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result<()> {
     let Some(failure) = all.first() else { return Ok(()) };
     for one in all {
@@ -244,7 +244,7 @@ fn tail(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{cases} cases{left_out}, {checks} checks, {frames} frames; exit code {code}")
 }
 
-/// What the verdicts mean that this report has and that do not say so themselves.
+/// Explains the verdicts in the report that are not self-explanatory.
 fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let known = |verdict: Verdict| {
         report.subjects.iter().any(|subject| subject.totals.contains_key(&verdict))
@@ -264,7 +264,7 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Verdicts with their numbers, in the order of [`Verdict::ALL`].
+/// Verdicts with their counts, in the order of [`Verdict::ALL`].
 pub(super) fn counts(totals: &Totals, waived: usize) -> String {
     let named = totals.iter().map(|(verdict, number)| format!("{number} {verdict}"));
     let waived = (waived > 0).then(|| format!("{waived} of them waived"));

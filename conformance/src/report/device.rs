@@ -1,4 +1,4 @@
-//! What a device says of itself.
+//! Device information.
 
 use std::fmt;
 
@@ -7,21 +7,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::text::escape;
 
-/// What a device says of itself.
+/// The device information that a device returns.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceReport {
     pub name: String,
-    /// Its version, three numbers with dots.
+    /// Version, three numbers with dots.
     pub version: String,
-    /// The state it is in: `RUN`, `STOP`, `CONFIG` or the number of another; none if it does not
-    /// say.
+    /// ADS state: `RUN`, `STOP`, `CONFIG` or a number; `None` if the device does not return it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
 }
 
 impl DeviceReport {
-    /// From what was answered.
+    /// From the replies.
     pub fn new(info: &DeviceInfoReply, state: Option<AdsState>) -> Self {
         let DeviceInfoReply { major, minor, build, .. } = info;
         let version = format!("{major}.{minor}.{build}");
@@ -37,7 +36,7 @@ impl DeviceReport {
 
 impl fmt::Display for DeviceReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A device may say anything: nothing of it moves the cursor.
+        // Escaped, because the device may send control characters.
         write!(f, "\"{}\" {}", escape(&self.name), self.version)?;
         self.state.iter().try_for_each(|state| write!(f, ", state {state}"))
     }

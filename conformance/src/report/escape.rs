@@ -1,5 +1,5 @@
-//! The texts of a report, escaped: a target may send any text, and none may move the cursor of a
-//! terminal or begin a line.
+//! Escapes the texts of a report: a target may send control characters or line ends, which must not
+//! reach a terminal.
 
 use serde_json::Value;
 
@@ -12,9 +12,9 @@ use crate::judge::{LeftChanged, WaiverReport};
 use crate::text::{escape, escape_lines, is_escaped};
 
 impl Report {
-    /// With nothing in any text that acts on who reads it, whoever wrote the report.
+    /// The report with all texts escaped.
     pub(super) fn escaped(mut self) -> Self {
-        // Each structure is taken apart whole: a field that is new has to be looked at here.
+        // Destructured completely, so that a new field is not forgotten here.
         let Self {
             format: _,
             suite,
@@ -139,7 +139,7 @@ fn escape_case(case: &mut CaseReport) {
 fn escape_evidence(evidence: &mut EvidenceReport) {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
         evidence;
-    // Of a capture, its packets are below.
+    // In a capture, the lines below are packets.
     *call = escape_lines(call);
     all([result, frame_sent, frame_received]);
     for BytesReport { stream, length: _, fields, faults } in

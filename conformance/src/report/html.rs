@@ -20,11 +20,11 @@ const TEMPLATE: &str = include_str!("report.html");
 const STYLE: &str = include_str!("report.css");
 const SCRIPT: &str = include_str!("report.js");
 
-/// Writes the report as one HTML file that needs nothing else: no network, and no JavaScript but to
+/// Writes the report as one HTML file without external resources; JavaScript is used only to
 /// filter.
 ///
 /// # Errors
-/// Those of `out`, and a template that does not fit the report.
+/// Those of `out`, and those of the template.
 pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
     let mut environment = Environment::new();
@@ -71,7 +71,7 @@ fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
 struct ReportView<'r> {
     style: &'static str,
     script: &'static str,
-    /// Without the cases, which are with the subjects.
+    /// Without the cases, which are in the subjects.
     report: Report,
     cases: usize,
     passed: bool,

@@ -1,4 +1,4 @@
-//! The report as JUnit XML: a suite for each who was judged, a test for each case.
+//! The report as JUnit XML: a suite for each subject, a test for each case.
 
 use std::io::{self, Write};
 
@@ -12,10 +12,9 @@ use crate::judge::{Verdict, WaiverReport};
 /// Writes the report as JUnit XML.
 ///
 /// A fail or a vacuous verdict is a failure; an inconclusive one, an interrupted case or a harness
-/// error is an error. A value that was left changed is a failure of a suite `left-changed`.
-/// What was not run or judged is skipped, and so is what a waiver puts up with. Warnings and
-/// differences pass, with what they are in `system-out`. A waiver that does not hold is a failure
-/// of a suite `waivers`.
+/// error is an error. A value that was not restored is a failure in a suite `left-changed`. A case
+/// that was not run, not judged or is waived is skipped. Warnings and differences pass, with their
+/// text in `system-out`. A stale waiver is a failure in a suite `waivers`.
 pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut xml: Xml<'_> = Writer::new_with_indent(&mut *out, b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -60,7 +59,7 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 
 type Xml<'w> = Writer<&'w mut dyn Write>;
 
-/// What JUnit makes of a verdict.
+/// The JUnit result of a verdict.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum JunitKind {
     Passed,
@@ -141,7 +140,7 @@ fn properties(report: &Report) -> Vec<(&'static str, String)> {
     all
 }
 
-/// A waiver in a line.
+/// A waiver on one line.
 fn in_words(waiver: &WaiverReport) -> String {
     let WaiverReport { test, requirement, verdict, reason, expires, state, .. } = waiver;
     format!("{test} {requirement} {verdict} until {expires}, {}: {reason}", state.name())
@@ -186,13 +185,13 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     end(xml, "testcase")
 }
 
-/// Why a case that is put up with is.
+/// The waiver of a waived case.
 fn waiver<'r>(report: &'r Report, case: &CaseReport) -> Option<&'r WaiverReport> {
     let used = report.waivers.iter().filter(|waiver| !waiver.state.is_stale());
     used.filter(|_| case.waived).find(|waiver| waiver.test == case.id)
 }
 
-/// A test that is no case and has failed.
+/// A failed test that is not a case.
 fn failure(
     xml: &mut Xml<'_>,
     (name, class): (&str, &str),
@@ -209,7 +208,7 @@ fn failure(
     end(xml, "testcase")
 }
 
-/// What a case found, as the console shows it.
+/// The findings of a case, as on the console.
 fn text(case: &CaseReport) -> io::Result<String> {
     let mut out = Vec::new();
     for all in case.findings() {
@@ -226,7 +225,7 @@ fn put(element: &mut BytesStart<'_>, name: &str, value: &str) {
     element.push_attribute((name, clean(value).as_str()));
 }
 
-/// Without the characters that XML cannot have, even escaped.
+/// Removes the characters that XML does not permit, even escaped.
 fn clean(text: &str) -> String {
     let allowed = |c: char| {
         matches!(c, '\t' | '\n' | '\r') || c >= ' ' && !matches!(c, '\u{fffe}' | '\u{ffff}')

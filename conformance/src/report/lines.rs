@@ -5,13 +5,13 @@ use super::{BytesReport, FieldReport};
 use crate::explain::ValueFormat;
 use crate::text::hex;
 
-/// All lines of bytes that are held against nothing.
+/// All lines of bytes without comparison.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
     all_lines(&BytesReport::new(stream, bytes, None, &ValueFormat::default()), false)
 }
 
-/// One line for each field: offset, bytes, characters, name; up to the fault, if there is one. A
-/// line with a byte that is not the expected one begins with an exclamation mark.
+/// One line for each field up to the fault: offset, bytes, characters, name. A line with a byte
+/// that differs from the expected one begins with an exclamation mark.
 pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
     all_lines(bytes, true)
 }
@@ -30,7 +30,7 @@ fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
     all
 }
 
-/// As [`lines`], those alone that have a byte that differs.
+/// Like [`lines`], but only those with a byte that differs.
 pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
     lines(bytes).into_iter().filter(|line| line.starts_with('!')).collect()
 }
@@ -41,7 +41,7 @@ fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
     for (begin, chunk) in (0_usize..).step_by(hex::LINE).zip(bytes.chunks(hex::LINE)) {
         let end = begin + hex::LINE;
         let differs = field.differs.iter().any(|place| (begin..end).contains(place));
-        // What a text is filled up with would hide the rest.
+        // Padding would hide the fields after it.
         if fold && begin > 0 && !differs && chunk.iter().all(|&byte| byte == 0) {
             zeros += chunk.len();
             continue;
@@ -56,7 +56,7 @@ fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
     all
 }
 
-/// A line for the zeros that were passed over.
+/// Adds a line for the omitted zeros.
 fn fill(lines: &mut Vec<String>, zeros: &mut usize) {
     if *zeros > 0 {
         lines.push(format!("     …  {zeros} × 00"));
@@ -68,7 +68,7 @@ fn fill(lines: &mut Vec<String>, zeros: &mut usize) {
 mod tests {
     use super::*;
 
-    /// What is shown of a broken stream goes up to its fault and names it.
+    /// A broken stream is shown up to its fault, with the name of the field.
     #[test]
     fn a_fault_is_shown_where_it_is() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
@@ -85,7 +85,7 @@ mod tests {
         );
     }
 
-    /// What differs is marked, on its line.
+    /// Differences are marked on their line.
     #[test]
     fn differing_lines_are_marked() {
         let (bytes, mut other) = ([0x41; 20], [0x41; 20]);

@@ -6,7 +6,7 @@ use super::console::{counts, describe, finding, worded};
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
 
-/// The most characters of failures: a comment at GitHub has at most 65 536.
+/// Maximum number of characters of failures: a comment on GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;
 
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
@@ -105,12 +105,12 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Text within an element of HTML, where Markdown has no escapes.
+/// Escapes text for an HTML element, where Markdown has no escapes.
 fn html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Text that is nothing but text.
+/// Escapes Markdown.
 fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for c in text.chars() {
@@ -130,7 +130,7 @@ fn end_line(text: &str) -> String {
     if text.ends_with('\n') { text.to_owned() } else { format!("{text}\n") }
 }
 
-/// A fence that is not in the text.
+/// A fence that does not occur in the text.
 fn fence(text: &str) -> String {
     let mut fence = "```".to_owned();
     while text.contains(&fence) {

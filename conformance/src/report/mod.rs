@@ -1,4 +1,4 @@
-//! What a run found: one data structure, written as JSON, from which everything else is made.
+//! The report of a run: one data structure, written as JSON, from which all other formats are made.
 
 mod badge;
 mod build;

@@ -1,5 +1,4 @@
-//! The report's data: plain, and the same when it is read back. Everything that is shown of a run
-//! is made from it alone.
+//! The report's data, which survives a round trip through JSON. All formats are made from it alone.
 
 use std::collections::BTreeMap;
 
@@ -10,19 +9,19 @@ use serde_json::Value;
 use super::{BytesReport, DeviceReport};
 use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
 
-/// Number of this structure.
+/// Version of this structure.
 pub const FORMAT: u32 = 1;
 
-/// Verdicts with their numbers; those that do not occur are left out.
+/// Number of each verdict that occurs.
 pub type Totals = BTreeMap<Verdict, usize>;
 
-/// A whole run.
+/// The report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
-    /// Number of this structure: [`FORMAT`].
+    /// Version of this structure: [`FORMAT`].
     pub format: u32,
-    /// Values that were changed and could not be restored.
+    /// Values that were changed and not restored.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_changed: Vec<LeftChanged>,
     pub suite: String,
@@ -31,24 +30,24 @@ pub struct Report {
     pub time: String,
     /// Editions of the manual that were judged by.
     pub editions: Vec<String>,
-    /// From which the order of the cases comes.
+    /// The seed of the order of cases.
     pub seed: u32,
-    /// What was selected; all if it is empty.
+    /// The selection; empty for all.
     pub only: Vec<String>,
     pub target: TargetReport,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileReport>,
-    /// Failures that are known, and what became of each.
+    /// Waivers and their states.
     pub waivers: Vec<WaiverReport>,
     /// The exit code this run ends with.
     pub exit_code: u8,
     pub checks: usize,
     pub frames: usize,
-    /// Cases that were not selected; they are not among the cases.
+    /// Number of cases that were not selected; they are not in `cases`.
     pub left_out: usize,
-    /// Each who was judged, for itself.
+    /// Codec, target, testee or client, each by itself.
     pub subjects: Vec<SubjectReport>,
-    /// Every case in the order it was run.
+    /// All cases in the order they were run.
     pub cases: Vec<CaseReport>,
 }
 
@@ -56,37 +55,37 @@ pub struct Report {
 #[serde(deny_unknown_fields)]
 pub struct TargetReport {
     pub name: String,
-    /// Its version, as it says itself.
+    /// Its version, as reported by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
-    /// In which language it is written, as it says itself.
+    /// Its programming language, as reported by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<String>,
-    /// How it was started.
+    /// The command that started it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Where it listens, or from where it connected.
+    /// Its TCP address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub address: Option<String>,
     /// Its AMS NetId.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub net_id: Option<String>,
-    /// What its COM task says of itself, if it does.
+    /// The device information of its COM task, if available.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<DeviceReport>,
-    /// The last of what it wrote to stderr; not judged.
+    /// The end of its stderr; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stderr: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
 
-/// What a target claims.
+/// The claims of a target.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProfileReport {
     pub name: String,
-    /// Each claim under its name.
+    /// Claims by name.
     pub claims: BTreeMap<String, Value>,
 }
 
@@ -95,9 +94,9 @@ pub struct ProfileReport {
 #[serde(deny_unknown_fields)]
 pub struct SubjectReport {
     pub subject: CaseSubject,
-    /// Verdicts of its requirements, each once and by its gravest.
+    /// Number of requirements by gravest verdict.
     pub totals: Totals,
-    /// How many of them are put up with.
+    /// How many of them are waived.
     pub waived: usize,
     /// By area.
     pub areas: Vec<AreaReport>,
@@ -107,9 +106,9 @@ pub struct SubjectReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AreaReport {
-    /// The area's letters; of a protocol `TESTEE` or `CLIENT`.
+    /// The letters of the area; for a protocol `TESTEE` or `CLIENT`.
     pub area: String,
-    /// Verdicts of its requirements, each once and by its gravest.
+    /// Number of requirements by gravest verdict.
     pub totals: Totals,
     pub requirements: Vec<RequirementReport>,
 }
@@ -121,7 +120,7 @@ pub struct RequirementReport {
     pub requirement: String,
     /// The gravest verdict on it.
     pub verdict: Verdict,
-    /// Whether it is put up with.
+    /// Whether it is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
 }
@@ -133,43 +132,43 @@ pub struct CaseReport {
     pub id: String,
     pub title: String,
     pub subject: CaseSubject,
-    /// The stream of a case that is a vector.
+    /// The stream, if the case is a vector.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
     /// The gravest of its verdicts.
     pub verdict: Verdict,
-    /// Whether that is put up with.
+    /// Whether that is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
     /// The verdict on each of its requirements.
     pub requirements: Vec<RequirementReport>,
     pub checks: usize,
-    /// Why it did not run, or not to its end.
+    /// Why it did not run, or not completely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// Checks that were not passed.
+    /// Checks that did not pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<FailureReport>,
 }
 
-/// A check that was not passed.
+/// A check that did not pass.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailureReport {
     pub requirement: String,
-    /// The level it was judged at; that of an assumed part may be lower than the whole's.
+    /// The level it was judged at; lower than the requirement's for an assumed part.
     pub level: Option<Level>,
-    /// What it says, or the parts of that level.
+    /// The text of the requirement, or of its parts of that level.
     pub clause: String,
     /// Its sources: document, edition, section.
     pub sources: Vec<String>,
     pub verdict: Verdict,
-    /// Whether it is put up with.
+    /// Whether it is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
     pub expected: String,
     pub found: String,
-    /// Checks with the same verdict that are not shown.
+    /// Number of further checks with the same verdict, which are not shown.
     pub more: usize,
     /// The bytes it is based on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -180,9 +179,9 @@ pub struct FailureReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvidenceReport {
-    /// Where the request went.
+    /// Address and service of the request.
     pub call: String,
-    /// What came of it, in a few words.
+    /// The result in a few words.
     pub result: String,
     /// Data of the request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -190,27 +189,27 @@ pub struct EvidenceReport {
     /// Data of the reply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub received: Option<BytesReport>,
-    /// What should have been received.
+    /// Expected data of the reply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<BytesReport>,
     /// The whole frame sent, in hex.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub frame_sent: String,
-    /// The whole frame received, or as much as came, in hex.
+    /// The received frame, or the part of it that arrived, in hex.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub frame_received: String,
 }
 
 impl Report {
-    /// How the process ends.
+    /// The exit code of the run.
     pub fn exit(&self) -> Exit {
         Exit::from_code(self.exit_code).unwrap_or(Exit::Internal)
     }
 
-    /// Reads a report.
+    /// Parses a report.
     ///
     /// # Errors
-    /// Text that is no report, or one of another format.
+    /// Invalid JSON, or a report of another format version.
     pub fn from_json(text: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
         struct FormatNumber {
@@ -227,8 +226,7 @@ impl Report {
 }
 
 impl CaseReport {
-    /// The failures, those with the same bytes together: one check may represent several
-    /// requirements.
+    /// The failures, grouped by evidence: one check may count for several requirements.
     pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
         let mut findings: Vec<Vec<&FailureReport>> = Vec::new();
         for failure in &self.failures {

@@ -1,4 +1,4 @@
-//! Clients with a defect, and clients that do things otherwise.
+//! Clients with a defect, and valid variants.
 
 use std::net::SocketAddr;
 

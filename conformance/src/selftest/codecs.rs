@@ -1,4 +1,4 @@
-//! Codecs with a defect, and testees that misbehave as a whole.
+//! Codecs with a defect, and testees that misbehave in general.
 
 use std::time::Duration;
 
@@ -11,10 +11,10 @@ use crate::session::Trouble;
 use crate::suite;
 use crate::testee::{Miniature, Own, Terms, TesteeProcess, judge};
 
-/// How long a miniature may take. Those that say nothing cost this much a case.
+/// Time limit of a miniature's answer. A silent one takes this long per case.
 const TIMEOUT: Duration = Duration::from_millis(1000);
 
-/// Every how many cases one is put to a miniature: what it does, it does everywhere.
+/// Every n-th case is run with a miniature, which behaves in the same way in every case.
 const SHARE: usize = 25;
 
 const TERMS: Terms<'static> =
@@ -32,7 +32,7 @@ fn of_seed(seed: &'static Seed) -> Candidate {
         what: seed.what.clone(),
         targets: seed.requirements.clone(),
         run: Box::new(move || {
-            // A wrong field is in no other stream: the others come out as they always do.
+            // A defect of a field affects its stream only: the other cases need not run.
             let field = seed.field();
             let touched = |case: &Case| match (&case.body, field) {
                 (Body::Vector(vector), Some(field)) => {
@@ -58,7 +58,7 @@ fn of_miniature(miniature: Miniature) -> Candidate {
     }
 }
 
-/// What a miniature breaks: the protocol, or whatever it is asked.
+/// What a miniature breaks: the protocol, or every requirement.
 fn targets(miniature: Miniature) -> Vec<&'static str> {
     match miniature {
         Miniature::KnowsAll | Miniature::Tires | Miniature::Stays => vec![TESTEE],

@@ -1,9 +1,8 @@
-//! The suite tried on itself: whoever has a seeded defect has to fail by a requirement that it
-//! breaks, and whoever merely does things otherwise by none.
+//! Tests the suite: a codec, CNC or client with a seeded defect must fail by a requirement that it
+//! breaks, and a valid variant must not fail.
 //!
-//! A defect counts as caught when a requirement that it targets is among those that fail, or, if it
-//! targets no more than a should, among those that are warned of. What survives has a written
-//! reason, or the self-test fails.
+//! A defect is caught if a requirement that it breaks fails or, if it breaks at most a should, has
+//! a warning. A defect that survives needs a written reason, otherwise the self-test fails.
 
 mod clients;
 mod codecs;
@@ -36,9 +35,9 @@ pub enum SelfTestGroup {
     Cnc,
     /// Clients with a defect, by the scenarios.
     Client,
-    /// Testees that misbehave as a whole.
+    /// Testees that misbehave in general.
     Miniature,
-    /// Who does things otherwise, and nothing wrong.
+    /// Valid variants.
     Different,
 }
 
@@ -46,59 +45,59 @@ named! { SelfTestGroup:
     Codec "codec", Cnc "cnc", Client "client", Miniature "miniature", Different "different",
 }
 
-/// One that is tried.
+/// A trial and its result.
 #[derive(Clone, Debug, Serialize)]
 pub struct Tried {
-    /// The defect, the miniature or the difference.
+    /// The ID of the defect, miniature or variant.
     pub id: String,
-    /// As what it was tried.
+    /// Its group.
     pub group: SelfTestGroup,
     pub what: String,
-    /// What it breaks; nothing if it does nothing wrong.
+    /// The requirements it breaks; empty for a valid variant.
     pub targets: Vec<String>,
     pub failed: Vec<String>,
     pub result: Outcomes,
-    /// Of one that survives: why it may.
+    /// The reason why it may survive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// What came of one that was tried.
+/// The result of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcomes {
     /// A requirement that it breaks has failed.
     Caught,
-    /// Of a codec: a vector of a requirement that it breaks is not met. No manual says all that the
-    /// vector expects, so that is a warning or a difference and fails nobody.
+    /// Codec only: a vector of a requirement that it breaks has a warning or a difference, because
+    /// the manuals do not state everything that the vector expects.
     Noticed,
-    /// Others have failed, and none that it breaks.
+    /// Other requirements have failed, and none that it breaks.
     Elsewhere,
-    /// Nothing has failed.
+    /// No requirement has failed.
     Survived,
-    /// Nothing is wrong, and nothing has failed.
+    /// A valid variant, and no requirement has failed.
     Quiet,
-    /// Nothing is wrong, and something has failed.
+    /// A valid variant, but a requirement has failed.
     FalseAlarm,
-    /// What it changes was what it is changed to wherever it came by: nobody could tell.
+    /// The defect changed no byte in any exchange, so it is not detectable.
     Same,
-    /// It could not be tried.
+    /// It could not be run.
     Broken,
 }
 
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
-    /// Each that was tried, in the order of groups and IDs.
+    /// All trials, in the order of groups and IDs.
     pub tried: Vec<Tried>,
-    /// Reasons for survivors that are none.
+    /// Reasons that no survivor needs.
     pub stale: Vec<String>,
-    /// What is detected of CNCs from outside, and what of it was measured again.
+    /// The table of detection, and the rows that were measured again.
     pub detection: CheckedTable,
 }
 
 impl SelfTest {
-    /// How many of a group did what they should, and how many there are; without those that are the
-    /// same as without their defect.
+    /// Number of trials of a group with the desired result, and of all; without those in which the
+    /// defect changed nothing.
     pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
         let differs = |one: &&Tried| one.group == group && one.result != Outcomes::Same;
         let mine = || self.tried.iter().filter(differs);
@@ -108,7 +107,7 @@ impl SelfTest {
         (mine().filter(right).count(), mine().count())
     }
 
-    /// How the process ends: a survivor without a reason, a false alarm and a reason for none fail.
+    /// The exit code: a survivor without a reason, a false alarm and a stale reason are failures.
     pub fn exit(&self) -> Exit {
         let wrong = |one: &Tried| match one.result {
             Outcomes::Caught | Outcomes::Noticed | Outcomes::Quiet | Outcomes::Same => false,
@@ -126,19 +125,19 @@ impl SelfTest {
     }
 }
 
-/// One that can be tried.
+/// A trial before it is run.
 struct Candidate {
     id: String,
     group: SelfTestGroup,
     what: String,
     targets: Vec<&'static str>,
-    /// Nothing if it does as it would without its defect.
+    /// Runs the cases; `None` if the defect changed nothing.
     run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, Trouble> + Send + Sync>,
 }
 
-/// Tries all whose ID, group or target begins with one of these words; all if there is none. Of the
-/// table of detection as much as `scope` wants is measured again. `tell` is told after each how many
-/// are done, of how many.
+/// Runs all trials whose ID, group or requirement begins with one of these words; all if there are
+/// none. `scope` is the part of the table of detection to measure again. `tell` is called after
+/// each with the number done and the number of all.
 pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) -> SelfTest {
     let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()
@@ -152,7 +151,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     candidates.extend(targets::candidates());
     candidates.extend(clients::candidates());
     candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
-    // Most of their time they wait for each other's ends of a connection.
+    // Most of the time they wait for a connection.
     let tried = parallel(&candidates, 3, attempt, &tell);
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
@@ -169,8 +168,8 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     SelfTest { tried, stale, detection }
 }
 
-/// Does the work on each item, in as many threads for each processor; the results in the order of
-/// the items.
+/// Processes each item, in this many threads per processor; the results have the order of the
+/// items.
 fn parallel<T: Sync, R: Send>(
     items: &[T],
     threads: usize,
@@ -222,7 +221,7 @@ fn attempt(candidate: &Candidate) -> Tried {
     }
 }
 
-/// What came of a codec: what its vectors warn of, or differ in, is caught at their level.
+/// The result of a codec: warnings and differences count at the level of their requirements.
 fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();
@@ -245,7 +244,7 @@ fn whole(id: &str) -> &str {
     id.split_once('.').map_or(id, |(of, _)| of)
 }
 
-/// What has failed, and whether that is right.
+/// Which requirements have failed, and the result.
 fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
@@ -258,7 +257,7 @@ fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) 
         found
     };
     let failed = with(&[Verdict::Fail, Verdict::Vacuous]);
-    // A should is warned of, and what is assumed differs: by their levels these are caught too.
+    // A should gives a warning, and an assumed part a difference: at their levels these are caught.
     let noticed = with(&[Verdict::Warning, Verdict::Differs]);
     let hit = |id: &&str| match ads_cnc_vectors::clause(id) {
         Some(clause) => {

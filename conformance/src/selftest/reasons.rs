@@ -2,7 +2,7 @@
 
 use super::{Outcomes, SelfTestGroup, Tried};
 
-/// Group, beginning of the ID, and why nothing can tell.
+/// Group, prefix of the ID, and why the defect is not detectable.
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[(
     SelfTestGroup::Cnc,
     "object-descriptor.write_access.swap",
@@ -15,7 +15,7 @@ pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
     mine.map(|(_, _, reason)| *reason)
 }
 
-/// Of what there are reasons.
+/// Group and prefix of all reasons.
 #[cfg(test)]
 pub(super) fn names() -> impl Iterator<Item = (SelfTestGroup, &'static str)> {
     REASONS.iter().map(|(group, start, _)| (*group, *start))

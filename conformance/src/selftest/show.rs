@@ -1,4 +1,4 @@
-//! The self-test for people.
+//! Prints a self-test.
 
 use std::io::{self, Write};
 
@@ -6,10 +6,10 @@ use super::detection::{CheckedTable, Figures, Mode};
 use super::{Outcomes, SelfTest, SelfTestGroup, Tried};
 use crate::judge::Exit;
 
-/// The most targets on a line.
+/// Maximum number of requirements on a line.
 const TARGETS_SHOWN: usize = 6;
 
-/// Writes what came of a self-test; with `verbose` of each that was tried.
+/// Prints a self-test; with `verbose` each trial.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
         let fine = matches!(
@@ -32,7 +32,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             continue;
         }
         match group {
-            // Below, by what is sent to it.
+            // Printed below, by mode.
             SelfTestGroup::Cnc => {}
             SelfTestGroup::Different => {
                 let alarms = all.saturating_sub(right);
@@ -63,7 +63,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     writeln!(out, "{verdict}  exit code {}", test.exit().code())
 }
 
-/// What is detected of a CNC from outside, and within.
+/// The detection of defects of a CNC over the wire, and in process.
 fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     let CheckedTable { table, measured, differences } = &test.detection;
     for difference in differences {

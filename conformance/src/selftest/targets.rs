@@ -1,4 +1,4 @@
-//! CNCs with a defect, and CNCs that do things otherwise.
+//! CNCs with a defect, and valid variants.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, TargetState};
 
-/// A version that has 0x4C and all kinds.
+/// A version with 0x4C and all kinds.
 const NEWEST: &str = "V4.29.0";
 
 pub(super) fn candidates() -> Vec<Candidate> {
@@ -30,14 +30,15 @@ fn of_seed(seed: &'static Seed) -> Candidate {
     }
 }
 
-/// How long one with a defect may take to answer: those that say nothing cost this much a request.
-/// Who does nothing wrong may take as long as anybody.
+/// Time limit of a CNC with a defect: a silent one takes this long per request. A valid variant has
+/// the usual limit.
 const IMPATIENCE: Duration = Duration::from_millis(400);
 
-/// Runs the cases of a target against a simulated CNC that has it: as it is by default, and one
-/// new enough for whatever there is.
+/// Runs the cases of a target against a simulated CNC with the seed: with the default model, and
+/// with a version that has all features.
 ///
-/// First those alone that can judge what the defect breaks: what is caught by them is caught.
+/// First only the cases with a requirement that the defect breaks: if one fails, the defect is
+/// caught.
 fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, Trouble> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
@@ -59,7 +60,7 @@ fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, Trouble> {
     Ok(has_shown.then_some(outcomes))
 }
 
-/// What came of it, and whether the defect has shown at all.
+/// The outcomes, and whether the defect has changed any byte.
 fn run(
     seed: &Seed,
     settings: Settings,
@@ -72,7 +73,7 @@ fn run(
     let profile = cnc.model().profile();
     let profile = Profile { printed_examples: seed.printed, ..profile };
     let session = session::Session::simulated_to_try(Arc::clone(&faulty))?;
-    // The CNC runs as long as it is held.
+    // The CNC runs until `_running` is dropped.
     let (client, _running) = session.into_parts();
     let client = match seed.kind {
         SeedKind::Different => client,

@@ -1,11 +1,11 @@
-//! What counts as caught, and what the self-test says of it.
+//! Which results count as caught, and how they are printed.
 
 use super::detection::{DetectionTable, Found, Mode};
 use super::*;
 use crate::judge::RequirementVerdict;
 use crate::suite;
 
-/// Outcomes in which these requirements got these verdicts.
+/// Outcomes with these verdicts on these requirements.
 fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<CaseOutcome> {
     let case = suite::cases().swap_remove(0);
     let verdicts = verdicts.iter().map(|&(requirement, verdict)| RequirementVerdict {
@@ -30,7 +30,7 @@ fn caught_is_what_fails_by_its_own_requirement() {
     assert_eq!(judged(&["VAR-4"], &[("VAR-8", Fail)]), Outcomes::Elsewhere);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Pass)]), Outcomes::Survived);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", NotObserved)]), Outcomes::Survived);
-    // To be warned of a must is not to have caught it; of a should it is.
+    // A warning about a must is not caught; about a should it is.
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Warning)]), Outcomes::Survived);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Differs)]), Outcomes::Survived);
     assert_eq!(judged(&["ADS-8"], &[("ADS-8", Warning)]), Outcomes::Caught);
@@ -43,7 +43,7 @@ fn who_is_right_may_differ_and_not_fail() {
     assert_eq!(judged(&[], &[("VAR-4", Pass), ("VAR-8", Differs)]), Outcomes::Quiet);
     assert_eq!(judged(&[], &[("VAR-4", Warning)]), Outcomes::Quiet);
     assert_eq!(judged(&[], &[("VAR-4", Fail)]), Outcomes::FalseAlarm);
-    // A fault of the suite is neither, whatever failed besides.
+    // A harness error takes precedence.
     assert_eq!(judged(&[], &[("VAR-4", HarnessError)]), Outcomes::Broken);
     let both = [("VAR-4", Fail), ("VAR-8", HarnessError)];
     assert_eq!(judged(&["VAR-4"], &both), Outcomes::Broken);
@@ -79,7 +79,7 @@ fn only_a_reason_lets_a_defect_survive() {
         assert_eq!(test(vec![tried(open, None)]).exit(), Exit::Failure, "{open:?}");
         assert_eq!(test(vec![tried(open, Some("why"))]).exit(), Exit::Success, "{open:?}");
     }
-    // Nothing excuses these.
+    // A reason does not excuse these.
     for wrong in [FalseAlarm, Broken] {
         assert_eq!(test(vec![tried(wrong, Some("why"))]).exit(), Exit::Failure, "{wrong:?}");
     }
@@ -118,7 +118,7 @@ fn every_reason_is_of_something_that_is_tried() {
     assert_eq!(ids.len(), candidates.len(), "an ID is there twice");
 }
 
-/// The committed files are those that one renewal wrote, and each defect has its row.
+/// The committed files were written together, and every defect has a row.
 #[test]
 fn the_table_is_whole() {
     let table = DetectionTable::published().unwrap();

@@ -1,4 +1,4 @@
-//! What a tool works with: a CNC to ask, typed, through the gate.
+//! The typed connection of a tool to a CNC, through the gate.
 
 mod trouble;
 
@@ -26,7 +26,7 @@ use crate::simulator::{NET_ID, Responder, Server};
 
 pub use trouble::Trouble;
 
-/// A conversation with a CNC: a device, or one simulated in this process.
+/// A connection to a CNC: a device, or the simulated CNC in this process.
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -46,7 +46,7 @@ pub use trouble::Trouble;
 /// ```
 #[derive(Debug)]
 pub struct Session {
-    // Before the server, which waits for its connections when it is dropped.
+    // Dropped before the server, which waits for its connections to end.
     client: Client,
     simulated: Option<Server>,
     reply: Vec<u8>,
@@ -58,7 +58,7 @@ impl Session {
     /// Connects to a target.
     ///
     /// # Errors
-    /// Why there is no connection, and what to look for.
+    /// Why the connection failed, with advice.
     pub fn connect(target: Target, gate: Gate) -> Result<Self, Trouble> {
         match Client::connect(target, gate) {
             Ok(client) => Ok(Self::over(client, None)),
@@ -66,11 +66,11 @@ impl Session {
         }
     }
 
-    /// Shows on stdout what would be sent to a target, and sends nothing. Writes seem to succeed;
-    /// for what an answer is needed to the call fails with [`Trouble::NotSent`].
+    /// Prints requests to stdout and sends none. Writes seem to succeed; calls that need a reply
+    /// fail with [`Trouble::NotSent`].
     ///
     /// # Errors
-    /// If the gate is open wider than is safe for another machine.
+    /// If the gate allows malformed requests to another machine.
     pub fn dry(target: Target, gate: Gate) -> Result<Self, Trouble> {
         let client = Client::dry(target, gate);
         Ok(Self::over(client.map_err(|error| Trouble::Usage(error.to_string()))?, None))
@@ -86,7 +86,7 @@ impl Session {
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
-        // No network is in between: whoever is that late has not been let run by this machine.
+        // Without a network a late reply can only be due to a busy machine.
         let target =
             Target { timeout: SIMULATED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
@@ -96,7 +96,7 @@ impl Session {
     /// Connects to a CNC of this process without a socket. Its clock must be stopped.
     ///
     /// # Errors
-    /// If the gate is open wider than is safe for another machine.
+    /// If the gate allows malformed requests to another machine.
     pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, Trouble> {
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, cnc);
@@ -104,8 +104,8 @@ impl Session {
         Ok(Self::over(client, None))
     }
 
-    /// Starts a CNC in this process that anything may be sent to which is ever sent: it is thrown
-    /// away.
+    /// Starts a CNC in this process, whose gate allows every request except those that are never
+    /// sent.
     ///
     /// # Errors
     /// Those of [`simulated`](Self::simulated).
@@ -117,7 +117,7 @@ impl Session {
         }
     }
 
-    /// [`dry`](Self::dry) to the CNC that would have been started.
+    /// Like [`dry`](Self::dry), with the address of the simulated CNC.
     ///
     /// # Errors
     /// Those of [`dry`](Self::dry).
@@ -125,11 +125,11 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
     }
 
-    /// The same simulated CNC with another gate, over a new connection. A device gets a wider gate from a
-    /// file for `--allow-write` only.
+    /// The same simulated CNC with another gate, over a new connection. The gate of a device can be
+    /// widened only by the file of `--allow-write`.
     ///
     /// # Errors
-    /// [`Trouble::Usage`] for anything but a simulated CNC.
+    /// [`Trouble::Usage`] for a device.
     pub fn with_gate(self, gate: Gate) -> Result<Self, Trouble> {
         let Self { client, simulated: Some(server), .. } = self else {
             return Err(Trouble::Usage("only a simulated CNC can have another gate".to_owned()));
@@ -151,22 +151,22 @@ impl Session {
         Self { client, simulated, reply: Vec::new(), answered: false, deadline: None }
     }
 
-    /// With a capture of all that is sent and received from now on.
+    /// Captures everything sent and received from now on.
     #[must_use]
     pub fn with_capture(self, capture: impl Into<Box<dyn Tap>>) -> Self {
         Self { client: self.client.with_capture(capture), ..self }
     }
 
-    /// With a moment after which nothing more is asked for: calls fail with [`Trouble::Enough`].
+    /// Sets a deadline after which calls fail with [`Trouble::Enough`].
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
     }
 
-    /// Calls a function and reads its reply.
+    /// Calls a function and decodes its reply.
     ///
     /// # Errors
-    /// What came instead, or why nothing was sent.
+    /// Why there is no valid reply, or why the request was not sent.
     pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, Trouble> {
         let mut data = vec![0; operation.encoded_len()];
         let call = operation.call(&mut data).map_err(Trouble::Unsendable)?;
@@ -208,17 +208,16 @@ impl Session {
                 }
                 Ok(answer.data.unwrap_or_default())
             }
-            // Nothing is waited for.
+            // A dry run can continue after a write, whose reply has no data.
             Err(ExchangeError::NotSent) if function.spec().reply.is_none() => Ok(Vec::new()),
             Err(fault) => Err(Trouble::fault(&self.client, fault, self.answered)),
         }
     }
 
-    /// Asks one query that the profile claims. A device that answers none has nothing to be judged
-    /// by.
+    /// Sends a query that the profile claims, because a device must answer at all to be judged.
     ///
     /// # Errors
-    /// If there is no answer. An ADS error is one.
+    /// If there is no reply. An ADS error is a reply.
     pub(crate) fn greet(&mut self, profile: &Profile) -> Result<(), Trouble> {
         let greeted = match profile.claims(Function::CountObjects) {
             Claim::No => {
@@ -235,7 +234,7 @@ impl Session {
         }
     }
 
-    /// Name and version of the device, as a task of it says.
+    /// Name and version of the device, requested from a task.
     ///
     /// ```
     /// use ads_cnc::operation::Task;
@@ -249,12 +248,12 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// What came instead: a device need not say it.
+    /// If there is no valid reply: the command is optional.
     pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, Trouble> {
         self.inquire(task)
     }
 
-    /// The state that a task of the device is in.
+    /// The ADS state of a task.
     ///
     /// ```
     /// use ads_cnc::ads::AdsState;
@@ -269,7 +268,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// What came instead: a device need not say it.
+    /// If there is no valid reply: the command is optional.
     pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, Trouble> {
         self.inquire(task)
     }
@@ -277,7 +276,7 @@ impl Session {
     fn inquire<R: Inquiry>(&mut self, task: Task) -> Result<R, Trouble> {
         let inquired = self.client.inquire::<R>(task.port());
         if self.client.is_dry() {
-            // Who does not read it does not want to know it.
+            // A closed stdout is not an error.
             let _unread = writeln!(io::stdout(), "would be sent\n  {} ({})", inquired, R::CLAUSE);
         }
         match inquired.outcome {
@@ -297,8 +296,8 @@ impl Session {
         }
     }
 
-    /// Whether the gate would let a call pass now: what a tool asks before it begins something that
-    /// a refusal would leave half done. Nothing is sent.
+    /// Checks whether the gate allows a call now, before a tool begins a sequence that it could not
+    /// complete. Nothing is sent.
     ///
     /// # Errors
     /// [`Trouble::Refused`], [`Trouble::Unsendable`].
@@ -314,7 +313,7 @@ impl Session {
         self.simulated.is_some()
     }
 
-    /// Whether nothing is sent.
+    /// Whether this is a dry run.
     pub const fn is_dry(&self) -> bool {
         self.client.is_dry()
     }
@@ -334,13 +333,13 @@ fn encode<'d>(task: Task, request: &Request<'_>, data: &'d mut [u8]) -> Result<C
     Ok(Call { port: task.port(), ..call })
 }
 
-/// What would have been sent.
+/// Prints a request that was not sent.
 fn show(exchange: &Exchange) {
-    // Who does not read it does not want to know it.
+    // A closed stdout is not an error.
     let _unread = write!(io::stdout().lock(), "{}", Shown(exchange));
 }
 
-/// A request as a dry run shows it: function, address, bytes, and whether it may be sent.
+/// A request in a dry run: function, address, bytes, and whether the gate would allow it.
 #[derive(Debug)]
 pub struct Shown<'e>(pub &'e Exchange);
 
@@ -363,8 +362,8 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-/// How long the simulated CNC is waited for.
+/// How long to wait for a reply of the simulated CNC.
 const SIMULATED_TIMEOUT: Duration = Duration::from_secs(6);
 
-/// How long a tool waits for an answer unless told otherwise.
+/// The default time to wait for a reply.
 pub const TIMEOUT: Duration = Duration::from_secs(2);

@@ -1,4 +1,4 @@
-//! What can go wrong, and what to do next.
+//! The errors of tools, with advice.
 
 use std::fmt;
 use std::io;
@@ -12,52 +12,52 @@ use crate::exchange::ExchangeError;
 use crate::gate::Refusal;
 use crate::judge::Exit;
 
-/// Why a tool does not get what it asked for. Its text says what to do next.
+/// Why a tool fails. The text includes advice.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Trouble {
-    /// What was given on the command line or in a file does not do.
+    /// An invalid argument or file.
     Usage(String),
-    /// The CNC does not have what was asked for, or says that it cannot be done.
+    /// The CNC does not have the requested value or function.
     Unable(String),
-    /// Something that should work on any machine did not.
+    /// An error of the system that is not to be expected.
     Internal(String),
-    /// The gate did not let it through.
+    /// The gate rejected the request.
     Refused(Box<Refusal>),
-    /// The gate allows more than this target may be sent.
+    /// The gate allows requests that must not be sent to this target.
     Unsafe(String),
-    /// A dry run: an answer would be needed to go on.
+    /// A dry run that would need a reply to continue.
     NotSent,
-    /// A maximum of this tool, or its deadline, was reached.
+    /// A limit of this tool, or its deadline, was reached.
     Enough(String),
-    /// What was to be sent has no form on the wire.
+    /// The request cannot be encoded.
     Unsendable(Error),
-    /// No connection, or no answer.
+    /// No connection, or no reply.
     NoAnswer(String),
-    /// An AMS error: the request reached no CNC.
+    /// An AMS error: the request did not reach a CNC.
     Ams {
         error: AdsError,
-        /// What to do next.
+        /// Advice.
         hint: String,
     },
-    /// The CNC refuses.
+    /// An ADS error of the CNC.
     Ads {
-        /// What it was asked.
+        /// The function that was called.
         function: Function,
         error: AdsError,
     },
-    /// The device says nothing of itself.
+    /// The device does not answer an inquiry.
     Device {
-        /// The command's name: ReadDeviceInfo or ReadState.
+        /// The name of the command: ReadDeviceInfo or ReadState.
         command: &'static str,
         error: AdsError,
     },
-    /// The reply does not hold together.
+    /// The reply cannot be decoded.
     Reply(Error),
 }
 
 impl Trouble {
-    /// How the process ends with it.
+    /// The exit code.
     pub const fn exit(&self) -> Exit {
         match self {
             Self::NotSent => Exit::Success,
@@ -71,7 +71,7 @@ impl Trouble {
         }
     }
 
-    /// The error number, if the CNC gave one.
+    /// The ADS error number, if the CNC returned one.
     pub const fn ads_error(&self) -> Option<AdsError> {
         match self {
             Self::Ads { error, .. } | Self::Device { error, .. } => Some(*error),
@@ -79,7 +79,7 @@ impl Trouble {
         }
     }
 
-    /// Signals cannot be caught.
+    /// The error for signals that cannot be caught.
     pub(crate) fn uncaught(error: &io::Error) -> Self {
         Self::Internal(format!("signals cannot be caught: {error}"))
     }
@@ -201,7 +201,7 @@ impl fmt::Display for Trouble {
 
 impl std::error::Error for Trouble {}
 
-/// What a number most likely means: which one a CNC gives is not documented (ADS-7).
+/// The usual meaning of an error number; the CNC's numbers are not documented (ADS-7).
 const fn meaning(error: AdsError) -> Option<&'static str> {
     Some(match error {
         AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",

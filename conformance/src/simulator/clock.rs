@@ -1,25 +1,25 @@
-//! The time of a CNC.
+//! The clock of a simulated CNC.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Time since a CNC was switched on: the machine's clock, unless it is stopped, and what was let
-/// pass.
+/// Time since the CNC was started: the system's clock, unless stopped, plus the time that was
+/// added.
 #[derive(Debug)]
 pub(super) struct Clock {
-    /// None if it is stopped.
+    /// Start of the system's clock; `None` if stopped.
     since: Option<Instant>,
-    /// Nanoseconds that were let pass.
+    /// Nanoseconds that were added.
     passed: AtomicU64,
 }
 
 impl Clock {
-    /// Runs from now on.
+    /// A running clock.
     pub(super) fn running() -> Self {
         Self { since: Some(Instant::now()), passed: AtomicU64::new(0) }
     }
 
-    /// Stopped at 0.
+    /// A clock stopped at 0.
     pub(super) const fn stopped() -> Self {
         Self { since: None, passed: AtomicU64::new(0) }
     }
@@ -32,7 +32,7 @@ impl Clock {
     pub(super) fn pass(&self, time: Duration) {
         let time = u64::try_from(time.as_nanos()).unwrap_or(u64::MAX);
         let passed = |passed: u64| Some(passed.saturating_add(time));
-        // It always has a new value.
+        // The closure always returns a value.
         let _ = self.passed.fetch_update(Ordering::SeqCst, Ordering::SeqCst, passed);
     }
 }

@@ -1,4 +1,4 @@
-//! Contents of objects and elements, wherever they are.
+//! Contents of objects and elements.
 
 use std::borrow::Cow;
 
@@ -27,7 +27,7 @@ pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
     items.map(Vec::as_slice).unwrap_or_default()
 }
 
-/// The content; blank where no axis is (SDA-11).
+/// The content; zeros for an axis place without an axis (SDA-11).
 pub(super) fn read<'s>(
     model: &Model,
     state: &'s CncState,
@@ -49,7 +49,7 @@ pub(super) fn read<'s>(
     }
 }
 
-/// Writes a content of the right size that may be written.
+/// Writes a content after a check of size and access.
 pub(super) fn write(
     model: &Model,
     state: &mut CncState,
@@ -76,21 +76,22 @@ pub(super) fn write(
         (Meaning::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
         (Meaning::Value, _) => {
             let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
-            // Where no axis is there is nothing to be written.
+            // An axis place without an axis cannot be written.
             copy_padded(content.ok_or(AdsError::INVALID_DATA)?, bytes);
             Ok(())
         }
     }
 }
 
-/// A text may be shorter than its place, if it ends; anything else has just the size.
+/// A text may be shorter than its content if it has a NUL; any other value must have the exact
+/// size.
 pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(), AdsError> {
     let ends = bytes.contains(&0) || bytes.len() < size;
     let fits = if is_text { bytes.len() <= size && ends } else { bytes.len() == size };
     if fits { Ok(()) } else { Err(AdsError::INVALID_SIZE) }
 }
 
-/// The bytes, and zeros after them.
+/// Copies bytes and fills the rest with zeros.
 pub(super) fn copy_padded(place: &mut [u8], bytes: &[u8]) {
     let bytes = bytes.iter().copied().chain(std::iter::repeat(0));
     place.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = new);

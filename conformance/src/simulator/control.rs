@@ -1,4 +1,4 @@
-//! What happens to a CNC from within: nobody asks for it over ADS.
+//! Changes of a CNC from outside ADS: by an operator or an NC program.
 
 use ads_cnc::CncString;
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
@@ -9,15 +9,15 @@ use super::program::service::ServiceInterface;
 use super::program::{ProgramConfig, Script, StreamingProgram};
 use super::state::ChannelState;
 
-/// What the CNC cannot be made to do.
+/// Why a change of the CNC is not possible.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ControlError {
-    /// No channel has the number.
+    /// No channel has this number.
     #[error("there is no channel {0}")]
     Channel(u8),
-    /// The place is none of the channel's, the axis is not there, or another axis of the channel
-    /// has its name.
+    /// The channel does not have the place, the axis does not exist, or another axis of the channel
+    /// has the same name.
     #[error("the axis {axis} cannot be put at place {place} of channel {channel}")]
     Exchange {
         /// Logical number of the channel.
@@ -27,16 +27,17 @@ pub enum ControlError {
         /// Logical number of the axis.
         axis: u32,
     },
-    /// The name is too long, no CP1252, of another kind or there twice.
+    /// The name is too long, not CP1252, of another kind, or a duplicate.
     #[error("{0:?} cannot be the name of a parameter")]
     Name(String),
 }
 
 impl Cnc {
-    /// Puts the axis with a logical number at a place, from 1, of a channel (ADR-13): where it
-    /// was, none is now; which was there, is nowhere now. 0 leaves the place without an axis.
+    /// Assigns the axis with a logical number to a place (from 1) of a channel (ADR-13). The axis
+    /// leaves its previous place, and the axis previously at this place has no place any more. 0
+    /// leaves the place without an axis.
     ///
-    /// Over ADS the same is done by writing an object or an element that is an axis-number.
+    /// Over ADS a write to an object or element with the meaning axis-number does the same.
     ///
     /// # Errors
     /// [`ControlError::Channel`], [`ControlError::Exchange`]; nothing is changed.
@@ -47,7 +48,7 @@ impl Cnc {
         done.and_then(Result::ok).ok_or(ControlError::Exchange { channel, place, axis })
     }
 
-    /// The logical number of the axis at a place, from 1, of a channel; 0 if there is none.
+    /// The logical number of the axis at a place (from 1) of a channel; 0 without an axis.
     ///
     /// ```
     /// use ads_cnc_conformance::simulator::Cnc;
@@ -65,7 +66,8 @@ impl Cnc {
         axis().unwrap_or_default()
     }
 
-    /// Activates or deactivates a channel: the ranks of those after it change (ADR-11).
+    /// Activates or deactivates a channel, which changes the ranks of the channels after it
+    /// (ADR-11).
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -73,8 +75,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.active = active)
     }
 
-    /// Replaces the dynamic parameters of a kind, as an NC program does that makes and deletes
-    /// them: names and values in the order of their indices (DYN-4).
+    /// Replaces the dynamic parameters of a kind, like an NC program that creates and deletes them:
+    /// names and values in the order of their indices (DYN-4).
     ///
     /// ```
     /// use ads_cnc::dynamic::DynamicKind;
@@ -106,8 +108,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.parameters.replace(kind, new))
     }
 
-    /// The Service Interface of a channel, as the NC program has it. It is locked meanwhile: no
-    /// request is answered.
+    /// Calls a function with the Service Interface of a channel. The CNC is locked meanwhile and
+    /// answers no request.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -119,8 +121,8 @@ impl Cnc {
         self.of_channel(channel, |channel| then(&mut channel.service))
     }
 
-    /// Sets up the streaming of a channel anew, as when it is switched on: what was in the
-    /// interface and what was run is gone.
+    /// Configures the streaming of a channel anew, as at power-on: the buffer and the record of
+    /// executed lines are empty.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -132,8 +134,8 @@ impl Cnc {
         })
     }
 
-    /// The streaming program of a channel: its state, and what it has run. It is locked meanwhile:
-    /// no request is answered.
+    /// Calls a function with the streaming program of a channel. The CNC is locked meanwhile and
+    /// answers no request.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -145,7 +147,7 @@ impl Cnc {
         self.of_channel(channel, |channel| then(&mut channel.program))
     }
 
-    /// Has an NC program of a channel ask services, from now on; none ends it.
+    /// Sets the NC program of a channel that sends requests to services; `None` ends it.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -154,7 +156,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.script = script)
     }
 
-    /// The NC program of a channel that asks services, and the interface it asks through.
+    /// Calls a function with the NC program of a channel that sends requests to services, and the
+    /// Service Interface.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -166,7 +169,7 @@ impl Cnc {
         self.of_channel(channel, |channel| then(channel.script.as_mut()))
     }
 
-    /// A program that asks services, as it is run here.
+    /// The script with the policy of this CNC.
     pub(crate) fn as_run(&self, script: Script) -> Script {
         script.with_policy(self.policy())
     }
@@ -234,7 +237,7 @@ mod tests {
         assert_eq!((wcs(2), wcs(3)), (z.clone(), vec![0; 8]));
         cnc.exchange_axis(1, 3, 2).unwrap();
         assert_eq!((wcs(2), wcs(3)), (z.clone(), y));
-        // To where it is already, and out.
+        // To its own place, and away.
         cnc.exchange_axis(1, 2, 3).unwrap();
         assert_eq!(wcs(2), z);
         cnc.exchange_axis(1, 2, 0).unwrap();
@@ -252,7 +255,7 @@ mod tests {
         let name = |index: u8| ask(&cnc, 0x12_2301, 0x1B, &[index, 0, 0, 0]);
         cnc.set_parameters(1, DynamicKind::P, &[("P7", 1.0), ("P1", f64::NAN)]).unwrap();
         assert_eq!((name(1), name(2)), (Ok(b"P7\0".to_vec()), Ok(b"P1\0".to_vec())));
-        // Other kinds stay.
+        // Parameters of other kinds stay.
         let depth = ask(&cnc, 0x12_2301, 0x1F, b"V.L.depth\0");
         assert_eq!(depth, Ok(2.5_f64.to_le_bytes().to_vec()));
         cnc.set_parameters(1, DynamicKind::P, &[]).unwrap();
@@ -265,7 +268,7 @@ mod tests {
         }
     }
 
-    /// The program asks within, the service over ADS sees it.
+    /// The program writes its request without ADS, the service reads it over ADS.
     #[test]
     fn a_program_has_the_service_interface() {
         let cnc = cnc();
@@ -278,7 +281,7 @@ mod tests {
         assert_eq!(state, Ok(vec![7, 0, 0, 0]));
     }
 
-    /// Whoever panics with the lock in hand, the CNC answers on.
+    /// A panic while the lock is held does not stop the CNC from answering.
     #[test]
     fn a_panic_under_the_lock_stops_nobody() {
         let cnc = cnc();

@@ -12,8 +12,8 @@ use crate::net::Peer;
 
 /// The CNC's end of a connection.
 ///
-/// Where a socket would wait for bytes, the CNC's clock is moved on by the timeout instead: a test
-/// that meets silence takes no time, and the same requests give the same answers each time.
+/// Where a socket would wait for bytes, the CNC's clock is advanced by the timeout instead: a test
+/// with a missing reply takes no time, and the answers are repeatable.
 #[derive(Debug)]
 pub(crate) struct InProcess {
     cnc: Arc<dyn Responder>,
@@ -43,7 +43,7 @@ impl Peer for InProcess {
                 answers.extend(bytes.chunks(cnc.piece()).map(<[u8]>::to_vec));
                 Ok(())
             });
-            // As the server: it ends a connection whose frames it cannot tell apart.
+            // Like the server, ends a connection with an invalid frame.
             *closed = taken.is_err();
         }
         Ok(())

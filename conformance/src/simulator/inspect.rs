@@ -1,4 +1,4 @@
-//! What a CNC holds, as the machine has it: nobody asks for it over ADS.
+//! Reads and changes the state of a CNC directly, not over ADS.
 
 use ads_cnc::address::Class;
 use ads_cnc::dynamic::DynamicKind;
@@ -9,7 +9,7 @@ use super::content;
 use super::model::{Meaning, Model};
 use super::owner::Owner;
 
-/// Whose content it is: channels by their numbers, axes and places from 1, spindles from 0.
+/// The owner of a content: channels by their numbers, axes and places from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Holder {
     /// COM: the platform.
@@ -18,23 +18,23 @@ pub(crate) enum Holder {
     Channel(u8),
     /// COM: a platform axis.
     PlatformAxis(u8),
-    /// COM: whatever axis is at a place of a channel.
+    /// COM: the axis at a place of a channel.
     ChannelAxis { channel: u8, place: u8 },
     /// A class: a channel.
     OfChannel { class: Class, channel: u8 },
     /// A class: a platform axis.
     OfAxis { class: Class, axis: u8 },
-    /// A class: whatever axis is at a place of a channel.
+    /// A class: the axis at a place of a channel.
     OfPlace { class: Class, channel: u8, place: u8 },
     /// A spindle.
     Spindle(u8),
 }
 
-/// A content of an object or an element, as it is at the moment.
+/// The current content of an object or an element.
 #[derive(Clone, Debug)]
 pub(crate) struct StoredContent {
     pub(crate) holder: Holder,
-    /// Its place among those of the holder.
+    /// Its element number.
     pub(crate) element: u32,
     pub(crate) name: CncString,
     pub(crate) type_name: &'static str,
@@ -45,7 +45,7 @@ pub(crate) struct StoredContent {
     index: usize,
 }
 
-/// A variable of a channel by the name it has there, and the value it has at the moment.
+/// A variable of a channel by its name there, with its current value.
 #[derive(Clone, Debug)]
 pub(crate) struct HeldVariable {
     pub(crate) channel: u8,
@@ -54,7 +54,7 @@ pub(crate) struct HeldVariable {
     pub(crate) value: Vec<u8>,
 }
 
-/// A dynamic parameter that is there at the moment.
+/// A dynamic parameter that exists at the moment.
 #[derive(Clone, Debug)]
 pub(crate) struct HeldParameter {
     pub(crate) channel: u8,
@@ -64,8 +64,8 @@ pub(crate) struct HeldParameter {
 }
 
 impl Cnc {
-    /// All contents that are what was put there last: none that says something of the
-    /// configuration, none where no axis is.
+    /// All contents that hold the value written last: without those derived from the configuration,
+    /// and without places that have no axis.
     pub(crate) fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
@@ -92,7 +92,7 @@ impl Cnc {
         all
     }
 
-    /// Puts this value there; it has the size of the old one.
+    /// Sets the value, which must have the size of the old one.
     pub(crate) fn hold(&self, held: &StoredContent, value: &[u8]) {
         let mut state = self.state();
         let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
@@ -101,7 +101,7 @@ impl Cnc {
         }
     }
 
-    /// All variables that can be listed, but for those of the Service Interface.
+    /// All variables in lists, except those of the Service Interface.
     pub(crate) fn held_variables(&self) -> Vec<HeldVariable> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
@@ -138,7 +138,7 @@ impl Cnc {
         all
     }
 
-    /// Variables of a channel that have no handle and may be written.
+    /// Writable variables of a channel without a handle.
     pub(crate) fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
         let channels = self.model().channels.iter().filter(|channel| channel.number == number);
         let all = channels.flat_map(|channel| channel.variables.list.iter());
@@ -146,7 +146,7 @@ impl Cnc {
         own.map(|one| one.name.clone()).collect()
     }
 
-    /// All dynamic parameters that are there.
+    /// All dynamic parameters that exist at the moment.
     pub(crate) fn held_parameters(&self) -> Vec<HeldParameter> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
@@ -194,7 +194,7 @@ impl Cnc {
     }
 }
 
-/// The place of each item of an owner.
+/// The element number of each item of an owner.
 fn elements(model: &Model, owner: Owner) -> Vec<u32> {
     let objects = match owner {
         Owner::Platform => Some(&model.platform),
@@ -205,7 +205,7 @@ fn elements(model: &Model, owner: Owner) -> Vec<u32> {
     };
     match objects {
         Some(objects) => objects.elements.clone(),
-        // The first says how many there are.
+        // The first element is the number of elements.
         None => (1..).take(content::items(model, owner).len()).collect(),
     }
 }
@@ -227,7 +227,7 @@ mod tests {
         assert_eq!((second.element, &second.value[..]), (1, &(-200.5_f64).to_le_bytes()[..]));
         let speed = of(Holder::Spindle(1), "example.speed");
         assert_eq!((speed.element, speed.writable), (1, true));
-        // The axis at the place holds it, and no place without an axis does.
+        // The value belongs to the axis, so a place without an axis has none.
         assert!(
             !all.iter().any(|one| {
                 matches!(one.holder, Holder::ChannelAxis { channel: 2, place: 2.. })

@@ -1,9 +1,8 @@
-//! The simulated CNC: a data model, the answers it gives, and an AMS/TCP server around them.
+//! The simulated CNC: data model, answers, and AMS/TCP server.
 //!
-//! [`Cnc::answer`] takes an ADS request and gives data or an error number, [`Cnc::respond`] does
-//! the same with whole frames, [`Server`] with TCP connections: of a [`Cnc`] or of any other
-//! [`Responder`]. What is unknown or does not fit is refused with an error number: never with
-//! silence, never with a panic.
+//! [`Cnc::answer`] answers an ADS request with data or an error number, [`Cnc::respond`] answers
+//! frames, and [`Server`] TCP connections, for a [`Cnc`] or any other [`Responder`]. Unknown or
+//! invalid requests are answered with an error number, never ignored, and never cause a panic.
 //!
 //! ```
 //! use ads_cnc::address::{IndexGroup, IndexOffset};

@@ -1,4 +1,4 @@
-//! The dynamic parameters of a channel as they are now.
+//! The dynamic parameters of a channel at the moment.
 
 use std::time::Duration;
 
@@ -11,11 +11,11 @@ use super::model::Parameter;
 pub(super) struct ParameterState {
     pub(super) is: Parameter,
     pub(super) value: DynamicValue,
-    /// The life that it has at this time; none if it is not there.
+    /// How many times it was created before; `None` while it does not exist.
     life: Option<u128>,
 }
 
-/// All of a channel, those too that are not there now.
+/// All parameters of a channel, including those that do not exist at the moment.
 #[derive(Clone, Debug)]
 pub(super) struct ParameterStates(Vec<ParameterState>);
 
@@ -30,15 +30,15 @@ impl ParameterState {
 }
 
 impl ParameterStates {
-    /// As at the start.
+    /// In the initial state.
     pub(super) fn new(parameters: &[Parameter]) -> Self {
         Self(parameters.iter().cloned().map(ParameterState::new).collect())
     }
 
-    /// Lets come and go what did by now. What comes again is made anew: it has the value of the
-    /// start, whatever was written to it before (assumed).
+    /// Creates and deletes parameters that are due. A parameter that is created again has its
+    /// initial value, even if it was written to before (assumed).
     pub(super) fn advance(&mut self, now: Duration) {
-        // Most are always there, and this is done for every request.
+        // Most parameters always exist, and this runs for every request.
         for one in self.0.iter_mut().filter(|one| !one.is.times.is_always()) {
             let life = one.is.times.life(now);
             if life.is_some() && life != one.life {
@@ -48,18 +48,18 @@ impl ParameterStates {
         }
     }
 
-    /// Others of this kind instead.
+    /// Replaces the parameters of a kind.
     pub(super) fn replace(&mut self, kind: DynamicKind, new: Vec<Parameter>) {
         self.0.retain(|one| one.is.kind != kind);
         self.0.extend(new.into_iter().map(ParameterState::new));
     }
 
-    /// Those whose time is, in the order of their indices.
+    /// The parameters that exist at the moment, in the order of their indices.
     pub(super) fn at_their_time(&self) -> impl Iterator<Item = &ParameterState> {
         self.0.iter().filter(|one| one.life.is_some())
     }
 
-    /// The value of the parameter with this name, there or not.
+    /// The value of the parameter with this name, whether it exists at the moment or not.
     pub(super) fn value_mut(&mut self, name: &CncString) -> Option<&mut DynamicValue> {
         self.0.iter_mut().find(|one| one.is.name == *name).map(|one| &mut one.value)
     }

@@ -1,4 +1,4 @@
-//! From a frame to the frame that answers it.
+//! Answers frames.
 
 use ads_cnc::ads::{
     AdsError, AdsState, AmsHeader, AmsNetId, AmsTcpHeader, Command, DeviceInfoReply,
@@ -11,16 +11,16 @@ use ads_cnc::{Encode, Error};
 use super::{to_len, to_u32};
 use crate::wire_service::service_of;
 
-/// The most bytes after the AMS header of a frame that is taken or sent: more ends a connection,
-/// and is refused as the answer to a request.
+/// Maximum number of bytes after the AMS header. A longer received frame ends the connection; a
+/// request with a longer reply is rejected.
 pub const DATA_MAX: u32 = 0x1_0000;
 
-/// Bytes of the longest frame.
+/// Maximum length of a frame.
 pub(crate) const FRAME_MAX: usize = FrameRef::HEADERS_LEN + 0x1_0000;
 
 const _: () = assert!(DATA_MAX == 0x1_0000);
 
-/// The bit that a response has and a request has not.
+/// The bit of the state flags that marks a response.
 const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 
 /// The data of a reply, or the error number.
@@ -43,7 +43,7 @@ pub(crate) fn respond(
         return;
     }
     let start = answers.len();
-    // The headers are written once the length of the data after them is known.
+    // The headers are written when the length of the data is known.
     answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
     let after = answers.len();
     let error = if header.target.net_id != net_id {
@@ -74,12 +74,13 @@ fn write_headers(header: AmsHeader, answers: &mut [u8], start: usize) -> Result<
     Ok(())
 }
 
-/// Appends the data of the response to a command for a port that a task has.
+/// Appends the data of the reply to a command for the port of a task.
 fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
     let (command, data) = (frame.header().command, frame.data());
     if let Some(service) = service_of(command) {
         let reply = ask(cnc, frame);
-        // An error has its length, 0, too: not all clients take a reply that stops before it.
+        // An error reply has the length 0 too: not all clients accept a reply that ends before the
+        // length.
         let (result, data) = match &reply {
             Ok(data) => (AdsError::NO_ERROR, Some(data.as_slice())),
             Err(result) => (*result, Some(&[][..])),
@@ -102,8 +103,8 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
             tracing::debug!("refused: command {}", command.0);
             let result = AdsError::SERVICE_NOT_SUPPORTED;
             match command {
-                // A result and the notification's handle, 0: as an empty Read has a result and
-                // length 0.
+                // A result and the notification handle 0, as an empty Read has a result and length
+                // 0.
                 Command::ADD_NOTIFICATION => {
                     append(&ReadReplyRef { result, data: Some(&[]) }, answers)
                 }
@@ -113,10 +114,10 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
     }
 }
 
-/// Asks the CNC; what no frame has room for is too much to ask.
+/// Calls the CNC; an answer that does not fit into a frame is an error.
 fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     let call = Call::from_frame(frame).map_err(|error| {
-        // A service's header that does not hold together is a request of the wrong size.
+        // An invalid header of a service is answered as a request of the wrong size.
         tracing::debug!("refused: {error}");
         AdsError::INVALID_SIZE
     })?;
@@ -125,10 +126,10 @@ fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
 }
 
-/// Result and length before the data of a reply.
+/// Length of result and length before the data of a reply.
 const SERVICE_LEN: usize = 8;
 
-/// What the simulated CNC says of itself: a name, and the version of this program.
+/// The device information of the simulated CNC: a name, and the version of this program.
 pub(crate) const INFO: DeviceInfoReply = DeviceInfoReply {
     result: AdsError::NO_ERROR,
     major: number(env!("CARGO_PKG_VERSION_MAJOR")),
@@ -140,7 +141,7 @@ pub(crate) const INFO: DeviceInfoReply = DeviceInfoReply {
     name: *b"ads-cnc serve\0\0\0",
 };
 
-/// The number of a version, or 255 if it is more.
+/// Parses a number of the version; 255 if it is greater.
 const fn number(text: &str) -> u8 {
     match u8::from_str_radix(text, 10) {
         Ok(number) => number,
@@ -148,7 +149,7 @@ const fn number(text: &str) -> u8 {
     }
 }
 
-/// A command that takes none.
+/// The result of a command that must not have data.
 const fn without_data(data: &[u8]) -> AdsError {
     if data.is_empty() { AdsError::NO_ERROR } else { AdsError::INVALID_SIZE }
 }

@@ -1,4 +1,4 @@
-//! What answers requests.
+//! The trait of everything that answers requests.
 
 use std::fmt;
 use std::sync::Arc;
@@ -9,29 +9,29 @@ use ads_cnc::operation::Call;
 
 use super::respond::{ReplyData, respond};
 
-/// Answers ADS requests: a [`Cnc`](super::Cnc), or what is put around one.
+/// Answers ADS requests: a [`Cnc`](super::Cnc), or middleware around one.
 pub trait Responder: fmt::Debug + Send + Sync {
-    /// The data to answer with.
+    /// Answers a request with data.
     ///
     /// # Errors
     /// An error number.
     fn answer(&self, call: &Call<'_>) -> ReplyData;
 
-    /// Appends the frame to answer with, as the device of this NetId; nothing for a frame that is no
+    /// Appends the reply to a frame, as the device with this NetId; nothing if the frame is not a
     /// request.
     ///
-    /// A frame for another NetId or a port that no task has is answered with an error in the AMS
-    /// header and no data, all other refusals with a result.
+    /// A frame for another NetId or the port of no task is answered with an AMS error without data,
+    /// other invalid requests with an error in the result.
     fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         respond(&|call| self.answer(call), net_id, frame, answers);
     }
 
-    /// The most bytes that are sent at a time; at least 1.
+    /// Maximum number of bytes to send at a time; at least 1.
     fn piece(&self) -> usize {
         usize::MAX
     }
 
-    /// Lets time pass, on a stopped clock.
+    /// Advances a stopped clock.
     fn pass(&self, time: Duration);
 }
 

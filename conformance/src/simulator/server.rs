@@ -1,4 +1,4 @@
-//! The AMS/TCP server: a thread for each connection, a bounded number of them.
+//! The AMS/TCP server: one thread per connection, with a limited number of connections.
 
 mod connection;
 mod options;
@@ -18,21 +18,20 @@ use crate::net;
 pub use connection::Received;
 pub use options::ServerOptions;
 
-/// The most connections at a time; one more is closed at once.
+/// Maximum number of simultaneous connections; a further one is closed at once.
 pub const CONNECTIONS_MAX: usize = 64;
 
-/// The most bytes that a connection holds of what it received and of what it is about to send; an
-/// answer being made comes on top, which is no longer than a frame. They are taken as they are
-/// needed.
+/// Maximum number of bytes that a connection buffers of received requests and unsent replies,
+/// besides the reply being built, which is at most one frame. Memory is allocated as needed.
 pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
 
-/// Bytes of the stack of a connection's thread.
+/// Stack size of a connection's thread in bytes.
 const STACK: usize = 1024 * 1024;
 
 /// How long a client may leave an answer lying before its connection ends.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// A running server; dropping it ends every connection and waits for their threads.
+/// A running server; dropping it closes every connection and waits for their threads.
 #[derive(Debug)]
 pub struct Server {
     acceptor: net::Acceptor,
@@ -43,7 +42,7 @@ pub struct Server {
 struct ServerState {
     cnc: Box<dyn Responder>,
     options: ServerOptions,
-    /// The open connections, to end them from outside.
+    /// The open connections, to close them from outside.
     connections: Mutex<BTreeMap<u64, TcpStream>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
 }
@@ -52,15 +51,15 @@ impl Server {
     /// Serves the connections of a listener until dropped.
     ///
     /// # Errors
-    /// If the listener has no address or the system no thread.
+    /// If the listener has no address, or the system cannot start a thread.
     pub fn start(listener: TcpListener, cnc: impl Responder + 'static) -> io::Result<Self> {
         Self::with_options(listener, cnc, ServerOptions::default())
     }
 
-    /// Serves the connections of a listener until dropped, as the options say.
+    /// Serves the connections of a listener until dropped, with options.
     ///
     /// # Errors
-    /// If the listener has no address or the system no thread.
+    /// If the listener has no address, or the system cannot start a thread.
     pub fn with_options(
         listener: TcpListener,
         cnc: impl Responder + 'static,
@@ -80,12 +79,11 @@ impl Server {
         Ok(Self { acceptor, shared })
     }
 
-    /// Where it listens.
+    /// The address it listens on.
     pub const fn addr(&self) -> SocketAddr {
         self.acceptor.addr()
     }
 
-    /// The AMS NetId it answers for.
     pub fn net_id(&self) -> AmsNetId {
         self.shared.options.net_id
     }
@@ -95,7 +93,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.acceptor.stop();
         for stream in lock(&self.shared.connections).values() {
-            // Closed by the client already, if this fails.
+            // This fails if the client has closed the connection already.
             let _closed = stream.shutdown(Shutdown::Both);
         }
         for thread in lock(&self.shared.threads).drain(..) {
@@ -120,7 +118,8 @@ impl ServerState {
         }
         connections.insert(id, stream.try_clone()?);
         drop(connections);
-        // Taken off the list when dropped: at the thread's end, or here if there is no thread.
+        // Removes the connection when dropped: at the end of the thread, or here if no thread
+        // starts.
         let open = Open { shared: Arc::clone(&self), id };
         let thread = thread::Builder::new().name(format!("cnc-{id}")).stack_size(STACK);
         thread.spawn(move || {
@@ -134,7 +133,7 @@ impl ServerState {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // No panic leaves the value incomplete.
+    // A panic leaves the data valid.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

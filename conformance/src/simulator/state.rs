@@ -1,4 +1,4 @@
-//! What the CNC holds at the moment: everything that requests and the machine change.
+//! The state of the CNC: everything that requests and the machine change.
 
 use std::time::Duration;
 
@@ -12,39 +12,39 @@ use super::parameters::{ParameterState, ParameterStates};
 use super::program::service::ServiceInterface;
 use super::program::{Policy, Script, StreamingProgram};
 
-/// Contents, in the order of what they belong to.
+/// Contents of an owner, in the order of its objects or elements.
 pub(super) type Contents = Vec<Vec<u8>>;
 
 #[derive(Debug)]
 pub(super) struct CncState {
-    /// In the model's order.
+    /// In the order of the model.
     pub(super) channels: Vec<ChannelState>,
     axes: Vec<AxisState>,
     spindles: Vec<Contents>,
     platform: Contents,
 }
 
-/// Of a channel.
+/// The state of a channel.
 #[derive(Debug)]
 pub(super) struct ChannelState {
     pub(super) active: bool,
-    /// Which axis is at which place now.
+    /// The axis at each place.
     pub(super) places: Vec<Option<usize>>,
     objects: Contents,
     variables: Contents,
     elements: [Contents; 6],
     pub(super) parameters: ParameterStates,
     pub(super) service: ServiceInterface,
-    /// Its streaming program, with what is in the interface.
+    /// Its streaming program, including the buffer.
     pub(super) program: StreamingProgram,
-    /// Its NC program that asks services, if it has one.
+    /// Its NC program that sends requests to services, if any.
     pub(super) script: Option<Script>,
 }
 
-/// Of an axis: it takes all of it along to another place.
+/// The state of an axis, which it keeps when it moves to another place.
 #[derive(Clone, Debug)]
 struct AxisState {
-    /// Of the COM task, on the platform and at a place.
+    /// Of the COM task, as a platform axis and as an axis of a channel.
     objects: Contents,
     of_place: Contents,
     variables: Contents,
@@ -60,7 +60,7 @@ fn variables(variables: &Variables, instance: usize) -> Contents {
 }
 
 impl CncState {
-    /// As at the start.
+    /// The initial state.
     pub(super) fn new(model: &Model, policy: Policy) -> Self {
         let channel = |(place, channel): (usize, &ChannelModel)| ChannelState {
             active: channel.active,
@@ -76,7 +76,7 @@ impl CncState {
             parameters: ParameterStates::new(&channel.parameters),
             service: ServiceInterface::new(),
             program: StreamingProgram::with_policy(channel.program.clone(), policy),
-            // The model was checked: it is one.
+            // The model was checked, so this succeeds.
             script: channel
                 .script
                 .clone()
@@ -101,7 +101,7 @@ impl CncState {
         }
     }
 
-    /// Lets the parameters and programs of all channels make up for the time that has passed.
+    /// Advances the parameters and programs of all channels to this time.
     pub(super) fn advance(&mut self, now: Duration) {
         for channel in &mut self.channels {
             channel.parameters.advance(now);
@@ -112,7 +112,8 @@ impl CncState {
         }
     }
 
-    /// The channel an address means: by its number, or by its rank among the active (ADR-11).
+    /// The channel of an address: by its number, or by its rank among the active channels
+    /// (ADR-11).
     pub(super) fn channel(
         &self,
         model: &Model,
@@ -132,7 +133,7 @@ impl CncState {
         found.map(|(place, _)| place).ok_or(AdsError::INVALID_GROUP)
     }
 
-    /// Whether it is the first channel, which drives the platform.
+    /// Whether it is the first channel, which has the platform's objects.
     pub(super) fn is_first(&self, channel: usize) -> bool {
         self.channels.iter().position(|one| one.active) == Some(channel)
     }
@@ -142,7 +143,7 @@ impl CncState {
         *self.channels.get(channel)?.places.get(place)?
     }
 
-    /// Contents of objects and elements; none where no axis is.
+    /// Contents of objects and elements; `None` for a place without an axis.
     pub(super) fn values(&self, owner: Owner) -> Option<&Contents> {
         match owner {
             Owner::Platform => Some(&self.platform),
@@ -163,7 +164,7 @@ impl CncState {
         }
     }
 
-    /// The same, to be written.
+    /// Like `values`, mutable.
     pub(super) fn values_mut(&mut self, owner: Owner) -> Option<&mut Contents> {
         match owner {
             Owner::Platform => Some(&mut self.platform),
@@ -194,17 +195,17 @@ impl CncState {
         self.channels.get(channel).map(|channel| &channel.variables)
     }
 
-    /// The same, to be written.
+    /// Like `variables`, mutable.
     pub(super) fn variables_mut(&mut self, channel: usize) -> Option<&mut Contents> {
         self.channels.get_mut(channel).map(|channel| &mut channel.variables)
     }
 
-    /// Values of V.A of the axis at a place; none where no axis is.
+    /// Values of V.A of the axis at a place; `None` for a place without an axis.
     pub(super) fn axis_variables(&self, channel: usize, place: usize) -> Option<&Contents> {
         self.axes.get(self.axis_at(channel, place)?).map(|axis| &axis.variables)
     }
 
-    /// The same, to be written.
+    /// Like `axis_variables`, mutable.
     pub(super) fn axis_variables_mut(
         &mut self,
         channel: usize,
@@ -214,7 +215,7 @@ impl CncState {
         self.axes.get_mut(axis).map(|axis| &mut axis.variables)
     }
 
-    /// The parameters of a kind that are there now, in the order of their indices.
+    /// The parameters of a kind that exist at the moment, in the order of their indices.
     pub(super) fn parameters(
         &self,
         channel: usize,
@@ -225,11 +226,12 @@ impl CncState {
         parameters.filter(move |parameter| parameter.is.kind == kind)
     }
 
-    /// Puts the axis with this logical number at a place of a channel: where it was, none is now;
-    /// which was there, is nowhere now. The number 0 leaves the place without an axis.
+    /// Assigns the axis with this logical number to a place of a channel. The axis leaves its
+    /// previous place, and the axis previously at this place has no place any more. The number 0
+    /// leaves the place without an axis.
     ///
-    /// Nothing happens if there is no such axis, or another of the same name in the channel, whose
-    /// variables could not be told apart.
+    /// Fails without a change if the axis does not exist, or if the channel has another axis with
+    /// the same name, because their variables would have equal names.
     pub(super) fn exchange(
         &mut self,
         model: &Model,

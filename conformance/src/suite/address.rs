@@ -1,4 +1,4 @@
-//! Cases of index groups and ports, and of the frames that carried all others.
+//! Cases of index groups and ports, and of the frames of all other cases.
 
 use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;
@@ -49,7 +49,7 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
         let none = ObjectCount::decode(&count) == Ok(ObjectCount(0));
         let first = ReadDescriptors::new(channel, 1, 1)?;
         let Some(first) = probe.try_ask(first)?.filter(|_| !none) else { continue };
-        // Not the content of the element with the same number.
+        // The descriptor, not the content of the element with the same number.
         let described = DescriptorsRef::decode(&first).is_ok_and(|list| list.len() == 1);
         probe.check("ADR-4", described, "a description under 0x30000", || Hex(first));
     }
@@ -58,14 +58,15 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
 
 fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        // The group is stated, and that channels start at 1; that SDA has port 552 is online.
+        // The group is stated, and that channels start at 1; that SDA has port 552 is documented
+        // online.
         let rules = ["ADR-1".into(), "ADR-5".into(), "GEN-6".into(), online("GEN-4")];
         probe.ask(rules, CountVariables::new(channel, Kind::V_E))?;
     }
     Ok(())
 }
 
-/// What a channel is known by: its numbers, its first object and its first variables.
+/// Queries that identify a channel: numbers, first object and first variables.
 fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     let mut requests =
         vec![CountObjects::new(channel).into(), ReadDescriptors::new(channel, 1, 1)?.into()];
@@ -77,7 +78,7 @@ fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     Ok(requests)
 }
 
-/// Whether both describe the same object: by rank its group may have the rank as well.
+/// Whether both describe the same object: addressed by rank, its group may have the rank too.
 fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
     let one = |bytes| Some(DescriptorsRef::decode(bytes).ok()?.get(0)?.to_owned());
     let (Some(logical), Some(found)) = (one(logical), one(found)) else { return false };
@@ -122,7 +123,7 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
     let &(rank, number) = gap.or_not_applicable("every channel's number is its rank")?;
     same_by_rank(probe, &["ADR-11"], rank, number)?;
-    // Its number is no rank: there are not so many channels.
+    // The number is beyond the ranks: there are fewer channels.
     let beyond = Channel::by_index(number.number().into())?;
     probe.refuses(
         "ADR-11",
@@ -132,7 +133,7 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     )
 }
 
-/// Each channel in its turn; it is active again whatever comes of it.
+/// Deactivates each channel in turn and activates it again in any case.
 fn rank_after_deactivation(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let all = probe.channels()?;
@@ -149,7 +150,7 @@ fn rank_after_deactivation(probe: &mut Probe<'_>) -> Step {
     ranks_are(probe, &all)
 }
 
-/// These are the active channels, in the order of their ranks.
+/// Checks that these are the active channels, in the order of their ranks.
 fn ranks_are(probe: &mut Probe<'_>, channels: &[Channel]) -> Step {
     let mut last = None;
     for (rank, &number) in (1..).zip(channels) {
@@ -222,11 +223,11 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// That it is not 0 is all that is required of an error number.
+/// An error number must not be 0; the manuals require no more.
 fn every_refusal(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.target.refusals.by_nothing);
     if probe.target.refusals.by_number > 0 {
-        // Whether a reply that is an error stops early or not, it was read as one.
+        // Error replies with and without data were decoded as errors.
         probe.pass(["ADS-6", "ADS-7"]);
     }
     probe.take_over(by_nothing);

@@ -1,4 +1,4 @@
-//! Cases of the bounds of arrays: what is within them, and what is not.
+//! Cases of the bounds of arrays.
 
 use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
@@ -17,15 +17,15 @@ pub(super) const CASES: &[CaseRow] = &[
         "Neither too few nor too many indices address anything"),
 ];
 
-/// A place with another index in one dimension.
+/// The indices with another index in one dimension.
 fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {
     let mut place = place.to_vec();
     place.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
     place
 }
 
-/// What is no array has no dimension. How many indices more dimensions take is assumed: what has
-/// the first element has the last of each.
+/// A variable that is not an array has no dimension. The number of indices for several dimensions
+/// is assumed: if the first element can be read with it, so must the last of each dimension.
 fn array_has_elements(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let Description { handle, dimensions, name, .. } = variable;

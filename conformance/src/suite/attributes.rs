@@ -1,4 +1,4 @@
-//! Cases of the attributes of elements: each in the group of its own.
+//! Cases of the attributes of elements, each in a group of its own.
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{
@@ -20,7 +20,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Each group has the attribute that the CNC has within"),
 ];
 
-/// The manual's names of types.
+/// Whether a name is one of the manual's types.
 fn is_type(name: &str) -> bool {
     let types =
         ["BOOLEAN", "UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
@@ -42,7 +42,8 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             let of_type = text(&of_type);
             for (attribute, group) in [(&name, "0x100"), (&unit, "0x400")] {
                 let Some(other) = attribute.as_ref().map(text) else { continue };
-                // Types may have other names than the manual's, but names are no types.
+                // Types may have other names than in the manual, but a name of an element is not a
+                // type.
                 let swapped = is_type(&other) && !is_type(&of_type);
                 let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
                 probe.check("ADR-6", !swapped, "the type at 0x200", found);
@@ -50,7 +51,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
             let Some(length) = length.map(ElementLength::get) else { continue };
             let Ok(content) = ReadElement::new(element, length) else { continue };
-            // That it is read at all is judged elsewhere.
+            // Another case judges whether the content can be read.
             let Some(content) = probe.try_ask(content)? else { continue };
             let same = u32::try_from(content.len()) == Ok(length);
             let found =
@@ -93,7 +94,7 @@ fn within(probe: &mut Probe<'_>) -> Step {
         for (request, text_of, what) in &own {
             let text_read: Option<ElementText> = probe.try_read(*request)?;
             let Some(text_read) = text_read.as_ref().map(text) else { continue };
-            // What it says in place of what it has is its own affair, unless that is another thing.
+            // A missing attribute may have any value, except that of another attribute.
             let others = own.iter().filter(|(_, _, other)| other != what);
             let mut others = others.map(|(_, text, _)| text);
             let of_others = *what == "name"

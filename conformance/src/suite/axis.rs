@@ -28,7 +28,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "At axis 0 the offsets of the axis interface are other functions"),
 ];
 
-/// Each place of each channel at which a variable with this name answers: with its handle.
+/// Calls a function for each place of each channel at which a variable with this name has a handle.
 fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
@@ -40,7 +40,7 @@ fn each(
             described.iter().map(|one| (one.1.handle.0, one)).collect();
         for name in axis_names(&described) {
             for AxisHandle { axis, handle } in answering_places(probe, channel, name)? {
-                // Where no axis is nothing is described.
+                // A place without an axis has no description.
                 let Some((own, variable)) = by_handle.get(&handle.0) else { continue };
                 any = true;
                 let at = AxisVariable { channel, axis, name, own };
@@ -55,9 +55,9 @@ fn each(
 struct AxisVariable<'a> {
     channel: Channel,
     axis: ChannelAxis,
-    /// The name it was asked for by.
+    /// The name in the request.
     name: &'a CncString,
-    /// The name of what the handle describes.
+    /// The name in the description of the handle.
     own: &'a CncString,
 }
 
@@ -71,7 +71,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
         let first = ChannelAxis::new(1)?;
-        // An axis is at one place at least of a channel that describes one.
+        // An axis with described variables has at least one place.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
@@ -84,7 +84,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let found = || format!("{} for {name} of place {place}", Hex(data));
                 probe.check("VAR-26", handle.is_ok(), "a handle of 4 bytes", found);
                 let Ok(Handle(handle)) = handle else { continue };
-                // It belongs to the place; what no axis is at may have any.
+                // The handle belongs to the place; without an axis any handle is right.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
@@ -102,11 +102,11 @@ fn handles(probe: &mut Probe<'_>) -> Step {
         }
         let found = || format!("none answers in channel {}", channel.number());
         probe.check("VAR-26", any, "handles by name on the axis interface", found);
-        // That there is but one handle is said nowhere.
+        // No manual states that a variable has only one handle.
         let handles = described.iter().map(|(_, variable)| variable.handle.0);
         let is_one_number = handles.into_iter().any(|handle| at_places.contains_key(&handle));
         for (_, variable) in &described {
-            // The place it belongs to is one of those counted from 1.
+            // The place of the handle is one of those counted from 1.
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
             let expected = || format!("a place from 1 on with the handle of {name}");
@@ -135,7 +135,7 @@ fn values(probe: &mut Probe<'_>) -> Step {
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
         steady.same(probe, "VAR-26", &at, by_name, request)?;
-        // That handles of this interface are used there is assumed.
+        // That handles of this interface can be used there is assumed.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
         steady.same(probe, assumed("VAR-10"), &at, by_handle, request)
     })?;
@@ -157,12 +157,12 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         probe.refuses("ADS-4", &what, handle(axis, bad), handle(axis, good))?;
         probe.refuses("ADS-4", &what, read(axis, bad), read(axis, good))?;
     }
-    // Names carry no axis there.
+    // Names on the axis interface have no axis.
     let with_axis = name_of(&variable);
     let what = format!("{} on the axis interface", variable.name.text);
     probe.refuses("VAR-26", &what, handle(axis, with_axis), handle(axis, good))?;
     probe.refuses("VAR-26", &what, read(axis, with_axis), read(axis, good))?;
-    // On the channel interface they do.
+    // Names on the channel interface have one.
     let what = format!("{} on the channel interface", good.text());
     let of_channel = |name| HandleByName { channel, name };
     probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;

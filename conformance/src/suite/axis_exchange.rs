@@ -1,4 +1,4 @@
-//! Cases of axes that change their place.
+//! Cases that exchange axes.
 
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class};
 use ads_cnc::operation::{AxisHandleByName, ReadElement, Request};
@@ -14,7 +14,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "An axis takes its values along to another place; the platform's place stays"),
 ];
 
-/// A content, if it stands still: an axis may move where it is, from one place to another or not.
+/// A content, if it did not change by itself: an axis may move at any time.
 type Content = Option<Vec<u8>>;
 
 /// A content that is the same when it is read again.
@@ -24,7 +24,7 @@ fn steady_content<'r>(probe: &mut Probe<'_>, read: impl Into<Request<'r>>) -> St
     Ok(Some(first.clone()).filter(|_| probe.try_ask(read).is_ok_and(|now| now == Some(first))))
 }
 
-/// Whether all that stood still both times is the same; none if nothing did.
+/// Whether all contents that were steady both times are the same; `None` without one.
 fn are_same(before: &[Content], after: &[Content]) -> Option<bool> {
     let both = before.iter().zip(after).filter_map(|(one, other)| one.as_ref().zip(other.as_ref()));
     let same: Vec<bool> = both.map(|(one, other)| one == other).collect();
@@ -32,7 +32,7 @@ fn are_same(before: &[Content], after: &[Content]) -> Option<bool> {
     judged.then(|| before.len() == after.len() && same.iter().all(|same| *same))
 }
 
-/// The contents of all elements of instances; only what is there to be read.
+/// The contents of all readable elements of instances.
 fn contents(
     probe: &mut Probe<'_>,
     classes: &[Class],
@@ -55,8 +55,8 @@ fn contents(
     Ok(all)
 }
 
-/// The contents of the objects of a list at an axis, by the stride that the CNC in this process
-/// has; of all of them without an axis.
+/// The contents of the objects of a list for an axis, by the stride of the simulated CNC; of all
+/// without an axis.
 fn objects(probe: &mut Probe<'_>, list: List, axis: Option<u32>) -> Step<Vec<Content>> {
     let mut all = Vec::new();
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
@@ -73,8 +73,7 @@ fn objects(probe: &mut Probe<'_>, list: List, axis: Option<u32>) -> Step<Vec<Con
 
 const OF_PLATFORM: [Class; 2] = [Class::PositionController, Class::Hld];
 
-/// What the suite knows of the default model: the second place of channel 1 has the axis 2, the
-/// third the axis 3.
+/// In the default model the second place of channel 1 has the axis 2, the third the axis 3.
 fn exchange(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     if (cnc.axis_at(1, 2), cnc.axis_at(1, 3)) != (2, 3) {
@@ -107,7 +106,7 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         return Err(Stop::not_applicable("channel 1 has no axis 3 to be exchanged"));
     }
     let after = (places(probe, 2), places(probe, 3), platform(probe), handle_of(probe));
-    // In the order in which they do not get into each other's way.
+    // In an order without conflicts.
     cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
     let (second, third, platform_after, handle_after) = after;
     if let Some(moved) = are_same(&before, &second?) {

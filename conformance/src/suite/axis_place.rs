@@ -1,4 +1,4 @@
-//! Cases of places: which axis the axis interface means, and where there is none.
+//! Cases of axis places: the axis at each, and places without an axis.
 
 use std::collections::HashSet;
 
@@ -39,7 +39,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{} places of channel {}", places.len(), channel.number());
             let expected = || format!("a place for each {name} of {} axes", own.len());
             probe.check(["VAR-26", "GEN-6"], places.len() >= own.len(), expected, found);
-            // An axis is at one place. Where none is, handles are nobody's.
+            // An axis has only one place. Handles of places without an axis belong to no variable.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
                 let found = || format!("{:?} of place {} too", at.handle, at.axis.index());
@@ -55,7 +55,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target describes no axis variable")
 }
 
-/// The value with the axis's name behind it is that of one of the places.
+/// The value under the name with the axis equals that at one of the places.
 fn at_a_place(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -86,7 +86,7 @@ fn at_a_place(
     Ok(())
 }
 
-/// A name that answers at a place where an axis is, with its handle there.
+/// A name with a handle at a place that has an axis.
 fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
@@ -101,7 +101,7 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     Err(Stop::not_applicable("no axis variable is on the axis interface"))
 }
 
-/// What there is of places that are not there is not said, but that it is no axis.
+/// The reply for a place beyond the last is not specified, but must not be that of an axis.
 fn too_far(probe: &mut Probe<'_>) -> Step {
     let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
@@ -129,7 +129,7 @@ fn reserved(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// What is read of a variable of an axis in the ways there are.
+/// A variable of an axis, read in every way.
 #[derive(PartialEq, Eq)]
 struct AxisReadings {
     by_place: Vec<u8>,
@@ -149,8 +149,7 @@ fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<AxisReadings>
 
 const NAME: &str = "V.A.WCS";
 
-/// What the suite knows of the default model: at the second place of channel 1 is the axis 2, Y, at
-/// the third the axis 3, Z.
+/// In the default model the second place of channel 1 has the axis 2, Y, the third the axis 3, Z.
 fn exchanged(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let channel = Channel::new(1)?;
@@ -173,13 +172,13 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
     let named = of_axis_z(probe, channel);
     let swapped = cnc.exchange_axis(1, 3, 2);
     let both = (seen(probe, 2, second), seen(probe, 3, third));
-    // In the order in which they do not get into each other's way.
+    // In an order without conflicts.
     cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
     swapped?;
     same(probe, &one_moved?, &of_z, "axis 3 at place 2");
     same(probe, &both.0?, &of_z, "axis 3 at place 2, and axis 2 at place 3");
     same(probe, &both.1?, &of_y, "axis 2 at place 3, and axis 3 at place 2");
-    // What is read where no axis is, is assumed; not so that no axis is at two places.
+    // The reply for a place without an axis is assumed; that no axis is at two places is stated.
     let (left, found) = (left?.by_place, Hex(of_z.by_place.clone()));
     let gone = left != of_z.by_place;
     probe.check("VAR-26", gone, "axis 3 no more at place 3", || format!("{found} there still"));
@@ -195,7 +194,7 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
     probe.require("VAR-26", back, "all axes where they were", "others")
 }
 
-/// By its name on the channel interface, and by the handle that it has there.
+/// By its name on the channel interface, and by its handle there.
 fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, AxisReadings)> {
     let name = format!("{NAME}.Z");
     let handle = probe.try_read::<Handle>(HandleByName::new(channel, &name)?)?;

@@ -1,4 +1,4 @@
-//! Cases of the order of the bytes of numbers.
+//! Cases of the byte order of numbers.
 
 use std::fmt::Display;
 
@@ -22,7 +22,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Values of variables and parameters come with their lowest byte first"),
 ];
 
-/// Everything that is claimed to be counted.
+/// All claimed lists that have a number.
 fn counted(probe: &mut Probe<'_>) -> Step<Vec<Counted>> {
     let mut all: Vec<Counted> = probe.lists()?.into_iter().map(Counted::Objects).collect();
     for channel in probe.channels()? {
@@ -41,7 +41,7 @@ fn counted(probe: &mut Probe<'_>) -> Step<Vec<Counted>> {
     Ok(claimed)
 }
 
-/// A number that is not that of the last thing, but is from behind.
+/// A number that is wrong, but right with reversed bytes, breaks the byte order.
 fn number_order(probe: &mut Probe<'_>) -> Step {
     for one in counted(probe)? {
         let Some(number) = one.number(probe)? else { continue };
@@ -119,7 +119,7 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Other bytes than those held are another matter.
+/// Bytes that differ otherwise are judged by other cases.
 fn order(probe: &mut Probe<'_>, what: &str, size: usize, held: &[u8], read: Option<Vec<u8>>) {
     let Some(read) = read.filter(|read| read.len() == held.len()) else { return };
     let mut pairs = held.chunks(size).zip(read.chunks(size));

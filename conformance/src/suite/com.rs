@@ -24,7 +24,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length that is no multiple of 84 gives one descriptor"),
 ];
 
-/// The platform's list and those of the channels; what of it is not there is judged elsewhere.
+/// The platform's list and those of the channels; other cases judge missing ones.
 fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
     let mut all = Vec::new();
     for list in probe.lists()? {
@@ -95,7 +95,7 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// What a descriptor says of its object.
+/// Checks a descriptor by itself.
 pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: DescriptorRef<'_>) {
     let name = object.name().to_string();
     let rule = assumed("COM-2");
@@ -140,7 +140,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         if count == 0 || skip.saturating_add(count) > number {
             continue;
         }
-        // As many as ADS carries.
+        // The maximum that fits into a frame.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask("COM-3", request)?;
         let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));

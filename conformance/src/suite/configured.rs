@@ -1,4 +1,4 @@
-//! Cases that compare the simulated CNC with its model, which no request can read.
+//! Cases that compare the simulated CNC with its model, which cannot be read over ADS.
 
 use std::collections::HashMap;
 
@@ -38,7 +38,7 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
                 let shown = |extended: &ExtendedReply| format!("{extended:?} of {}", one.name);
                 let expected = ExtendedReply(one.extended);
                 let rule = if one.extended.is_some() { "VAR-15" } else { "VAR-16" };
-                // That what has none is answered by success is assumed.
+                // That a variable without it is answered with success is assumed.
                 let none = one.extended.is_none() && extended.is_none();
                 let same = none || extended.as_ref() == Some(&expected);
                 let found = extended.as_ref().map_or_else(|| "none".to_owned(), shown);
@@ -57,7 +57,7 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
 
 type Described = HashMap<String, (Description, Option<ExtendedReply>)>;
 
-/// What is described, by its name, with what the same index has beside it.
+/// The descriptions by name, each with the extended description of the same index.
 fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Described> {
     let count: Option<VariableCount> = probe.try_read(CountVariables::new(channel, kind))?;
     let mut all = HashMap::new();

@@ -1,4 +1,4 @@
-//! Cases of the contents of COM objects, and of the list of everything.
+//! Cases of the contents of COM objects, and of all lists together.
 
 use std::collections::HashSet;
 
@@ -35,7 +35,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         let read = match object.address.read() {
             Ok(read) => read,
             Err(error) => {
-                // Of the program stream no read is documented.
+                // Reading the program stream is not documented.
                 let stream = error.kind() == ErrorKind::Function;
                 let found =
                     || format!("{size} bytes of {} at {}: {error}", object.name, at(&object));
@@ -57,7 +57,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// More room than it takes may be refused, but is not to be filled.
+/// A read length beyond the size may be rejected, but must not return more data.
 fn room(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let Some((group, offset)) = object.address.content() else { continue };
@@ -77,7 +77,7 @@ fn room(probe: &mut Probe<'_>) -> Step {
     probe.finish("no content is read with more room")
 }
 
-/// Where an object says to be.
+/// The address in an object's descriptor.
 fn at(object: &Object) -> String {
     let content = object.address.content();
     content.map(|(group, offset)| format!("{group}, {offset}")).unwrap_or_default()
@@ -123,7 +123,7 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// As an object browser lists them: by numbers and descriptors of COM, by the elements of SDA.
+/// Reads everything as an object browser does: numbers and descriptors of COM, elements of SDA.
 fn everything(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         // Lists of platform axes are assumed.

@@ -1,4 +1,4 @@
-//! Cases of what else describes a variable: the extended description, and that by its name.
+//! Cases of the extended description, and of the description by name.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByName, DescribeExtended};
@@ -25,7 +25,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A name nobody has is described by an error"),
 ];
 
-/// How many variables of a kind there are; that is judged elsewhere.
+/// The number of variables of a kind; other cases judge it.
 fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
     let count = probe.try_read::<VariableCount>(CountVariables::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0.min(VARIABLES_MAX)))
@@ -62,7 +62,7 @@ fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
     probe.check("VAR-15", known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
-/// Nothing comes back; that it does so with a success is assumed.
+/// The reply has no data; that it is a success is assumed.
 fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
     let exchange = probe.send(request)?;
     let data = exchange.answer().and_then(|answer| answer.data.clone());
@@ -86,7 +86,7 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                     probe.refuses("VAR-3", &what, describe(beyond), describe(last))?;
                     continue;
                 }
-                // No more than nothing can be given of it.
+                // An index beyond the last has no data either.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
                 let found = || format!("{} bytes", given.len());
                 probe.check("VAR-3", given.is_empty(), || format!("nothing for {what}"), found);
@@ -96,7 +96,7 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Whether there is a description by name; one that may be there is taken at its word.
+/// Whether the target has the description by name; if it is optional, a reply decides.
 fn is_there(probe: &mut Probe<'_>, channel: Channel, known: &Description) -> Step {
     if probe.target.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
         return Ok(());

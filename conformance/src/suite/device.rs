@@ -1,4 +1,4 @@
-//! Cases of what a device says of itself. It is known from help pages only, and need not be said.
+//! Cases of device information and state. Both are documented online only and optional.
 
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
@@ -21,7 +21,7 @@ pub(super) const CASES: &[CaseRow] = &[
 ];
 
 impl Probe<'_> {
-    /// Asks a task what it says of itself, and keeps it as the evidence of the checks that follow.
+    /// Sends an inquiry to a task; the exchange is the evidence of the following checks.
     pub fn inquire<R: Inquiry>(&mut self, task: Task) -> Step<Inquired<R>> {
         self.target()?;
         let inquired = self.target.client.inquire::<R>(task.port());
@@ -48,7 +48,7 @@ fn device_state(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Of no other CNC it is known what it has to say.
+/// Only the simulated CNC's information is known.
 fn as_it_is(probe: &mut Probe<'_>) -> Step {
     probe.cnc()?;
     each(probe, |probe, info: DeviceInfoReply| {
@@ -68,7 +68,7 @@ fn as_it_is(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// What each task says that is claimed.
+/// Sends an inquiry to each claimed task.
 fn each<R: Inquiry>(
     probe: &mut Probe<'_>,
     mut then: impl FnMut(&mut Probe<'_>, R) -> Step,

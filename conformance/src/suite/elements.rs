@@ -1,4 +1,4 @@
-//! Cases of the elements of SDA and GEO: what they say of themselves, and what they hold.
+//! Cases of the elements of SDA and GEO: attributes and contents.
 
 use std::collections::HashSet;
 
@@ -34,7 +34,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length that does not hold the answer is answered by an error"),
 ];
 
-/// Reads an attribute: an answer speaks for its stream, and for its group.
+/// Reads an attribute: a valid reply passes the requirements of its stream and group.
 fn attribute<T>(
     probe: &mut Probe<'_>,
     rule: &'static str,
@@ -73,7 +73,8 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let name: ElementText = attribute(probe, "SDA-4", ReadElementName::new(first))?;
         let name = name.text.text.to_string();
         let found = || format!("{name:?} of {instance}");
-        // What a place without an axis is called nobody says, nor what has nothing else to name.
+        // The name of a place without an axis, or of an instance without further elements, is not
+        // specified.
         let is_bare = count == 0 || probe.is_claimed_empty(&instance);
         let rule = if is_bare { assumed("SDA-4") } else { "SDA-4".into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
@@ -90,7 +91,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         }
         ends(probe, &instance, count)?;
     }
-    // Whether element 0 is counted is assumed, but not that of one it is and of another not.
+    // Whether the number includes element 0 is assumed, but it must be the same for all instances.
     if let Some((with_first, evidence)) = with_first {
         probe.set_evidence(evidence);
         let found = || format!("one more for {with_first}");
@@ -106,7 +107,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The last element has a name, and behind it there is none.
+/// The last element has a name, the one after it has none.
 fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     let (last, beyond) = (instance.first.nth(count), instance.first.nth(count.saturating_add(1)));
     let (Ok(last), Ok(beyond)) = (last, beyond) else { return Ok(()) };
@@ -114,16 +115,16 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
         attribute::<ElementText>(probe, "SDA-4", ReadElementName::new(last))?;
     }
     let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
-    // Of a place without an axis the number may be blank as all its contents.
+    // For a place without an axis the number may be zero, like its contents.
     let rule = if at_place && count == 0 { assumed("SDA-4") } else { "SDA-4".into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
-        // The first of all need not have them all.
+        // The first element need not have all attributes.
         if count > 0 || probe.try_ask(last)?.is_some() {
             probe.refuses(rule, &what, beyond, last)?;
         }
     }
-    // Among the decoder's contents are functions, of which not all are known.
+    // Some of the decoder's offsets are functions, not all of which are documented.
     let Some(length) = probe.length_of(last)?.filter(|_| instance.class != Class::Decoder) else {
         return Ok(());
     };
@@ -226,7 +227,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         let read = match ReadElement::new(element, length) {
             Ok(read) => read,
             Err(error) => {
-                // At some offsets of the decoder functions are (SDA-12).
+                // Some offsets of the decoder are functions (SDA-12).
                 let function = error.kind() == ErrorKind::Function;
                 let found = || format!("{length} bytes of {at}");
                 probe.check("SDA-8", function, "no more bytes than a frame carries", found);

@@ -1,5 +1,5 @@
-//! Cases of what is common to all streams: tasks and their ports, where numbering starts, the
-//! sizes of types, the code page of texts.
+//! Cases of rules for all streams: tasks and ports, start of numbering, sizes of types, code page
+//! of texts.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -33,7 +33,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Names and units are CP1252, as the CNC has them within"),
 ];
 
-/// That nobody is at a port that is claimed; what its task answers is judged elsewhere.
+/// A claimed port must exist; other cases judge the replies of its task.
 fn ports_answer(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     for port in [AmsPort::GEO, AmsPort::SDA, AmsPort::COM] {
@@ -48,7 +48,7 @@ fn ports_answer(probe: &mut Probe<'_>) -> Step {
         let nobody = exchange.answer().is_some_and(|answer| {
             [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
         });
-        // What is claimed has to be there, however little is documented of its number.
+        // A claimed port must exist even if its number is not stated in a manual.
         probe.check("GEN-4", !nobody, || format!("a task at port {}", port.0), &exchange);
     }
     Ok(())
@@ -72,7 +72,7 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
     probe.finish("neither COM nor SDA is claimed")
 }
 
-/// BOOLEAN's size is printed, those of the others follow from help pages.
+/// The size of BOOLEAN is printed, those of other types are documented online.
 fn rule_of(var_type: VariableType) -> Rule {
     if var_type == VariableType::BOOLEAN { "GEN-5".into() } else { online("GEN-5") }
 }
@@ -87,7 +87,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{} bytes of {name}", variable.size);
             probe.check(rule, variable.size == whole, expected, found);
             let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
-            // That it is read at all is judged elsewhere.
+            // Another case judges whether it can be read.
             let Some(value) = probe.try_ask(read)? else { continue };
             let found = || format!("{} bytes of {name} read", value.len());
             probe.check(rule, u32::try_from(value.len()) == Ok(whole), expected, found);
@@ -100,7 +100,7 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
     let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
         Ok(probe.address_of(class, channel, 0).if_applicable()?.flatten())
     };
-    // Of SDA is said that it has the decoder.
+    // The manual states that SDA has the decoder.
     let first = u32::from(probe.channel()?.number());
     if let Some(there) =
         find(probe, Class::Decoder, first)?.filter(|one| *one != ObjectAddress::NONE)
@@ -138,12 +138,12 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
     probe.refuses("GEN-6", "a name at place 0", good.with(|call| call.index_offset = offset), &good)
 }
 
-/// Characters that a code page or a bit too few may have cost, and what stands in their place.
+/// Whether a name has characters that a wrong code page or 7 bits would change.
 fn is_telling(name: &[u8]) -> bool {
     name.iter().any(|byte| !byte.is_ascii() || *byte == b'?')
 }
 
-/// Characters of two and more bytes, and no other beyond ASCII.
+/// Whether the text is UTF-8 with characters beyond ASCII.
 fn is_utf_8(text: &[u8]) -> bool {
     !text.is_ascii() && std::str::from_utf8(text).is_ok()
 }
@@ -159,7 +159,7 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             let found = probe.try_ask(by_name)?.is_some();
             let expected = || format!("a handle of {}", variable.name.text);
             probe.check("GEN-3", found, expected, "the name is not found");
-            // What looks like UTF-8 may be meant.
+            // Bytes that look like UTF-8 may be intended.
             let text = Hex(name.to_vec());
             probe.check(assumed("GEN-3"), !is_utf_8(name), "one byte a character", text);
         }
@@ -167,8 +167,8 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
     probe.finish("no name has a character beyond ASCII")
 }
 
-/// The same text but for characters beyond ASCII. Another text altogether is no matter of
-/// characters.
+/// Whether the texts differ only in characters beyond ASCII. Other differences are judged by other
+/// cases.
 fn is_miswritten(held: &[u8], read: &[u8]) -> bool {
     let plain = |text: &[u8]| -> Vec<u8> {
         text.iter().copied().filter(u8::is_ascii_alphanumeric).collect()
@@ -179,7 +179,7 @@ fn is_miswritten(held: &[u8], read: &[u8]) -> bool {
     held != read && !read.is_empty() && (in_place || plain(held) == plain(read))
 }
 
-/// Judges a text that has a telling character by those it could be.
+/// Judges a text with such a character against the names it may have.
 fn text<'r>(probe: &mut Probe<'_>, held: &CncString, read: impl Iterator<Item = &'r [u8]>) {
     let bytes = held.as_bytes();
     if !is_telling(bytes) {

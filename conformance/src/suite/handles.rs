@@ -1,4 +1,4 @@
-//! Cases of handles: which variable they stand for, and how long.
+//! Cases of handles: their variable and their validity.
 
 use std::collections::HashSet;
 
@@ -13,7 +13,7 @@ use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    // The first that asks for values: no handle has been asked for by name before.
+    // The first case that reads values: the handle was not requested by name before.
     case("var-described-handle", &["VAR-4", "VAR-9", "VAR-10"], Needs::Queries, described,
         "A description has the name and the handle that the variable is read by"),
     case("var-handle-by-name", &["VAR-9", "VAR-10"], Needs::Queries, by_name,
@@ -50,7 +50,7 @@ fn described(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// The handle of a name, which has to have one.
+/// The handle of a name, which must have one.
 fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
     let rules = ["VAR-9", "VAR-10"];
     let data = probe.ask(rules, HandleByName { channel, name })?;
@@ -66,7 +66,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
         for variable in &variables {
             let name = name_of(variable);
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
-            // That there is but one handle is said nowhere: what counts is what it reads.
+            // No manual states that a variable has only one handle, so the values are compared.
             let expected =
                 || format!("the description's {:?} for {}", variable.handle, name.text());
             let rule = assumed("VAR-10");
@@ -100,7 +100,7 @@ fn stays(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     for (channel, variable, handle) in &all {
         let (channel, by_handle) = (*channel, whole(*channel, *handle));
-        // Twice each, as one that is used up by the first read is none.
+        // Twice, because a handle must stay valid after a read.
         for time in ["once", "again"] {
             let read = probe.try_ask(by_handle)?.is_some();
             let expected = || format!("{} read by its handle {time}", variable.name.text);
@@ -119,7 +119,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     }
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    // Of an axis variable there are handles of other places, where no axis may be.
+    // Handles of an axis variable may belong to places without an axis.
     let is_of_axis = |variable: &&Description| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str());
         path.is_ok_and(|path| path.kind() == Kind::V_A)

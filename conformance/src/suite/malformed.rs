@@ -1,7 +1,7 @@
-//! Requests that no client should send: each must be answered, and by an error.
+//! Malformed requests: each must be answered with an error.
 //!
-//! That a CNC refuses what the manuals do not allow is assumed. That it answers at all is not, nor
-//! that an answer of success means that what was asked is there (ADS-4).
+//! That a CNC rejects requests that the manuals do not permit is assumed. That it answers is
+//! stated, and that a success means that the request was executed (ADS-4).
 
 use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -33,7 +33,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length that does not hold the answer is answered by an error"),
 ];
 
-/// A good request, and how it is spoilt.
+/// A valid request, to be sent with a fault.
 struct Spoilt<'p, 's> {
     probe: &'p mut Probe<'s>,
     good: RawCall,
@@ -49,8 +49,8 @@ impl<'p, 's> Spoilt<'p, 's> {
         self.call(rules, what, |call| call.data = data.to_vec())
     }
 
-    /// Sends data in which count and indices do not fit each other: as long as the count says it
-    /// has to be, and what is not is found out.
+    /// Sends data whose count and indices contradict each other, of the length that the count
+    /// requires.
     fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
         self.data(["VAR-24", "VAR-11"], what, data)
     }
@@ -114,7 +114,7 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
             spoilt.data(assumed("VAR-9"), what, &data)?;
         }
     }
-    // Whatever is done with more characters than a name has: it is no variable's.
+    // A longer name than any variable has.
     let longest = variables.iter().max_by_key(|one| one.name.text.as_bytes().len());
     for known in [Some(known), longest].into_iter().flatten() {
         let field = TextRef::from(known.name.text.as_cnc_str());
@@ -216,7 +216,7 @@ fn bad_service(probe: &mut Probe<'_>) -> Step {
     for service in [Service::Read, Service::Write] {
         spoilt.call("ADS-4", &format!("{service} at 0x44"), |call| {
             call.service = service;
-            // A Read has no room for any.
+            // A Read has no data.
             if service == Service::Read {
                 call.data.clear();
             }

@@ -1,4 +1,4 @@
-//! The suite: what it tries, in which order, and what comes of it.
+//! The suite: its cases, their order and execution.
 
 mod address;
 mod ads_services;
@@ -53,7 +53,7 @@ pub(crate) use variable::holds_together;
 use crate::judge::{Body, Case, CaseSubject, codec_cases};
 use row::CaseRow;
 
-/// The cases that a function tries.
+/// The cases with a function.
 const TABLES: &[&[CaseRow]] = &[
     address::CASES,
     ads_services::CASES,
@@ -100,7 +100,7 @@ fn rows() -> impl Iterator<Item = &'static CaseRow> {
     TABLES.iter().copied().flatten()
 }
 
-/// Every case. [`Selection::plan`](crate::judge::Selection::plan) puts them in order.
+/// All cases. [`Selection::plan`](crate::judge::Selection::plan) orders them.
 pub fn cases() -> Vec<Case> {
     let mut cases = codec_cases();
     cases.extend(rows().map(|row| Case {

@@ -1,4 +1,4 @@
-//! Cases of names: what they are made of, and what is reached by name only.
+//! Cases of names: their structure, and access by name only.
 
 use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
@@ -31,7 +31,7 @@ fn paths(probe: &mut Probe<'_>) -> Step {
             };
             probe.check("VAR-20", path.is_ok(), "a name of structures and indices", found);
             let Ok(path) = path else { continue };
-            // An array at a leaf is one thing: its elements are not listed.
+            // An array at a leaf is a single variable: its elements are not listed.
             let whole = path.elements().is_empty();
             probe.check("VAR-20", whole, "the name of the variable, not of an element", found);
         }
@@ -39,7 +39,7 @@ fn paths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// A variable that has a handle, to hold others against.
+/// A variable with a handle, as a counterexample.
 fn known(probe: &mut Probe<'_>) -> Step<CncString> {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;

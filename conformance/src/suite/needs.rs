@@ -1,12 +1,12 @@
-//! Which cases a target is not asked.
+//! Decides which cases a target is not asked.
 
 use crate::gate::Gate;
 use crate::judge::{Needs, Verdict};
 use crate::profile::Profile;
 
 impl Needs {
-    /// Why a case that needs this is not run: with which verdict, and the reason. `inside` is
-    /// whether the CNC is in this process, open to be changed from within.
+    /// The verdict and the reason if a case with this need is not run. `inside`: the CNC is in this
+    /// process and can be changed directly.
     pub fn unmet(
         self,
         gate: &Gate,

@@ -1,4 +1,4 @@
-//! Cases of what stands between the fields of descriptors and descriptions: nothing.
+//! Cases of padding: fields of descriptors and descriptions must follow each other without gaps.
 
 use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
@@ -13,12 +13,12 @@ pub(super) const CASES: &[CaseRow] = &[
         "In descriptors and descriptions nothing stands between the fields"),
 ];
 
-/// Whether the type that a descriptor names is one of the manual's.
+/// Whether the type in a descriptor is one of the manual's.
 fn has_type(object: DescriptorRef<'_>) -> bool {
     object.type_size().is_some() || object.type_name() == "STRING"
 }
 
-/// The bytes with some more zeros, or fewer bytes, at a place.
+/// The bytes with zeros inserted or bytes removed at an offset.
 fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
     let (head, tail) = bytes.split_at_checked(at).unwrap_or((bytes, &[]));
     let count = by.unsigned_abs();
@@ -32,7 +32,7 @@ fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
     all
 }
 
-/// By how much a field may be wider or narrower than printed: by little first.
+/// By how much a field may be wider or narrower than printed, smallest first.
 const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
 
 fn packed(probe: &mut Probe<'_>) -> Step {
@@ -62,7 +62,7 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
-    // An unknown type is none of the manual's, but a type.
+    // A type that the manual does not print is still a type.
     let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
     let makes_sense = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
@@ -93,8 +93,8 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
     );
 }
 
-/// How many bytes too many stand somewhere before `end`, so that the stream makes sense without
-/// them; too few, if it is less than 0.
+/// The number of padding bytes before `end` whose removal makes the stream plausible; negative if
+/// bytes are missing.
 fn unpacked(bytes: &[u8], end: usize, makes_sense: impl Fn(&[u8]) -> bool) -> Option<isize> {
     let makes_sense = |by: isize| (0..end).any(|at| makes_sense(&shifted(bytes, at, by)));
     SHIFTS.into_iter().find(|by| makes_sense(*by)).map(isize::saturating_neg)
@@ -120,7 +120,7 @@ mod tests {
         }
         let narrow = shifted(DESCRIPTION, 10, -2);
         assert!(unpacked(&narrow, DESCRIPTION.len(), sense).is_some());
-        // Other nonsense is another matter.
+        // Implausible bytes without padding are judged by other cases.
         assert_eq!(unpacked(b"\x02\0\0\x02", 4, sense), None);
     }
 }

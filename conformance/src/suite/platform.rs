@@ -33,7 +33,7 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         other => other,
     });
     let platform = match platform {
-        // Nothing of it is this case's to judge but that the list is there.
+        // Other cases judge the content of the list.
         Err(Stop::Judged) => {
             probe.check("COM-4", false, "the platform's list under channel 0", "none");
             return Err(Stop::Judged);
@@ -89,7 +89,8 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Channel 1 drives the platform: what both lists name has to be one thing, under either channel.
+/// Channel 1 has the platform's objects: objects that both lists name must have the same content
+/// under either channel.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = ObjectList::from(probe.channel_of(1)?);
@@ -106,7 +107,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         if let Some(other) = of(first).find(same).and_then(|other| other.address.read().ok()) {
             steady.same(probe, "COM-4", &what, one, other)?;
         }
-        // And at its own offset in the groups of both.
+        // Also at the object's offset in the groups of both.
         for list in [ObjectList::PLATFORM, first] {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
             let there = ReadObject::new(group, offset, object.size())?;
@@ -120,7 +121,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// What the manuals print.
+/// The printed objects.
 const PRINTED: [(&str, u32, u32); 4] = [
     ("platform", 0x12_0100, 0x251),
     ("axis", 0x12_0200, 0x1_0001),
@@ -133,7 +134,7 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         let objects = probe.objects()?;
         let named = objects.iter().find(|one| one.address.content() == Some((group, offset)));
-        // One of another form of the address has its content here too.
+        // An object with another form of address has its content here too.
         let read = |size| ReadObject::new(group, offset, size);
         let described = named.and_then(|object| read(object.size()).ok());
         let read = described.map_or_else(|| read(8), Ok)?;

@@ -1,4 +1,4 @@
-//! What the manuals print, byte for byte: cases made of golden vectors, for the target.
+//! Cases made of the manuals' printed examples, byte for byte.
 
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
@@ -9,7 +9,7 @@ use super::kit::{Probe, RawCall};
 use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
 use crate::text::hex::spaced;
 
-/// One example contradicts another of the same variable (E-27): no CNC answers both.
+/// An example that contradicts another of the same variable (E-27): no CNC can satisfy both.
 const CONTRADICTED: &str = "value-printed-name-element";
 
 /// One case for each printed reply.
@@ -25,7 +25,7 @@ pub(super) fn cases() -> Vec<Case> {
         .collect()
 }
 
-/// Sends a printed request and holds the reply against the printed one.
+/// Sends a printed request and compares the reply with the printed one.
 pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     if reply.id == CONTRADICTED {
         return Err(Stop::not_applicable(
@@ -62,7 +62,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);
     for id in reply.cited().into_iter().map(|one| one.id.as_str()) {
-        // A target that claims the printed examples is judged by them, at the level of what is printed.
+        // A target that claims the printed examples is judged at the level of the example.
         let rule = Rule { id, level: Some(reply.level()) };
         let kept = match received {
             Some(bytes) if bytes != expected => !wrong.contains(&id),
@@ -74,11 +74,11 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     Ok(())
 }
 
-/// Requirements that are printed examples: whichever field of one differs, it is another.
+/// Requirements that consist of a printed example: a difference in any field breaks them.
 const EXAMPLES: [&str; 3] = ["SDA-3", "SDA-10", "DYN-7"];
 
-/// The requirements of the fields in which a reply is not the printed one, and those of the example
-/// as a whole; all of the vector's if these say nothing of those fields.
+/// The requirements of the fields in which a reply differs from the printed one, and those of the
+/// example as a whole; all of the vector's if none is about these fields.
 fn wrong_requirements<'v>(
     reply: &'v Vector,
     stream: Stream,
@@ -87,7 +87,7 @@ fn wrong_requirements<'v>(
 ) -> Vec<&'v str> {
     let received = received.unwrap_or_default();
     let mut clauses = Vec::new();
-    // A printed reply walks to its end.
+    // A printed reply decodes completely.
     let _walked = stream.walk(expected, |segment| {
         let at = usize::try_from(segment.offset).unwrap_or(usize::MAX);
         let same = received.get(at..at.saturating_add(segment.bytes.len())) == Some(segment.bytes);

@@ -1,4 +1,11 @@
-//! Running cases.
+//! Runs cases.
+
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -13,13 +20,13 @@ use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, c
 use crate::process::interrupt;
 use crate::testee::{self, Terms};
 
-/// The function of each case that one tries.
+/// The function of each case that has one.
 static TRIES: LazyLock<HashMap<&str, Try>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
 /// Runs the cases: those of the codec against the codec, all others against a target.
 ///
-/// `defect` changes bytes on their way into and out of the codec, to show that its cases can fail.
+/// `defect` changes the codec's input and output, to show that its cases can fail.
 pub fn run(
     cases: Vec<Case>,
     mut target: Option<&mut TargetState>,
@@ -39,7 +46,7 @@ pub fn run(
         one(case, run, target.as_deref_mut())
     }));
     if let Some(target) = target {
-        // What a panic here leaves changed is reported as such.
+        // Values that this leaves changed after a panic are reported.
         let _panic = caught(|| Probe::new(target).restore_rest());
     }
     outcomes
@@ -52,7 +59,7 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
     if interrupt::is_requested() {
         return CaseOutcome::interrupted(case);
     }
-    // Frames are judged by what there was of them, whatever became of the target.
+    // Cases about frames judge the frames so far, even if the target is gone.
     if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return CaseOutcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
     }
@@ -69,7 +76,7 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
         let note = "writes: nothing more is written when a value could not be restored";
         return CaseOutcome::untried(case, Verdict::NotRun, note);
     }
-    // What a case has changed is restored after the deadline too.
+    // A case that began before the deadline restores its values after it.
     let mut probe = Probe::new(target).with_deadline(late);
     let begun = caught(|| match (case.body, run) {
         (Body::Probe, Some(run)) => run(&mut probe),

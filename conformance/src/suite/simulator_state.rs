@@ -1,5 +1,5 @@
-//! Cases that hold what is read and written over ADS against what the CNC has within: every
-//! content another value, so that none passes for another.
+//! Cases that compare values over ADS with the simulated CNC's state: every content has another
+//! value, so that none is mistaken for another.
 
 use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
 use super::row::{CaseRow, case};
@@ -24,7 +24,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "All that the CNC holds is in its list, an object with its own name and size"),
 ];
 
-/// Rounds of values: enough to give each content of one bit another sequence of them.
+/// Rounds of values: enough to give each content of one bit a different sequence.
 const ROUNDS: u32 = 6;
 /// Rounds of longer contents.
 const ROUNDS_OF_NUMBERS: u32 = 2;
@@ -33,13 +33,13 @@ fn is_bit(held: &StoredContent) -> bool {
     matches!(held.type_name, "BOOL" | "BOOLEAN")
 }
 
-/// Whether its bytes have an order.
+/// Whether the value's bytes have an order.
 fn is_number(held: &StoredContent) -> bool {
     held.type_name != "STRING" && held.value.len() > 1
 }
 
-/// A value of the content with this number, another in each round. No two bytes of a number are
-/// the same, and no REAL is an odd one.
+/// The value of the content with this number, different in each round. All bytes of a number
+/// differ, and REALs are finite.
 fn value(held: &StoredContent, number: u32, round: u32) -> Vec<u8> {
     if is_bit(held) {
         return vec![u8::from(number.checked_shr(round).unwrap_or_default() & 1 == 1)];
@@ -65,8 +65,8 @@ fn same(held: &StoredContent, one: &[u8], other: &[u8]) -> bool {
     kit::same(one, other, held.type_name == "STRING")
 }
 
-/// Judges a value that was read or is held now. One with its bytes in another order is of the
-/// right place.
+/// Judges a value over ADS against the expected one. The same bytes in another order are not judged
+/// as a wrong address.
 fn judge(
     probe: &mut Probe<'_>,
     rules: &[Rule],
@@ -85,7 +85,7 @@ fn judge(
     probe.check(&rules.collect::<Vec<_>>(), kept, what, shown);
 }
 
-/// Every content with its values over the rounds; they are put back whatever comes of it.
+/// Sets and reads every content in each round; the original values are restored in any case.
 fn is_read(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let all = cnc.stored_contents();
@@ -109,7 +109,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
 
 fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &StoredContent, value: &[u8]) -> Step {
     for (place, rules) in addresses.of(held)? {
-        // Of the program stream, and where functions are, nothing is read.
+        // The program stream and the offsets of functions are not read.
         let Ok(request) = place.read() else { continue };
         let exchange = probe.send(request)?;
         let found = exchange.success();
@@ -144,14 +144,14 @@ fn write(
 ) -> Step {
     let cnc = probe.cnc()?;
     for (place, rules) in addresses {
-        // The two homes of platform data are read.
+        // Other cases judge that the platform's data is under both addresses.
         let rules: Vec<Rule> = rules.iter().filter(|rule| rule.id != "COM-4").copied().collect();
         let Ok(request) = place.write(value) else { continue };
         if probe.target.profile.leaves(&held.name.to_string()) || !probe.may(request)? {
             continue;
         }
         let exchange = probe.send(request)?;
-        // That what may be written is taken is judged elsewhere.
+        // Another case judges that a writable content accepts the value.
         if exchange.success().is_none() {
             continue;
         }
@@ -171,7 +171,7 @@ fn write(
     Ok(())
 }
 
-/// Whether a list is that of what holds an object; of the platform's, channel 1 has them too.
+/// Whether a list has the objects of an owner; channel 1's includes the platform's.
 fn is_list_of(holder: Holder, list: List) -> bool {
     match (holder, list) {
         (Holder::Platform, List::Platform) => true,
@@ -189,13 +189,13 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
     let all = cnc.stored_contents();
     for held in &all {
         let mine = |object: &&Object| is_list_of(held.holder, object.list);
-        // What instances there are is judged elsewhere.
+        // Other cases judge which instances exist.
         if let Some(count) = addresses.count(held) {
             let expected = || format!("element {} of {:?}", held.element, held.holder);
             let found = || format!("{count} elements");
             probe.check("OBJ-1", held.element <= count, expected, found);
         }
-        // That platform axes have lists is assumed; what is not claimed has none.
+        // That platform axes have lists is assumed; an owner that is not claimed has none.
         if !objects.iter().any(|object| mine(&object)) {
             continue;
         }
@@ -218,7 +218,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let sized = u32::try_from(held.value.len()) == Ok(object.size());
         let expected = || format!("{} bytes of {what}", held.value.len());
         probe.check("COM-2", sized, expected, || format!("{} bytes", object.size()));
-        // It may have another name there, but not another's, nor half of its own.
+        // The object may have another name, but not that of another object, nor half of its own.
         let taken = all.iter().any(|one| one.name == object.name);
         let cut = held.name.as_bytes().starts_with(object.name.as_bytes());
         let named = object.name == held.name || !taken && !cut;
@@ -232,7 +232,7 @@ mod tests {
     use super::*;
     use crate::simulator::Cnc;
 
-    /// What is read in place of another, or in another order, is not taken for it.
+    /// Values of other contents, and values in another byte order, are detected.
     #[test]
     fn values_are_told_apart() {
         let all = Cnc::with_default_model().unwrap().stored_contents();
@@ -252,7 +252,7 @@ mod tests {
             }
             alike += sequences[..at].iter().filter(|other| *other == one).count();
         }
-        // More contents of a bit than there are sequences.
+        // There are more contents of one bit than sequences.
         assert!(alike < 40, "{alike}");
     }
 }

@@ -1,4 +1,4 @@
-//! Cases of characters: what is written in them is read again.
+//! Cases of characters: a written text is read back unchanged.
 
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
@@ -14,10 +14,10 @@ pub(super) const CASES: &[CaseRow] = &[
         "Every character of CP1252 that is written to a text is read again"),
 ];
 
-/// Bytes that have no character in CP1252.
+/// Bytes without a character in CP1252.
 const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 
-/// Texts that may be written, by what names them.
+/// Writable texts, with their names.
 fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
     for object in probe.objects().if_applicable()?.unwrap_or_default() {
@@ -32,7 +32,7 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
                 && variable.dimensions.is_empty()
                 && variable.access == ads_cnc::VariableAccess::READ_WRITE;
             let name = variable.name.text;
-            // Those of the Service Interface an NC program reads.
+            // The texts of the Service Interface are read by an NC program.
             let own = !name.to_string().starts_with("V.G.SERVICE.");
             let what = name.to_string();
             (is_text && own).then_some((ValueAddress::Name { channel, name }, what))
@@ -66,13 +66,13 @@ fn written(probe: &mut Probe<'_>) -> Step {
     probe.finish("no text may be written")
 }
 
-/// Writes all characters, as many as fit each time.
+/// Writes all characters, as many as fit at a time.
 fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
     for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
-        // One byte is left for the NUL.
+        // The last byte is the NUL.
         for piece in bytes.chunks(size.saturating_sub(1)) {
-            // As long as what was there: a text of another length may be refused.
+            // As long as the old text, because another length may be rejected.
             let mut value = piece.to_vec();
             value.resize(size, 0);
             is_read_again(probe, (address, what), rule, &value)?;
@@ -87,7 +87,7 @@ fn is_read_again(
     rule: Rule,
     value: &[u8],
 ) -> Step {
-    // Which texts are taken is documented nowhere.
+    // Which texts are accepted is not documented.
     let taken = [assumed("GEN-3")];
     if !probe.write_checked(
         &WriteCheck { what, rules: &taken, is_text: true, name: None },

@@ -28,7 +28,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A text is no longer than one can be declared"),
 ];
 
-/// Judges what a request reads by what the whole variable, read before and after it, makes expected.
+/// Compares a value with the whole variable, which is read before and after it.
 fn compare_with_whole<'r>(
     steady: &mut Steady,
     probe: &mut Probe<'_>,
@@ -55,7 +55,7 @@ fn compare_with_whole<'r>(
     Ok(())
 }
 
-/// How a report reads the value of a variable.
+/// The type of a variable's value for a report.
 fn value_type(variable: &Description, dimensions: &[u32]) -> ValueFormat {
     let ty = variable.var_type.name().and_then(|name| type_by_name(name).ok());
     ValueFormat { ty, dimensions: dimensions.to_vec() }
@@ -123,7 +123,8 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// However texts lie in an array: an index means the same by handle and by name.
+/// Whatever the layout of texts in an array, an index must select the same element by handle and by
+/// name.
 fn text_by_name(
     probe: &mut Probe<'_>,
     channel: Channel,

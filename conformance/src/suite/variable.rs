@@ -1,4 +1,4 @@
-//! Cases of variables: how many there are, what they are, how they are called.
+//! Cases of variables: their number, descriptions and names.
 
 use std::collections::HashSet;
 
@@ -35,7 +35,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "NULs may pad a name or a kind up to 256 bytes"),
 ];
 
-/// How many variables of a kind there are, which has to be said.
+/// The number of variables of a kind, which the target must return.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
     let data = probe.ask(["VAR-1", "VAR-2"], CountVariables::new(channel, kind))?;
     let count = VariableCount::decode(&data);
@@ -52,14 +52,14 @@ fn count(probe: &mut Probe<'_>) -> Step {
         }
         let VariableCount(all) = probe.read("VAR-1", CountVariables::new(channel, Kind::ALL))?;
         let found = || format!("{all} of channel {}", channel.number());
-        // What is not claimed is not counted here, but may well be there.
+        // Kinds that are not claimed are not counted here, but may exist.
         let whole = probe.kinds().len() == KINDS.len();
         let kept = if whole { all == sum } else { all >= sum };
         probe.check("VAR-1", kept, || format!("{sum} variables of all kinds"), found);
         if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }
-        // The same question in no byte at all.
+        // The same request without data.
         let absent = Kind::from_field(TextRef::with_tail(ads_cnc::CncStr::EMPTY, None));
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec));
@@ -90,8 +90,8 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// From the last index to the first there are the same variables. An axis may change its place
-/// meanwhile: what differs has to differ from two readings that agree.
+/// Reads the descriptions from the last index to the first. An axis may move to another place
+/// meanwhile, so a difference counts only against two equal readings.
 fn descriptions_backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -113,7 +113,7 @@ fn descriptions_backwards(
     Ok(())
 }
 
-/// What a description says of itself.
+/// Checks a description by itself.
 pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, kind: &str) {
     let name = variable.name.text.to_string();
     let of_kind = name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
@@ -133,7 +133,7 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
     probe.check("VAR-4", !empty, "at least one element in each dimension", found);
     probe.check("VAR-7", !empty, "no dimension where there is no array", found);
     let Description { var_type, access, .. } = variable;
-    // As they stand they mean nothing, and would the other way round.
+    // Invalid in this order, but valid when exchanged.
     let exchanged = !(1..=2).contains(&access.0)
         && VariableType(access.0).name().is_some()
         && (1..=2).contains(&var_type.0);
@@ -150,7 +150,7 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
         || format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
     let found = || format!("{} bytes of {name}", variable.size);
     probe.check("VAR-8", variable.size == whole, expected, found);
-    // A size read in the wrong order of bytes is the first to leave all limits.
+    // A size in the wrong byte order usually exceeds every limit.
     let plausible = variable.size <= 0x00FF_FFFF;
     probe.check("GEN-1", plausible, "a little-endian size", || format!("{:#x}", variable.size));
 }
@@ -202,12 +202,12 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     probe.refuses("VAR-14", &what, read(absent), read(channel))
 }
 
-/// The structures that a leaf is in: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
+/// The structures around a leaf: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
 fn structures(name: &str) -> Vec<&str> {
     let mut all = Vec::new();
     let mut rest = name;
     while let Some((structure, _)) = rest.rsplit_once('.') {
-        // What is left is the kind.
+        // The rest is the kind.
         if structure.matches('.').count() < 2 {
             break;
         }
@@ -228,7 +228,8 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
         let mut tried = HashSet::new();
         for leaf in &variables {
             let name = leaf.name.text.to_string();
-            // Axis variables end in the axis's name; what is before it is no structure.
+            // Names of axis variables end with the axis's name; the part before it is not a
+            // structure.
             if name.starts_with("V.A.") {
                 continue;
             }
@@ -264,7 +265,7 @@ fn padded_name(probe: &mut Probe<'_>) -> Step {
     same(probe, "VAR-1", plain.into(), CountVariables::new(channel, kind).into())
 }
 
-/// Asks the same twice, the second time in an assumed form.
+/// Sends the same request twice, the second time in an assumed form.
 fn same(probe: &mut Probe<'_>, rule: &'static str, plain: Request<'_>, odd: Request<'_>) -> Step {
     let expected = probe.send(plain)?;
     let exchange = probe.send(odd)?;

@@ -1,5 +1,4 @@
-//! Cases of names and types: which variable a name stands for, and what is known of one from
-//! elsewhere.
+//! Cases of names and types: lookup by name, and types that other manuals state.
 
 use ads_cnc::address::Channel;
 use ads_cnc::limits::TEXT_MAX;
@@ -34,7 +33,7 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
         probe.refuses("ADS-4", &what, handle, good)?;
         let good = ReadByName { channel, name: known };
         probe.refuses("ADS-4", &what, ReadByName { channel, name }, good)?;
-        // A success is a handle, and not a variable's that is not there.
+        // A success must not return the handle of an existing variable.
         let given = probe.try_ask(handle)?;
         let none = given.is_none();
         let found = || Hex(given.clone().unwrap_or_default());
@@ -48,10 +47,10 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The most names of a channel that are tried, the longest first.
+/// Maximum number of names of a channel that are tried, the longest first.
 const NAMES_MAX: usize = 64;
 
-/// The name with a character more, one less, and another last one and one in the middle.
+/// Similar names: a character more, one less, another last one, and another one in the middle.
 fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     let other = |at: usize| {
         let mut other = name.to_vec();
@@ -62,14 +61,13 @@ fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     };
     let Some((_, shorter)) = name.split_last() else { return Vec::new() };
     let longer = [name, &b"q"[..]].concat();
-    // Behind the kind: in front of it there is no variable at all.
+    // After the kind, without which there is no variable.
     let middle =
         name.len().saturating_sub(4).checked_div(2).map_or(4, |half| half.saturating_add(4));
     vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
 }
 
-/// The name with an index within that is far beyond all there can be, whether its lower bytes are
-/// those of the right one or not.
+/// Names with an index far beyond the bounds, with and without the lower bytes of a valid one.
 fn other_structures(name: &str) -> Vec<String> {
     let mut all = Vec::new();
     for (at, _) in name.match_indices('[') {
@@ -86,7 +84,7 @@ fn other_structures(name: &str) -> Vec<String> {
 fn similar_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let mut variables = probe.variables(channel)?;
-        // Whether upper and lower case are told apart is not said.
+        // Whether names are case-sensitive is not stated.
         let is_there = |name: &[u8], variables: &[Description]| {
             variables.iter().any(|one| one.name.text.as_bytes().eq_ignore_ascii_case(name))
         };
@@ -124,7 +122,7 @@ fn apart(
     probe.refuses(rule, &what, ReadByName { channel, name }, good)
 }
 
-/// The five of the Service Interface.
+/// The five variables of the Service Interface.
 fn known_types(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {

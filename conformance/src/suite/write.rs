@@ -1,4 +1,4 @@
-//! Cases that write variables, and undo it.
+//! Cases that write variables and restore them.
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
@@ -59,7 +59,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
             let kept = same(&read, new, is_text);
             probe.check("VAR-13", kept, expected, || Hex(read.clone()));
-            // What the name gives by now the handle has to give as well.
+            // The value by name and by handle must be equal.
             let kept = kept || !same(&named, new, is_text);
             probe.check("VAR-14", kept, expected, || Hex(read));
             Ok(())
@@ -68,7 +68,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Every axis variable of this access, at the place whose handle it is described with.
+/// Every axis variable with this access, at the place to which its described handle belongs.
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,
@@ -105,7 +105,7 @@ fn axis_read_only(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Writes what has no handle. That it may be written is not said, but for "with restrictions".
+/// Writes variables without a handle. That they are writable is stated only "with restrictions".
 fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) -> Step {
     let channel = probe.channel()?;
     for name in names {
@@ -115,7 +115,7 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
             let rules = [assumed(rule)];
             let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&write_check, &address, |probe, _, new| {
-                // What is taken is there, though.
+                // An accepted value must be stored.
                 let read = probe.value_at(&address)?.unwrap_or_default();
                 let expected = || format!("{} of {what}, as written", Hex(new.to_vec()));
                 probe.check(rule, read == new, expected, || Hex(read));

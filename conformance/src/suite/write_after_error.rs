@@ -1,4 +1,4 @@
-//! Cases of writes that were refused: nothing of them is there, and the next one is done.
+//! Cases of rejected writes: they have no effect, and the next write succeeds.
 
 use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
@@ -32,14 +32,14 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
             let other = changed_value(value, false);
             let (good, back) = (address.write(&other), address.write(value));
             let (good, back) = (good?, back?);
-            // As it is taken without a refusal before it.
+            // Whether a write is accepted that does not follow a rejected one.
             let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
             };
             if !probe.may(back)? || !taken(probe, back)? || !taken(probe, back)? {
                 continue;
             }
-            // What is held against it is refused.
+            // Continues only if the unknown name is rejected.
             if probe.try_ask(unknown)?.is_some() {
                 continue;
             }
@@ -49,7 +49,7 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{name} written behind a refusal");
             probe.check([id, "ADS-2", "ADS-4"], done, expected, &exchange);
             let after = probe.value_at(&address)?.unwrap_or_default();
-            // What never takes another value is judged elsewhere.
+            // Another case judges values that never accept a change.
             let (again, read) = (taken(probe, good)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
@@ -61,7 +61,7 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// That another size is refused is assumed; that what is refused is not done is not.
+/// That another size is rejected is assumed; that a rejected write has no effect is stated.
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
@@ -100,12 +100,12 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     applicable(any, NOTHING_WRITABLE)
 }
 
-/// By an integer the place may get an axis: its logical number is written there.
+/// Whether the type is an integer, which may hold the number of the axis at the place.
 fn may_be_a_number(type_name: &str) -> bool {
     !matches!(type_name, "BOOLEAN" | "BOOL" | "REAL32" | "REAL64" | "REAL" | "LREAL")
 }
 
-/// Whether such a write is refused nobody says.
+/// Whether a write to a place without an axis is rejected is not specified.
 fn empty_places(probe: &mut Probe<'_>) -> Step {
     let mut all: Vec<(ValueAddress, String)> = Vec::new();
     let empty = probe.target.profile.empty_places.clone();

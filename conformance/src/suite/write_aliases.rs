@@ -1,4 +1,4 @@
-//! Cases of what is written one way and read another: by number and by rank, with a channel and
+//! Cases that write at one address and read at another: by number and by rank, with a channel and
 //! without.
 
 use ads_cnc::address::Class;
@@ -32,7 +32,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         {
             continue;
         }
-        // What is not taken by number either is judged elsewhere.
+        // Another case judges values that cannot be read by number either.
         let Some(value) = probe.filled_value_at(logical)? else {
             continue;
         };
@@ -86,7 +86,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
     probe.finish("no axis of the HLD may be written")
 }
 
-/// The interface reads and writes them; which of them may be written the CNC knows.
+/// The interface reads and writes them; the simulated CNC knows which are writable.
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     for channel in probe.channels()? {

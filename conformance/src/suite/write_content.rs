@@ -1,4 +1,4 @@
-//! Cases that write COM objects and elements of SDA and GEO, and undo it.
+//! Cases that write COM objects and elements of SDA and GEO and restore them.
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{CountElements, Service};
@@ -27,7 +27,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "The number of elements of an instance takes no value"),
 ];
 
-/// Objects that may be written, by what their descriptors say of that.
+/// Objects whose descriptors say that they are writable, or not.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
@@ -84,7 +84,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             }
             Ok(())
         })?;
-        // What took the new value and has the old one again has taken both writes.
+        // A content that first had the new value and then the old one has accepted both writes.
         let is_own = taken.is_empty();
         for (rule, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
@@ -100,11 +100,11 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Where else a write might go to: what is there, what it holds and how it is judged.
+/// Another value that a wrong write might reach: rule, name, address, current value.
 type Sibling = (Rule, String, ValueAddress, Vec<u8>);
 
-/// The same element of the other instances of its class, and the other elements of its own. Of
-/// these one may well follow another on a machine.
+/// The same element of the other instances of its class, and the other elements of its instance.
+/// The latter may depend on each other.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
@@ -140,7 +140,7 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     Ok(all)
 }
 
-/// What is refused is not written either.
+/// A rejected write has no effect.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
@@ -176,7 +176,7 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Written as content of the first element, which it shares its address with.
+/// Writes the first element, whose content is the number of elements.
 fn number_of_elements(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
         let write = RawCall::new(CountElements::new(instance.first)?)?.with(|call| {

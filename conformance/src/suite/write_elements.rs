@@ -1,4 +1,4 @@
-//! Cases that write single elements of arrays, and undo it.
+//! Cases that write single elements of arrays and restore them.
 
 use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
@@ -17,8 +17,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A name with [index] writes the element of that place, and no other"),
 ];
 
-/// The first and the last place of an array; of more dimensions those at one edge too, whose
-/// indices cannot be mistaken for each other.
+/// The indices of the first and the last element; for several dimensions also those at one edge,
+/// whose indices are asymmetric.
 fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let last = |count: &u32| count.saturating_sub(1);
     let mut places = vec![vec![0; dimensions.len()]];
@@ -34,7 +34,7 @@ fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
     places
 }
 
-/// Which element of the whole a place is, the last index running fastest.
+/// The position of an element in the whole, the last index running fastest.
 fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
     let number = place
         .iter()
@@ -63,7 +63,8 @@ fn elements(
             let rules = rules(variable);
             let write_check = write_check(variable, &name, &rules);
             probe.try_write(&write_check, &place, |probe, old, new| {
-                // Wherever it lies, and whoever allows it: what it takes there it gives there.
+                // In any layout, and whichever entry allows it, an accepted value must be read
+                // back.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let kept = same(&read, new, is_text);
@@ -71,7 +72,7 @@ fn elements(
                 let stated: Vec<Rule> =
                     write_check.rules.iter().map(|rule| rule.id.into()).collect();
                 probe.check(&stated, kept, expected, || Hex(read.clone()));
-                // The one element, at its place of the whole, and nothing else.
+                // The whole has changed in this element only.
                 let mut expected = before.clone();
                 let size = old.len();
                 let start = number.saturating_mul(size);
@@ -87,7 +88,7 @@ fn elements(
     })
 }
 
-/// More dimensions than one are assumed, and how texts lie in an array.
+/// The order of several dimensions, and of texts in an array, is assumed.
 fn of_order(variable: &Description, ids: &[&'static str]) -> Vec<Rule> {
     let is_assumed = variable.dimensions.len() > 1 || variable.var_type == VariableType::STRING;
     ids.iter().map(|&id| if is_assumed { assumed(id) } else { id.into() }).collect()

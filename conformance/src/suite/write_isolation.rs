@@ -1,4 +1,4 @@
-//! Cases that write all there is, one behind the other, and look at what that has done to the rest.
+//! Cases that write all values one after the other and check the effect on the others.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -20,18 +20,18 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write on the axis interface changes the variable of that place, and nothing else"),
 ];
 
-/// A variable, the value of it at the start, and the one it should have.
+/// A variable, its initial value, and its expected value.
 struct WatchedVariable {
     channel: Channel,
     variable: Description,
     start: Vec<u8>,
     value: Vec<u8>,
-    /// Where else it can be written.
+    /// Another address for writing it.
     at: Option<ValueAddress>,
     seen: Vec<Reading>,
 }
 
-/// What was read of a variable at some time.
+/// A variable as read at some time.
 struct Reading {
     expected: Vec<u8>,
     read: Vec<u8>,
@@ -49,7 +49,7 @@ impl WatchedVariable {
     }
 }
 
-/// All that has a value, and one that stands still: what moves by itself is not changed by a write.
+/// All variables with a steady value: a write is not the cause of other changes.
 fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
@@ -62,7 +62,7 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
             }
         }
     }
-    // Looked at again when everything else was.
+    // Read again after all others were read.
     let mut still = Vec::new();
     for one in all {
         if probe.value_at(&one.by_handle())?.as_ref() == Some(&one.start) {
@@ -75,7 +75,7 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     Ok(still)
 }
 
-/// Another value, in which every byte is another if the type allows it.
+/// Another value that differs in every byte if the type permits it.
 fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     let mixed = (0_usize..).zip(value).map(|(place, byte)| {
         let mixed = place.wrapping_mul(37).wrapping_add(salt.wrapping_mul(101)) & 0xFF;
@@ -84,7 +84,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     });
     match variable.var_type {
         VariableType::BOOLEAN => value.iter().map(|byte| byte ^ 1).collect(),
-        // Finite, and no two alike.
+        // Finite and distinct.
         VariableType::REAL64 => {
             let exponent = |(place, byte): (usize, u8)| match place % 8 {
                 7 => 0x40 | byte & 0x80,
@@ -108,7 +108,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     }
 }
 
-/// Writes each in this order, the last first if `backwards`, and then reads all.
+/// Writes all in this order, or in reverse order if `backwards`, and then reads all.
 fn write_and_read_all(
     probe: &mut Probe<'_>,
     all: &mut [WatchedVariable],
@@ -136,7 +136,7 @@ fn write_and_read_all(
         let place = look(one);
         let read = probe.value_at(&place)?.unwrap_or_default();
         let evidence = probe.evidence().filter(|_| read != one.value);
-        // It has come to move meanwhile.
+        // The value has begun to change by itself.
         if read != one.value && probe.moves(&place, false)? {
             continue;
         }
@@ -145,8 +145,7 @@ fn write_and_read_all(
     Ok(())
 }
 
-/// Whether it may be the same one as that of another channel: with the same name, and never
-/// another value.
+/// Whether it may be the same variable as in another channel: same name, and always the same value.
 fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     let reads = |one: &WatchedVariable| -> Vec<Vec<u8>> {
         one.seen.iter().map(|seen| seen.read.clone()).chain([one.start.clone()]).collect()
@@ -159,7 +158,7 @@ fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     all.iter().any(same)
 }
 
-/// Each has what was written to it last, and no other has.
+/// Each variable has the value written last.
 fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     for one in all {
         let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
@@ -177,7 +176,7 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     }
 }
 
-/// Puts everything back, by whichever way takes it.
+/// Restores all values, by any address that accepts them.
 fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
         let ways = [one.at.clone(), Some(one.by_handle()), Some(one.by_name())];
@@ -195,8 +194,8 @@ fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -
     Ok(())
 }
 
-/// Forwards and backwards, so that what one write does to what was written before it shows; what
-/// is written one way is read the other.
+/// In both directions, to detect effects of a write on earlier ones; values written by one address
+/// are read by the other.
 fn both_ways(
     probe: &mut Probe<'_>,
     rule: Rule,

@@ -1,5 +1,4 @@
-//! Cases of writes that are no good: what is refused is not done either, and what is taken is
-//! what is there afterwards.
+//! Cases of invalid writes: a rejected write has no effect, and an accepted one is stored.
 
 use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
 use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableType};
@@ -32,7 +31,7 @@ fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
     first.or_not_applicable("no number may be written")
 }
 
-/// Each way to every READ_ONLY variable.
+/// Each address of every READ_ONLY variable.
 fn each_read_only(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
@@ -74,7 +73,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
         let expected = || format!("an error number for a write of {}", write_check.what);
         probe.check("VAR-6", refused, expected, &exchange);
         let after = probe.value_at(address)?.unwrap_or_default();
-        // What moves by itself has not been written.
+        // A value that changes by itself proves nothing.
         if after != before && (moved || probe.moves(address, false)?) {
             return Ok(());
         }
@@ -86,8 +85,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Sends a write that must be refused and have no effect on `watched`; then the good one again,
-/// so that all is as it was.
+/// Sends a write that must be rejected without an effect on `watched`; then the valid one again.
 fn refused(
     probe: &mut Probe<'_>,
     rules: &[&'static str],
@@ -147,7 +145,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         let unknown: CncString = unknown.parse()?;
         let is_there =
             |one: &Description| one.name.text.as_bytes().eq_ignore_ascii_case(unknown.as_bytes());
-        // Whether upper and lower case are told apart is not said.
+        // Whether names are case-sensitive is not stated.
         if variables.iter().any(is_there) {
             continue;
         }
@@ -160,7 +158,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     refused(probe, &["VAR-13"], "an element of no array", (bad, good), &watched)
 }
 
-/// The most arrays that are tried.
+/// Maximum number of arrays that are tried.
 const ARRAYS_MAX: usize = 16;
 
 fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
@@ -201,7 +199,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
         let watched = known.address();
-        // Without its end there is no name, and nothing that would be behind it.
+        // Without its NUL the name is not terminated, and no value follows.
         let good = known.by_name(&known.value);
         let call = RawCall::new(good)?;
         let name: Vec<u8> = known.name().bytes().collect();

@@ -1,4 +1,4 @@
-//! Cases of values of another size than a variable's.
+//! Cases of values with another size than the variable's.
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
@@ -18,7 +18,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A value of another size than the variable's is answered by an error, or is there as it was sent"),
 ];
 
-/// An address of a value, and the clause of writes to it.
+/// An address of a value, and the requirement of writes to it.
 struct WriteAddress {
     id: &'static str,
     address: ValueAddress,
@@ -48,7 +48,7 @@ fn write_addresses(
     Ok(all)
 }
 
-/// Of each type the first variable and the first array, and whatever an axis has.
+/// The first variable and the first array of each type, and all axis variables.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
@@ -79,14 +79,14 @@ fn of_address(
         return Ok(());
     };
     let whole = ValueAddress::of_handle(channel, variable.handle);
-    // Other bytes from the first on: a part of them that is written shows.
+    // All bytes differ from the old ones, so that a partial write is detected.
     let other = if is_text { vec![b'x'; value.len()] } else { changed_value(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
     let one = size.unwrap_or(1);
     let longer = |more: usize| [&other[..], &vec![1; more]].concat();
     let shorter = |fewer: usize| other.get(..other.len().saturating_sub(fewer));
     let mut all = vec![longer(1), longer(one), longer(64)];
-    // A text may well be shorter than its variable, and empty too.
+    // A text may be shorter than its variable, and empty.
     if !is_text {
         all.push(Vec::new());
         all.extend([1, one].into_iter().filter_map(shorter).map(<[u8]>::to_vec));
@@ -114,9 +114,9 @@ struct WrongSizeWrite<'a> {
 }
 
 impl WrongSizeWrite<'_> {
-    /// That it is refused is assumed. An error that has written something is none, and a success
-    /// has written what was sent, as far as that goes: of more bytes a variable cannot have it.
-    /// How much a text holds is known from help pages only.
+    /// That it is rejected is assumed. After an error the value must be unchanged; after a success
+    /// it must be the sent one, up to the size of the variable. The maximum length of a text is
+    /// documented online only.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { at, watched, is_text, value, other } = *self;
         let (bad, good) = (at.address.write(other), at.address.write(value));
@@ -138,7 +138,7 @@ impl WrongSizeWrite<'_> {
             let expected = || format!("an error, or {what} read back");
             probe.check(of_size, read.starts_with(other), expected, || Hex(read));
         } else {
-            // What moves by itself has not been written.
+            // A value that changes by itself proves nothing.
             if after != before && probe.moves(watched, false)? {
                 return probe.send(good).map(drop);
             }

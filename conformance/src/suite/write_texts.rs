@@ -1,4 +1,4 @@
-//! Cases that write texts, and undo it.
+//! Cases that write texts and restore them.
 
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
@@ -41,7 +41,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                 |probe| of_lengths(probe, id, &address, (&name, variable.size)),
                 |probe| {
                     write_value(probe, &address, &before)?;
-                    // A read without an answer shows nothing.
+                    // Without a reply the value is unknown.
                     let Some(after) = probe.value_at(&address)? else { return Ok(false) };
                     let kept = until_nul(&after) == until_nul(&before);
                     let expected = || format!("{} of {name} again", Hex(before.clone()));
@@ -53,7 +53,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// How much a text holds is known from help pages; that what is taken is there is not.
+/// The maximum length of a text is documented online; that an accepted text is stored is stated.
 fn of_lengths(
     probe: &mut Probe<'_>,
     id: &'static str,
@@ -64,7 +64,7 @@ fn of_lengths(
     for len in [size.saturating_sub(1), size.checked_div(2).unwrap_or(0), 1] {
         let mut value = vec![b'x'; len];
         value.push(0);
-        // As many bytes as it is described with: that fewer are taken is assumed.
+        // Padded to the described size: that fewer bytes are accepted is assumed.
         value.resize(size.max(1), 0);
         let taken = write_value(probe, address, &value)?;
         let expected = || format!("{name} takes a text of {len} characters");
@@ -82,8 +82,8 @@ fn of_lengths(
     shorter(probe, id, address, (name, size))
 }
 
-/// A text without what its variable has room for behind it: that it is taken is assumed. Then it
-/// ends where it was sent to end, whatever was there.
+/// Writes a text that is shorter than its variable: that it is accepted is assumed. Then it must
+/// end where the sent one ends.
 fn shorter(
     probe: &mut Probe<'_>,
     id: &'static str,

@@ -1,4 +1,4 @@
-//! Going through the protocol one step at a time, for whoever writes an adapter.
+//! Checks each step of the protocol, for the author of an adapter.
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
@@ -8,17 +8,17 @@ use super::{Testee, TesteeProcess, TesteeReaction, compare};
 use crate::codec::message::{Answer, Capabilities, Output, Question};
 use crate::text::{escape, hex::compact};
 
-/// What a step of the protocol came to.
+/// The result of a step of the protocol.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     pub what: String,
     pub sent: Option<String>,
     pub received: Option<String>,
-    /// What is wrong, and how it should be.
+    /// The fault and the expected behaviour.
     pub fault: Option<String>,
 }
 
-/// Vectors to try the protocol with: of each sort of field one, and the first that is claimed.
+/// Vectors for the test: one for each kind of field, and the first that is claimed.
 const SAMPLES: [&str; 8] = [
     "handle-printed",
     "object-count",
@@ -30,7 +30,7 @@ const SAMPLES: [&str; 8] = [
     "descriptor-printed",
 ];
 
-/// Any does: the samples are the same in both.
+/// Either edition is suitable: the samples are the same in both.
 const EDITION: &str = "en-1.05";
 
 /// Tries every step of the protocol.
@@ -148,7 +148,7 @@ impl Steps<'_> {
         self.note(format!("{} is encoded", vector.stream), fault);
     }
 
-    /// A stream that is too short by a byte.
+    /// A stream that is one byte too short.
     fn cut(&mut self, vector: &Vector, capabilities: &Capabilities) {
         if !capabilities.claim("decode", &vector.stream) {
             return;
@@ -181,7 +181,7 @@ impl Steps<'_> {
     }
 }
 
-/// What is asked of a vector by this op.
+/// The question of this op for a vector.
 fn question_of(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
 }

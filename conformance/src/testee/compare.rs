@@ -1,19 +1,19 @@
-//! Whether a value is the one that was meant: by what decides, and where it is not.
+//! Compares a value with the expected one by the fields that are significant.
 
 use ads_cnc_vectors::{Fields, Tagged, Type, Value};
 use serde_json::Value as Json;
 
 use crate::text::hex::compact;
 
-/// How a value differs.
+/// A difference between values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
     Other(String),
-    /// What follows a text is not told.
+    /// The testee omits the bytes after a text.
     Untold(String),
 }
 
-/// The first difference between what was meant and what has come.
+/// The first difference between the expected and the actual value.
 pub(super) fn compare(meant: &Fields, found: &Json) -> Option<Difference> {
     record("", meant, found)
 }
@@ -151,7 +151,7 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     }
 }
 
-/// Compares what follows a text. A testee that does not tell it is not wrong.
+/// Compares the bytes after a text. A testee may omit them.
 fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);

@@ -1,4 +1,4 @@
-//! What a testee was asked and did, for people.
+//! Questions and answers of a testee as text.
 
 use super::TesteeReaction;
 use crate::codec::message::{Answer, Output, Question};

@@ -1,4 +1,4 @@
-//! Asking a testee everything, and what comes of it.
+//! Asks a testee all questions and judges the answers.
 
 use std::collections::HashMap;
 
@@ -11,10 +11,11 @@ use crate::codec::message::{Answer, TesteeHello};
 use crate::judge::{Case, CaseOutcome, CaseSubject, Stop, Verdict, caught};
 use crate::process::interrupt;
 
-/// Questions in a row that end with a crash or in silence, after which no more are asked.
+/// Maximum number of consecutive crashes or missing answers; after them no more questions are
+/// asked.
 const LOST_MAX: usize = 12;
 
-/// The most memory that answers may take together, in bytes; those to all vectors take a part of it.
+/// Maximum memory of all answers in bytes; those to vectors may take a part of it.
 const ANSWERS_MAX: usize = 32 << 20;
 
 #[derive(Debug)]
@@ -23,17 +24,17 @@ pub struct JudgedTestee {
     /// Of each case, and of the protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
-    /// How often it had to be started anew.
+    /// How often it was started again.
     pub restarts: usize,
 }
 
-/// Asks a testee all that these cases have.
+/// Asks a testee all questions of these cases.
 pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> JudgedTestee {
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
         Ok(hello) => hello,
         Err(_) if interrupt::is_requested() => return untried(cases, CaseOutcome::interrupted),
-        // Whether it would have answered is not known.
+        // A missing answer after an interrupt proves nothing.
         Err(reaction) => {
             return match testee.over() {
                 Some(why) => untried(cases, |case| {
@@ -58,7 +59,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         let outcomes = cases.into_iter().map(untried).collect();
         return JudgedTestee { hello: Some(hello), outcomes, asked: 0, restarts: 0 };
     }
-    // Siblings decide, so they are asked even if nobody wants to know of them.
+    // Rejections are judged together with their accepted siblings, so these are asked even if they
+    // are not selected.
     let wanted = cases.len();
     let missing = crate::judge::siblings_of(&cases);
     cases.extend(missing);
@@ -80,7 +82,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             (Err(_), Purpose::MadeUp) => continue,
         };
         if interrupt::is_requested() {
-            // Whether it would have answered is not known.
+            // A missing answer after an interrupt proves nothing.
             gone = Some(Stop::Interrupted);
             break;
         }
@@ -137,7 +139,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         })
     };
     let mut outcomes: Vec<CaseOutcome> = (0..wanted).filter_map(outcome).collect();
-    // Our own codec is asked without a protocol in between.
+    // This project's codec is called without the protocol.
     if terms.subject != CaseSubject::Codec {
         let protocol = protocol.outcome(terms.subject);
         outcomes.push(if interrupt::is_requested() {
@@ -173,7 +175,7 @@ mod tests {
     use super::super::{Own, Question};
     use super::*;
 
-    /// The codec, which panics when it is asked one op.
+    /// The codec, with an op that panics.
     struct PanickingTestee(Own);
 
     impl Testee for PanickingTestee {

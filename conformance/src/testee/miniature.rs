@@ -1,4 +1,4 @@
-//! Testees that misbehave as a whole: whoever judges codecs has to see through each of them.
+//! Testees that misbehave in general, each of which the suite must detect.
 
 use super::Own;
 use crate::codec::message::{
@@ -10,33 +10,33 @@ use crate::text::named;
 pub enum Miniature {
     /// Accepts everything.
     AcceptsAll,
-    /// Refuses everything.
+    /// Rejects everything.
     RefusesAll,
-    /// Says back what it is given.
+    /// Returns its input.
     Echoes,
-    /// Says nothing to every fortieth case.
+    /// Does not answer every fortieth case.
     Hangs,
-    /// Ends at every tenth case.
+    /// Crashes at every tenth case.
     Crashes,
-    /// Claims what it does not do.
+    /// Claims ops that it does not implement.
     Boasts,
-    /// Does ops that do not exist.
+    /// Answers ops that do not exist.
     KnowsAll,
-    /// Calls whatever is wrong an error of its own.
+    /// Answers every fault with an error class of its own.
     Excuses,
     /// Answers with the number of another case.
     Miscounts,
-    /// Answers something that is no JSON.
+    /// Answers with invalid JSON.
     Mumbles,
-    /// Has forgotten everything after a hundred cases.
+    /// Answers wrongly after a hundred cases.
     Tires,
     /// Does not end after bye.
     Stays,
     /// Writes much to stderr. Right otherwise.
     Noisy,
-    /// Does decode alone, and says so. Right.
+    /// Implements only decode, and says so. Right.
     DecodesOnly,
-    /// Leaves out whatever does not decide. Right.
+    /// Omits all fields that are not significant. Right.
     Terse,
 }
 
@@ -48,15 +48,15 @@ named! { Miniature:
 }
 
 impl Miniature {
-    /// Whether it does nothing wrong.
+    /// Whether its behaviour is right.
     pub const fn is_right(self) -> bool {
         matches!(self, Self::Noisy | Self::DecodesOnly | Self::Terse)
     }
 
-    /// The one of this name.
+    /// The miniature with this name.
     ///
     /// # Errors
-    /// The names that there are.
+    /// The valid names.
     pub fn by_name(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
             let names: Vec<&str> = Self::ALL.iter().map(|one| one.name()).collect();
@@ -74,7 +74,7 @@ impl Miniature {
         hello
     }
 
-    /// What it does with a line, the `seq`th case.
+    /// Its reaction to a line, the `seq`th case.
     pub fn act(self, own: &Own, line: &str, seq: u64) -> Act {
         let Ok(TesteeCommand::Case { question, .. }) = serde_json::from_str(line) else {
             return Act::Say(r#"{"seq":null,"error":{"message":"no case"}}"#.to_owned());
@@ -124,15 +124,15 @@ impl Miniature {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Act {
-    /// Says a line.
+    /// Prints a line.
     Say(String),
-    /// Says nothing any more.
+    /// Hangs.
     Hang,
-    /// Ends.
+    /// Crashes.
     Crash,
 }
 
-/// Leaves what decides: of a text and of bytes the hex, of a float the bits.
+/// Keeps the significant fields: of a text and of bytes the hex, of a float the bits.
 fn strip(value: &mut serde_json::Value) {
     match value {
         serde_json::Value::Array(items) => items.iter_mut().for_each(strip),

@@ -1,7 +1,9 @@
-//! Codecs of others: a command that is asked over stdin and stdout, one line of JSON at a time.
+//! Other codecs under test: a command that answers questions over stdin and stdout, one line of
+//! JSON each.
 //!
-//! The protocol is described in `adapters/README.md`. [`Own`] answers it with this project's codec;
-//! [`TesteeProcess`] is whoever else does. [`judge`] asks either everything the golden vectors have.
+//! The protocol is described in `adapters/README.md`. [`Own`] answers with this project's codec,
+//! [`TesteeProcess`] runs another one. [`judge`] asks either of them all questions of the golden
+//! vectors.
 
 mod check;
 mod compare;
@@ -27,29 +29,29 @@ pub use plan::questions;
 pub use process::{TesteeProcess, answered, greeted};
 pub use verdicts::Terms;
 
-/// Who is judged by the golden vectors.
+/// A codec that is judged by the golden vectors.
 pub trait Testee {
-    /// Starts it and asks what it can do.
+    /// Starts it and asks for its capabilities.
     fn hello(&mut self) -> Result<TesteeHello, TesteeReaction>;
 
-    /// Asks it something; one that has ended before is started anew.
+    /// Asks a question; a process that has ended is started again.
     fn ask(&mut self, question: &Question) -> TesteeReaction;
 
-    /// Lets it end.
+    /// Tells it to end.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// Why it is not to be asked any more.
+    /// The reason why no further question may be asked.
     fn over(&self) -> Option<String> {
         None
     }
 
-    /// What it had to say beside its answers.
+    /// Its output to stderr.
     fn stderr(&self) -> String {
         String::new()
     }
 }
 
-/// What a testee does when it is asked.
+/// How a testee reacts to a question.
 pub type TesteeReaction = crate::process::Reaction<Answer>;
 
 impl Testee for Own {

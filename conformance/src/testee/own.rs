@@ -10,14 +10,14 @@ use crate::codec::message::{
 use crate::codec::{self, Refused};
 use crate::faults::{FieldDefect, Seed};
 
-/// The codec's answers, with a defect if that is asked for.
+/// The codec's answers, with a defect if one is set.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
     pub defect: Option<Seed>,
 }
 
 impl Own {
-    /// What it says of itself: it does whatever the vectors have.
+    /// Its capabilities: all streams and ops of the vectors.
     pub fn hello(&self) -> TesteeHello {
         let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
         streams.sort();
@@ -114,7 +114,7 @@ fn refusal(refused: Refused) -> Answer {
     }
 }
 
-/// NC text as it is written to a CNC.
+/// NC text in packets, as written to a CNC.
 fn split(text: &[u8]) -> Result<Output, Answer> {
     let text = NcText::new(text).map_err(|error| {
         let class = match error.kind() {
@@ -139,7 +139,7 @@ fn split(text: &[u8]) -> Result<Output, Answer> {
     Ok(Output { packets: Some(all), ..Output::default() })
 }
 
-/// What streaming does not permit, packet after packet as a CNC would see it.
+/// The rules of streaming, checked packet by packet as by a CNC.
 fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
     let mut checker = Checker::new();
     let mut found = None;

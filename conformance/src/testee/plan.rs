@@ -1,16 +1,16 @@
-//! What a testee is asked, and in which order.
+//! The questions for a testee, and their order.
 
 use ads_cnc_vectors::{Accept, Expect, Given, Pieces, Vector};
 
 use crate::codec::message::{Capabilities, Known, Question};
 use crate::judge::{Body, Case, order};
 
-/// What a question is asked for.
+/// The purpose of a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
-    /// To judge the case at this place.
+    /// To judge the case with this index.
     Case(usize),
-    /// To see at the start and at the end whether it still does what it did.
+    /// Asked at the start and at the end, to detect a change.
     Sanity {
         case: usize,
         /// At the start.
@@ -27,11 +27,11 @@ pub(super) struct PlannedQuestion {
     pub(super) question: Question,
 }
 
-/// How many cases are asked at the start and again at the end.
+/// Number of cases asked at the start and again at the end.
 const SANITY: usize = 6;
 
-/// All questions of these cases that the testee claims to answer, shuffled; sanity first and last,
-/// and ops in between that nobody has.
+/// All questions of these cases that the testee claims to answer, shuffled; with sanity questions
+/// at both ends, and nonexistent ops in between.
 pub(super) fn plan(
     cases: &[Case],
     capabilities: &Capabilities,
@@ -52,7 +52,7 @@ pub(super) fn plan(
         }
         _ => 0,
     });
-    // One at a third of the way, one at two.
+    // After one third, and after two thirds.
     for part in [2, 1] {
         let place = asked.len().saturating_mul(part).checked_div(3).unwrap_or_default();
         asked.insert(place, made_up(order(seed, &part.to_string()), edition));
@@ -66,7 +66,7 @@ pub(super) fn plan(
     again(true).chain(asked).chain(again(false)).collect()
 }
 
-/// A few of different streams, both accepted and refused ones.
+/// Cases of different streams, both accepted and rejected ones.
 fn sanity(cases: &[Case], asked: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     let mut chosen: Vec<(usize, Question)> = Vec::new();
     for one in asked {
@@ -89,7 +89,7 @@ fn sanity(cases: &[Case], asked: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     chosen
 }
 
-/// An op that nobody has, for a stream that everybody may have.
+/// A nonexistent op for a stream that the testee may have.
 fn made_up(number: u64, edition: &str) -> PlannedQuestion {
     let blank = Question::new(format!("decode-{number:x}"), "object-count", edition);
     let question = Question { hex: Some(vec![1, 0, 0, 0]), ..blank };
@@ -131,7 +131,7 @@ pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     }
 }
 
-/// The bytes that a value may be encoded to: as they are, or as a careful writer encodes them.
+/// The permitted encodings of a value: the bytes of the vector, or those in canonical form.
 pub(super) fn forms(vector: &Vector, accept: &Accept) -> Vec<Vec<u8>> {
     let canonical = accept.canonical.as_ref().map(|hex| hex.to_vec());
     std::iter::once(vector.bytes()).chain(canonical).collect()

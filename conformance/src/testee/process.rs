@@ -1,4 +1,4 @@
-//! A testee that is a process of its own.
+//! A testee in a process of its own.
 
 use std::time::Duration;
 
@@ -8,10 +8,10 @@ use crate::deadline::Deadline;
 use crate::process::{START, Subprocess, cut};
 use crate::text::shorten;
 
-/// As much of a line as a person reads.
+/// Maximum number of characters of a shown line.
 const SHOWN: usize = 400;
 
-/// Who is started to be judged.
+/// A testee that is started by a command.
 #[derive(Debug)]
 pub struct TesteeProcess {
     process: Subprocess,
@@ -23,7 +23,7 @@ pub struct TesteeProcess {
 }
 
 impl TesteeProcess {
-    /// A testee that is started by a command line, with so much time for each answer.
+    /// A testee that is started by a command line, with a time limit for each answer.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self {
             process: Subprocess::new(line, timeout),
@@ -34,18 +34,18 @@ impl TesteeProcess {
         }
     }
 
-    /// With a moment after which nothing more is asked.
+    /// Sets a deadline after which no more questions are asked.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// The last of what it wrote to stderr.
+    /// The end of its stderr.
     pub fn stderr(&self) -> String {
         self.process.stderr()
     }
 
-    /// The lines sent and received last, each cut to what a person reads.
+    /// The lines sent and received last, each truncated.
     pub fn last(&self) -> (Option<String>, Option<String>) {
         (self.sent.clone(), self.received.clone())
     }
@@ -109,10 +109,10 @@ impl Testee for TesteeProcess {
     }
 }
 
-/// What a testee says of itself with the line that answers `hello`.
+/// Parses the answer to `hello`.
 ///
 /// # Errors
-/// That this is no answer to it.
+/// If it is not one.
 pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     let hello: TesteeHello = serde_json::from_str(line).map_err(|error| {
         TesteeReaction::Garbled(format!("{error} in the answer to hello: {}", cut(line)))
@@ -125,8 +125,8 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     }
 }
 
-/// What the line is that came for the case of this number; and whether the next line may answer the
-/// next case. After the answer to another case it cannot be told from a late answer.
+/// The reaction of a testee in a line received for the case `seq`; and whether the next line may be
+/// the answer to the next case. After an answer to another case the next one may be late too.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

@@ -1,4 +1,4 @@
-//! Whether a testee keeps to the protocol.
+//! The rules of the testee protocol.
 
 use ads_cnc_vectors::Level;
 
@@ -10,7 +10,7 @@ use crate::judge::{
     Body, Case, CaseOutcome, CaseSubject, Evidence, Judgement, Needs, TESTEE, Verdict,
 };
 
-/// How a testee keeps to the protocol.
+/// Checks the rules of the testee protocol.
 #[derive(Default)]
 pub(super) struct ProtocolRules {
     faults: Vec<Judgement>,

@@ -1,4 +1,4 @@
-//! What the answers of a testee are worth.
+//! Judges the answers of a testee.
 
 use std::collections::HashMap;
 
@@ -12,29 +12,29 @@ use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Describe, Record, Rule,
 use crate::show::show;
 use crate::text::hex::compact;
 
-/// How a testee is asked.
+/// The conditions of a judgement.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
     pub seed: u32,
-    /// As whom it is judged.
+    /// The subject: this project's codec or a testee.
     pub subject: CaseSubject,
-    /// The edition it is judged by, if one was chosen.
+    /// The edition to judge by, if selected.
     pub edition: Option<&'t str>,
-    /// Whether assumed requirements can fail too, as for this project's own codec.
+    /// Whether assumed requirements can fail too, as for this project's codec.
     pub strict: bool,
 }
 
 /// The answers to the questions of a case, by op.
 pub(super) type Reactions = HashMap<(usize, String), TesteeReaction>;
 
-/// Everything that was asked and answered.
+/// All questions and answers.
 pub(super) struct Verdicts<'v> {
     pub(super) cases: &'v [Case],
     pub(super) reactions: &'v Reactions,
     pub(super) hello: &'v TesteeHello,
     pub(super) edition: String,
     pub(super) terms: Terms<'v>,
-    /// Why not everything was asked.
+    /// Why not all questions were asked.
     pub(super) gone: Option<Stop>,
 }
 
@@ -160,7 +160,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether the edition by which the testee is judged says what a case expects.
+    /// Whether the selected edition states what a case expects.
     fn is_of_edition(&self, body: &Body) -> bool {
         let documents = match body {
             Body::Vector(one) => &one.editions,
@@ -280,7 +280,7 @@ impl Verdicts<'_> {
     }
 }
 
-/// The level of what a case expects. What its sibling expects is needed too where that was missed.
+/// The level of a case's expectation; if the sibling's was missed, its level counts too.
 fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
     let (own, sibling) = match body {
         Body::Vector(one) if op == "encode" => (one.encoding_level(), None),
@@ -298,7 +298,7 @@ fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
     }
 }
 
-/// What is wrong with packets that have to carry this text.
+/// A fault in the packets for this text.
 fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
     let max = ads_cnc::limits::STREAM_PACKET_MAX;
     for (place, packet) in packets.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// A time as people write it: `500ms`, `2s`, `1.5min`.
+/// Parses a time: `500ms`, `2s`, `1.5min`.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let odd = || "a number and its unit are needed, ms, s or min: 500ms".to_owned();
     let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(odd)?;
@@ -18,7 +18,7 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(seconds).ok().filter(|time| *time <= MAX).ok_or_else(too_much)
 }
 
-/// As [`duration`], but some time at least.
+/// Like [`duration`], but rejects zero.
 pub(crate) fn some_time(text: &str) -> Result<Duration, String> {
     match duration(text)? {
         none if none < Duration::from_millis(1) => Err("at least 1ms is needed".to_owned()),

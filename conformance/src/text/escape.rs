@@ -1,17 +1,17 @@
-//! Escapes for what a terminal acts on.
+//! Escapes control characters.
 
-/// Text with what a terminal or a reader's eye would act on as escapes.
+/// Escapes control and bidirectional characters.
 pub(crate) fn escape(text: &str) -> String {
     escape_unless(text, |_| false)
 }
 
-/// The same of text that has lines: their ends are kept, and tabs.
+/// Like [`escape`], but keeps line ends and tabs.
 pub(crate) fn escape_lines(text: &str) -> String {
     escape_unless(&text.replace("\r\n", "\n"), |one| matches!(one, '\n' | '\t'))
 }
 
-/// Whether a terminal or a reader's eye acts on a character: controls, line and paragraph
-/// separators, and those that turn the direction of what follows.
+/// Whether a character controls a terminal or the reading direction: control characters, line and
+/// paragraph separators, bidirectional controls.
 pub(crate) fn is_escaped(one: char) -> bool {
     one.is_control() || matches!(one, '\u{2028}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }

@@ -1,5 +1,5 @@
-//! JSON that no terminal acts on: beside what JSON has to escape, DEL, C1 and what turns
-//! the direction of text are escapes too, which read back as the same characters.
+//! JSON that cannot control a terminal: DEL, C1 and bidirectional controls are escaped too, and
+//! parsed back as the same characters.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use serde_json::ser::{Formatter, PrettyFormatter};
 
 use super::is_escaped;
 
-/// Writes a value as indented JSON and ends the line.
+/// Writes a value as indented JSON with a line end.
 pub(crate) fn write(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
     let escaping = Escaping(PrettyFormatter::new());
     value.serialize(&mut Serializer::with_formatter(&mut *out, escaping))?;
@@ -18,7 +18,7 @@ pub(crate) fn write(value: &impl Serialize, out: &mut dyn Write) -> io::Result<(
 
 struct Escaping<'a>(PrettyFormatter<'a>);
 
-/// As [`PrettyFormatter`], but for the fragments of strings.
+/// Like [`PrettyFormatter`], except for string fragments.
 impl Formatter for Escaping<'_> {
     fn write_string_fragment<W: ?Sized + Write>(
         &mut self,
@@ -26,7 +26,7 @@ impl Formatter for Escaping<'_> {
         fragment: &str,
     ) -> io::Result<()> {
         for part in fragment.split_inclusive(is_escaped) {
-            // All that act are of one UTF-16 code unit.
+            // All escaped characters have one UTF-16 code unit.
             match part.char_indices().next_back() {
                 Some((at, last)) if is_escaped(last) => {
                     let before = part.get(..at).unwrap_or_default();
@@ -91,7 +91,7 @@ mod tests {
         assert!(text.contains("\"é\u{1f600}\\\"\\\\\\n\""), "{text}");
         assert!(!text.chars().any(|one| one != '\n' && is_escaped(one)), "{text:?}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
-        // Laid out as without escapes.
+        // The layout is the same as without escapes.
         let plain = serde_json::json!([{"a": [1, 2], "b": {}}, "c"]);
         let mut out = Vec::new();
         write(&plain, &mut out).unwrap();

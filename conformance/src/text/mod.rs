@@ -1,4 +1,4 @@
-//! Text: hex, escapes, times, JSON. It opens nothing and imports no other module of this crate.
+//! Text: hex, escapes, times, JSON. Without I/O; imports no other module of this crate.
 
 mod duration;
 mod escape;
@@ -10,13 +10,13 @@ pub(crate) use duration::{duration, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
 
-/// A text, or its first `most` characters and an ellipsis.
+/// A text, or its first `most` characters with an ellipsis.
 pub(crate) fn shorten(text: &str, most: usize) -> String {
     let shown: String = text.chars().take(most).collect();
     if shown.len() < text.len() { shown + "…" } else { shown }
 }
 
-/// The variants of an enum, in this order, and the name of each.
+/// Declares the variants of an enum in this order, and their names.
 macro_rules! named {
     ($enum:ident: $($variant:ident $name:literal,)+) => {
         impl $enum {

@@ -1,4 +1,4 @@
-//! A point in time, from outside: nothing here looks at a clock but [`Moment::now`].
+//! A point in time. Only [`Moment::now`] reads a clock.
 
 use std::fmt;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -24,14 +24,14 @@ impl Moment {
     /// The beginning of 1970.
     pub const EPOCH: Self = Self(0);
 
-    /// The time of this machine.
+    /// The time of the system clock.
     pub fn now() -> Self {
-        // Before 1970 everything is yet to expire, and so nothing may be: as late as can be.
+        // A clock before 1970 gives the latest moment, so that all permissions have expired.
         let since = SystemTime::now().duration_since(UNIX_EPOCH);
         Self(since.map_or(i64::MAX, |time| i64::try_from(time.as_secs()).unwrap_or(i64::MAX)))
     }
 
-    /// The moment this much later; parts of a second count as a whole one.
+    /// The moment this much later; fractions of a second are rounded up.
     #[must_use]
     pub fn after(self, time: Duration) -> Self {
         let seconds = time.as_secs().saturating_add(u64::from(time.subsec_nanos() > 0));
@@ -49,7 +49,7 @@ impl Moment {
         days(year.into(), month.into(), day.into())?.checked_mul(DAY).map(Self)
     }
 
-    /// Fractions of a second are dropped: it is over a little early.
+    /// Fractions of a second are dropped, so that a permission expires slightly earlier.
     pub(crate) fn from_datetime(datetime: Datetime) -> Option<Self> {
         let Date { year, month, day } = datetime.date?;
         let Time { hour, minute, second, .. } = datetime.time?;
@@ -77,7 +77,7 @@ impl fmt::Display for Moment {
     }
 }
 
-/// Days from 1970-01-01 in the Gregorian calendar, with years that begin in March so that the leap
+/// Days since 1970-01-01 in the Gregorian calendar, with years that begin in March so that the leap
 /// day is the last.
 fn days(year: i64, month: i64, day: i64) -> Option<i64> {
     let year = if month <= 2 { year.checked_sub(1)? } else { year };
@@ -90,7 +90,7 @@ fn days(year: i64, month: i64, day: i64) -> Option<i64> {
     before.checked_add(day)?.checked_sub(1)?.checked_sub(719_468)
 }
 
-/// The date of a day: the year is at most one off the mean, so a few steps find it.
+/// The date of a day: the estimated year is off by at most one.
 fn date(day: i64) -> Option<(i64, i64, i64)> {
     let mut year = day.checked_mul(400)?.div_euclid(146_097).checked_add(1970)?;
     while days(year, 1, 1)? > day {
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn dates_are_what_a_calendar_says() {
-        // As `date -u -d @…` prints them.
+        // As printed by `date -u -d @…`.
         for (seconds, text) in [
             (0, "1970-01-01T00:00:00Z"),
             (951_782_400, "2000-02-29T00:00:00Z"),

@@ -1,25 +1,25 @@
-//! The type that a reader of values is given.
+//! The type of a value, given by the caller.
 
 use ads_cnc::CncStr;
 use ads_cnc::value::DataType;
 
-/// How values and contents are to be read.
+/// The type of values and contents.
 #[derive(Clone, Debug, Default)]
 pub struct ValueFormat {
-    /// The type; without it a value is bytes.
+    /// The type; without it a value is shown as bytes.
     pub ty: Option<DataType>,
-    /// Elements in each dimension; none for a single element.
+    /// Number of elements in each dimension; empty for a single element.
     pub dimensions: Vec<u32>,
 }
 
-/// A name that no type has.
+/// An unknown name of a type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "no type is called {0}; there are BOOLEAN, SGN08 … UNS32, REAL32, REAL64, STRING, and those of objects, BOOL, SINT … LREAL"
 )]
 pub struct UnknownType(String);
 
-/// The type of this name, as variables, elements or objects have it; case does not matter.
+/// The type with this name of variables, elements or objects, in any case.
 ///
 /// # Errors
 /// No type has this name.

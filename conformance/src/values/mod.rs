@@ -1,5 +1,4 @@
-//! Values as people read and write them: typed by a description, a descriptor or an element's
-//! attributes.
+//! Typed values: parsing and formatting, by a description, a descriptor or an element's attributes.
 
 mod given;
 mod json;
@@ -17,12 +16,12 @@ use std::fmt;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
-/// The text of a STRING: what is before the first NUL, or all.
+/// The text of a STRING up to the first NUL.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
 
-/// What is known of a value: its type, its dimensions, its size.
+/// The type of a value: name, data type, dimensions and size, as far as known.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -40,22 +39,22 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Type {
-    /// The name that the CNC gives it.
+    /// Its name on the CNC.
     pub name: String,
-    /// The type, if it is one of the manuals'.
+    /// The type, if the manuals have it.
     pub data_type: Option<DataType>,
-    /// Elements in each dimension; none for a single element.
+    /// Number of elements in each dimension; empty for a single element.
     pub dimensions: Vec<u32>,
-    /// Bytes of the whole, if that is known.
+    /// Size of the whole value in bytes, if known.
     pub size: Option<u32>,
 }
 
 impl Type {
-    /// Nothing is known.
+    /// An unknown type.
     pub const UNKNOWN: Self =
         Self { name: String::new(), data_type: None, dimensions: Vec::new(), size: None };
 
-    /// Of a variable's description.
+    /// From a variable's description.
     pub fn of_variable(var_type: VariableType, dimensions: U32List<'_>, size: u32) -> Self {
         let data_type = var_type.data_type();
         let name = match data_type {
@@ -65,7 +64,7 @@ impl Type {
         Self { name, data_type, dimensions: dimensions.iter().collect(), size: Some(size) }
     }
 
-    /// Of the content of an object or an element: an array if it has room for several.
+    /// Of the content of an object or an element: an array if the size is a multiple of the type's.
     pub fn of_content(name: CncStr<'_>, size: u32) -> Self {
         let data_type = DataType::by_name(name);
         let ty =
@@ -73,20 +72,20 @@ impl Type {
         ty.fitted(size)
     }
 
-    /// Of a type that somebody knows, and of these dimensions.
+    /// With a known type and dimensions.
     pub fn known(data_type: DataType, dimensions: Vec<u32>) -> Self {
         let count = dimensions.iter().try_fold(1_u32, |count, &len| count.checked_mul(len));
         let size = data_type.size().zip(count).and_then(|(each, count)| each.checked_mul(count));
         Self { name: data_type.name().to_owned(), data_type: Some(data_type), dimensions, size }
     }
 
-    /// Of a type that somebody knows; its dimensions and its size, nobody does.
+    /// With a known type, but unknown dimensions and size.
     pub fn hinted(data_type: DataType) -> Self {
         let name = data_type.name().to_owned();
         Self { name, data_type: Some(data_type), dimensions: Vec::new(), size: None }
     }
 
-    /// As many elements as these bytes have room for, if there is no dimension.
+    /// Sets the number of elements from a length, if there are no dimensions.
     #[must_use]
     pub fn fitted(mut self, len: u32) -> Self {
         let each = self.data_type.and_then(DataType::size);
@@ -100,10 +99,10 @@ impl Type {
         self
     }
 
-    /// The type of one element, which these indices select.
+    /// The type of the element that these indices select.
     ///
     /// # Errors
-    /// What is wrong with the indices.
+    /// Why the indices are invalid.
     pub fn element(&self, indices: U32List<'_>) -> Result<Self, String> {
         let one = Self { dimensions: Vec::new(), size: None, ..self.clone() };
         let dimensions = &self.dimensions;
@@ -129,17 +128,17 @@ impl Type {
         Shape::new(self.data_type?, U32List::from(self.dimensions.as_slice()), self.size?).ok()
     }
 
-    /// The elements of a value; none if the type is not known.
+    /// The elements of a value; `None` if the type is not known.
     ///
     /// # Errors
-    /// Bytes that are not those of a value of this type.
+    /// If the bytes are not a value of this type.
     pub fn elements<'a>(&'a self, bytes: &'a [u8]) -> Result<Option<Elements<'a>>, Error> {
         let dimensions = U32List::from(self.dimensions.as_slice());
         self.data_type.map(|known| Elements::new(known, dimensions, bytes)).transpose()
     }
 }
 
-/// The name, and the dimensions in brackets.
+/// The name, with the dimensions in brackets.
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&printable(&self.name))?;

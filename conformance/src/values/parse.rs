@@ -1,4 +1,4 @@
-//! Values from what a person types.
+//! Parses values.
 
 use std::str::FromStr;
 
@@ -7,19 +7,20 @@ use ads_cnc::{CncStr, U32List};
 
 use super::Type;
 
-/// Why a text is no value of a type.
+/// Why a text is not a value of a type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unfit(String);
 
-/// The bytes of a value: a number, decimal or with 0x, `TRUE` or `FALSE`, a text; of an array all
-/// elements with commas between, the last index running fastest. Of several texts one that has a
-/// comma is in quotes, a quote in it doubled.
+/// Parses a value: a number, decimal or with 0x, `TRUE` or `FALSE`, or a text; for an array all
+/// elements separated by commas, the last index running fastest. In an array of texts one with a
+/// comma is quoted, with quotes in it doubled.
 ///
-/// A single text is taken as it is. It is written with one NUL, and is shorter than its room.
+/// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
+/// variable.
 ///
 /// # Errors
-/// What does not fit, and what would.
+/// Why the text is not a value of the type, and what is permitted.
 pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, Unfit> {
     let Some(data_type) = ty.data_type else {
         let name = if ty.name.is_empty() { "its type" } else { ty.name.as_str() };
@@ -71,7 +72,7 @@ where
     if !is_number {
         return Err(Unfit(format!("{text} is no {name}, which is a whole number")));
     }
-    // One too long is out of range as well.
+    // A number with too many digits is out of range.
     let number = i128::from_str_radix(digits, radix).unwrap_or(i128::MAX).checked_mul(sign);
     number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| {
         let (least, most) = (least.into(), most.into());
@@ -81,7 +82,7 @@ where
 
 fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T, Unfit> {
     let no = || Unfit(format!("{text} is no {}, which is a number such as -1.5e3", ty.name()));
-    // Nothing in words: nobody wants an axis to go to infinity.
+    // Without words such as "inf": an axis must not be sent to infinity.
     let in_digits = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
     let number = if in_digits { text.parse().map_err(|_| no())? } else { return Err(no()) };
     let digits = text.split(['e', 'E']).next().unwrap_or(text);
@@ -107,7 +108,7 @@ fn within<T: std::fmt::Debug>(
     }
 }
 
-/// Checks how many there are; as many as are given if nobody knows.
+/// Checks the number of elements; any number is accepted if the dimensions are unknown.
 fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, Unfit> {
     let count = u32::try_from(given).unwrap_or(u32::MAX);
     if ty.size.is_none() && ty.dimensions.is_empty() {
@@ -178,7 +179,7 @@ fn split(given: &str) -> Result<Vec<String>, Unfit> {
     }
 }
 
-/// A text up to its quote, and what is after the comma.
+/// A text up to its closing quote, and the text after the comma.
 fn quoted_text(given: &str) -> Result<(String, Option<&str>), Unfit> {
     let (mut text, mut rest) = (String::new(), given);
     loop {

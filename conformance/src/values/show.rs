@@ -1,4 +1,4 @@
-//! Values as text.
+//! Formats values.
 
 use ads_cnc::Element;
 use ads_cnc::text::cp1252_to_char;
@@ -6,18 +6,18 @@ use ads_cnc::text::cp1252_to_char;
 use super::Type;
 use crate::text::escape;
 
-/// The most columns of a line.
+/// Maximum width of a line.
 const WIDTH: usize = 72;
-/// The most numbers on a line.
+/// Maximum number of numbers on a line.
 const PER_LINE: usize = 10;
 
-/// Text of which a terminal acts on nothing.
+/// A text with control characters escaped.
 pub fn printable(text: &str) -> String {
     escape(text)
 }
 
-/// The whole value on one line, as it can be given again; none if its type is not known or the
-/// bytes are not of it.
+/// The whole value on one line, in the form that [`parse`](super::parse()) accepts; `None` if the
+/// type is not known or the bytes do not match it.
 pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let several = !ty.dimensions.is_empty();
@@ -29,7 +29,7 @@ pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     Some(items.collect::<Vec<_>>().join(","))
 }
 
-/// A text among others: in quotes if it would be taken for two.
+/// A text in a list: quoted if it would be taken for two.
 fn listed(text: &str) -> String {
     if text.contains([',', '"']) || text != text.trim() {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -38,7 +38,7 @@ fn listed(text: &str) -> String {
     }
 }
 
-/// An element that is no text, as it can be given again.
+/// An element that is not a text, in the form that `parse` accepts.
 pub(crate) fn number(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.is_true() => "TRUE".to_owned(),
@@ -81,8 +81,8 @@ fn display(element: Element<'_>) -> String {
     }
 }
 
-/// The value on as many lines as it takes: one without indices for a single element; of an array
-/// as many elements on each as fit, with the indices of the first.
+/// The value on several lines: a single element without indices; for an array as many elements per
+/// line as fit, after the indices of the first.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -93,7 +93,7 @@ fn display(element: Element<'_>) -> String {
 /// assert_eq!(shown, ["[0][0]   1   2   3", "[1][0]  40   5   6"]);
 /// ```
 ///
-/// None if its type is not known or the bytes are not of it.
+/// `None` if the type is not known or the bytes do not match it.
 pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let texts: Vec<String> = elements.iter().map(display).collect();

@@ -1,4 +1,4 @@
-//! Instances and elements of SDA and GEO, held together.
+//! Instances and elements of SDA and GEO, compared across exchanges.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use super::super::findings::{Observation, Topic};
 use super::Bench;
 use crate::judge::{Checks as _, Rule, assumed, online};
 
-/// What is known of the elements of a CNC.
+/// The elements of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct ObservedElements {
-    /// By the group of the content, and the offset.
+    /// By index group and index offset of the content.
     known: BTreeMap<(u32, u32), ObservedElement>,
 }
 
@@ -26,13 +26,13 @@ struct ObservedElement {
     writable: Option<bool>,
 }
 
-/// The types that are printed for elements.
+/// Whether a type is one that the manual prints for elements.
 fn is_known(name: CncStr<'_>) -> bool {
     let known = ["UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
     known.iter().chain(&["BOOLEAN", "STRING"]).any(|known| name == *known)
 }
 
-/// Of BOOLEAN the size is stated.
+/// The size of BOOLEAN is stated in the manual, other sizes are assumed.
 fn size_rule(data_type: DataType) -> Rule {
     if data_type == DataType::Boolean { "GEN-5".into() } else { online("GEN-5") }
 }
@@ -95,7 +95,7 @@ impl Bench<'_> {
             }
             _ => return,
         }
-        // The length and the type, as soon as both are known.
+        // Compares length and type as soon as both are known.
         let (Some(data_type), Some(length)) = (element.data_type, element.length) else { return };
         let Some(size) = data_type.size() else { return };
         let found = || format!("a length of {length}");
@@ -139,7 +139,7 @@ impl Bench<'_> {
     }
 }
 
-/// The group of an element's content, and its offset.
+/// Index group and index offset of an element's content.
 fn key(call: &Call<'_>) -> Option<(u32, u32)> {
     let Some(Group::Class(group)) = call.index_group.parts() else { return None };
     let mut content = group;

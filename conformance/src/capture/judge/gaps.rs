@@ -1,4 +1,4 @@
-//! What is missing of a capture, and what that leaves open.
+//! Gaps in a capture, and the requirements they leave undecided.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
@@ -30,13 +30,13 @@ impl TrafficJudge {
         self.lost.entry(way.connection).or_default().gap = Some(span.last.packet);
     }
 
-    /// Who sent this, as far as the ports tell.
+    /// Which side sent these bytes, as far as the ports show.
     fn side(&self, way: &SegmentDirection) -> Topic {
         let asks = self.waiting.range((way.connection, 0)..=(way.connection, u32::MAX)).next();
         match asks.and_then(|(_, all)| all.front()) {
             Some(asked) if asked.way.from == way.from => Topic::ClientFrames,
             Some(_) => Topic::CncFrames,
-            // The listener's port is the lower one as a rule.
+            // Usually the listener's port is the lower one.
             None if way.to.port() < way.from.port() => Topic::ClientFrames,
             None => Topic::CncFrames,
         }
@@ -116,7 +116,8 @@ impl TrafficJudge {
         self.records.on(topic, &observation).open("ADS-5", found);
     }
 
-    /// What was not captured may have changed whatever was known.
+    /// The bytes that were not captured may have changed any state: forgets what is known of all
+    /// CNCs.
     pub(super) fn lose(&mut self) {
         self.cncs.clear();
         self.is_lost = true;
@@ -140,7 +141,7 @@ impl TrafficJudge {
                 self.unanswered(&asked, &lost, ending);
             }
         }
-        // What was asked before the capture is answered in it.
+        // Requests sent before the capture began are answered in it.
         let unasked = lost.unasked.iter().filter(|_| !lost.joined);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());
@@ -148,7 +149,7 @@ impl TrafficJudge {
         self.waiting_of.remove(&connection);
     }
 
-    /// Nothing was captured of one direction, that of the CNC or that of the client.
+    /// No segment of one direction was captured.
     fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
         let observation = Observation::Bytes(&[], location(way, None, None));
         let (topic, found) = if is_cnc {
@@ -172,7 +173,7 @@ impl TrafficJudge {
             (Some(now), Some(then)) => now.since(then),
             _ => return,
         };
-        // Of a side that was not captured, or a connection that was not any more, none was to come.
+        // No reply can follow if the CNC's side, or the rest of the connection, was not captured.
         let followed = ending.unseen.is_none() && ending.last > packet;
         if waited > PATIENCE && !lost.joined && followed {
             let rule = service_clause(asked.header.command);

@@ -1,4 +1,4 @@
-//! Requests paired with their replies, and judged.
+//! Pairs requests with their replies and judges them.
 
 mod elements;
 mod gaps;
@@ -30,16 +30,16 @@ use crate::exchange::{Exchange, ExchangeError};
 use crate::judge::{CaseOutcome, Checks as _, Describe, assumed};
 use crate::wire_service;
 
-/// CNCs that are told apart.
+/// Maximum number of CNCs that are distinguished.
 const CNCS_MAX: usize = 64;
 
-/// As long as this nobody waits for an answer.
+/// A reply that is later than this counts as missing.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// A frame with what is known of it.
+/// A captured frame and its location.
 #[derive(Clone, Debug)]
 struct CapturedFrame {
-    /// Its number among all frames.
+    /// Its number among all frames, in the order of the capture.
     number: u64,
     frame: Vec<u8>,
     header: AmsHeader,
@@ -47,18 +47,18 @@ struct CapturedFrame {
     span: Span,
 }
 
-/// What was lost of a connection.
+/// What is missing of a connection.
 #[derive(Debug, Default)]
 struct Lost {
     /// Its beginning was not captured.
     joined: bool,
     /// The last packet after a gap.
     gap: Option<u64>,
-    /// The first answers to nothing.
+    /// The first replies without a request.
     unasked: Vec<CapturedFrame>,
 }
 
-/// What is known of one CNC.
+/// The state of a CNC as captured so far.
 #[derive(Debug, Default)]
 struct ObservedCnc {
     objects: objects::Objects,
@@ -70,7 +70,7 @@ struct ObservedCnc {
 }
 
 impl ObservedCnc {
-    /// Of a CNC that may have been sent requests before the capture began.
+    /// `is_lost`: requests to it before the capture began are possible.
     fn new(is_lost: bool) -> Self {
         Self {
             streams: streaming::Streams::new(is_lost),
@@ -84,42 +84,42 @@ impl ObservedCnc {
 pub(super) struct TrafficJudge {
     records: TopicRecords,
     pub(super) tally: CaptureTally,
-    /// By connection and invoke ID.
+    /// Requests without a reply, by connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
-    /// The same keys by invoke ID.
+    /// The same keys, ordered by invoke ID.
     waiting_ids: BTreeSet<(u32, u64)>,
-    /// The numbers of those that wait on each connection, with their invoke IDs.
+    /// By connection: the numbers of its waiting requests, with their invoke IDs.
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
-    /// The bytes of all that wait.
+    /// Memory of all waiting requests.
     waiting_bytes: usize,
     early: Early,
     lost: BTreeMap<u64, Lost>,
-    /// The last packet after a gap of any connection.
+    /// The last packet after a gap in any connection.
     gap: Option<u64>,
-    /// Whether requests and answers of one went over several connections.
+    /// Whether a request and its reply were captured on different connections.
     is_crossed: bool,
     cncs: BTreeMap<AmsNetId, ObservedCnc>,
-    /// Whether there may be more to know of a CNC than was captured.
+    /// Whether bytes are missing that may have changed the state of a CNC.
     is_lost: bool,
     vectors: Option<Collector>,
     now: Option<Time>,
-    /// The last packet of which a frame came.
+    /// The last packet that completed a frame.
     newest: u64,
     room: Room,
 }
 
-/// Memory for the names, objects and elements of all CNCs.
+/// The memory left for names, objects and elements of all CNCs.
 #[derive(Debug)]
 struct Room {
     left: usize,
-    /// How many were not kept.
+    /// Number of entries that were not stored.
     missed: u64,
 }
 
 impl Room {
     const ALL: usize = 0x180_0000;
 
-    /// Whether there is room for one more of this size, beside what each takes.
+    /// Takes memory for an entry of this size plus overhead; returns whether enough was left.
     fn take(&mut self, bytes: usize) -> bool {
         let left = self.left.checked_sub(bytes.saturating_add(512));
         match left {
@@ -130,19 +130,19 @@ impl Room {
     }
 }
 
-/// What a judgement of one exchange needs.
+/// The state that the judgement of one exchange needs.
 struct Bench<'j> {
     records: &'j mut TopicRecords,
     cnc: &'j mut ObservedCnc,
     room: &'j mut Room,
 }
 
-/// Whether a frame is for a task of a CNC.
+/// Whether this is the port of a task of a CNC.
 fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }
 
-/// Whether a frame answers; where the flags do not tell, the ports do.
+/// Whether a frame is a reply; if the flags are not valid, the ports decide.
 fn is_reply(header: &AmsHeader) -> bool {
     match header.state_flags {
         StateFlags::REQUEST => false,
@@ -184,7 +184,7 @@ impl TrafficJudge {
         }
     }
 
-    /// What came of everything.
+    /// The outcomes of all cases.
     pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
         self.tally.unkept = self.room.missed;
         for line in self.tally.lines().into_iter().skip(1) {
@@ -193,12 +193,12 @@ impl TrafficJudge {
         (self.records.finish(), self.tally, self.vectors)
     }
 
-    /// The moment up to which the capture has come.
+    /// Sets the time of the current packet.
     pub(super) fn at(&mut self, time: Option<Time>) {
         self.now = time.max(self.now);
     }
 
-    /// Takes what happened on a connection.
+    /// Handles an event on a connection.
     pub(super) fn take(&mut self, event: ConnectionEvent, table: &ConnectionTable) {
         match event {
             ConnectionEvent::Frame(frame, way, span) => self.frame(frame, way, span, table),
@@ -289,7 +289,7 @@ impl TrafficJudge {
         self.is_crossed |= asked.way.connection != reply.way.connection;
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
-        // What is no request of a service may be answered in any way.
+        // A request that is not of one of the services may be answered in any way.
         let Ok(Some(call)) = Call::from_frame(&sent) else { return };
         let exchange = Exchange {
             sent: asked.frame.clone(),
@@ -313,7 +313,7 @@ impl TrafficJudge {
         }
         let net_id = asked.header.target.net_id;
         if !answer.ams_error.is_ok() {
-            // Who is not there may come back as another.
+            // An AMS error may mean that the CNC is gone; another one may take its NetId.
             self.cncs.remove(&net_id);
             return;
         }
@@ -331,7 +331,8 @@ impl TrafficJudge {
 }
 
 impl Bench<'_> {
-    /// A request that a reply shows to ask for what is not there: nobody forbids to ask.
+    /// Judges a client's request for an index or name that, as a reply shows, does not exist. No
+    /// manual forbids such a request, so the rule is assumed.
     fn beyond(
         &mut self,
         observation: &Observation<'_>,

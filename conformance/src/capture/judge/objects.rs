@@ -1,4 +1,4 @@
-//! Objects of COM: numbers, descriptors and contents, held together.
+//! Objects of COM: numbers, descriptors and contents, compared across exchanges.
 
 use std::collections::BTreeMap;
 
@@ -11,12 +11,12 @@ use super::Bench;
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::suite::descriptor_holds_together;
 
-/// What is known of the objects of a CNC.
+/// The objects of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
-    /// By the index group of the list.
+    /// By index group.
     lists: BTreeMap<u32, ObservedList>,
-    /// By the address of the content.
+    /// By address of the content.
     contents: BTreeMap<(u32, u32), ObservedContent>,
 }
 
@@ -32,7 +32,7 @@ struct ObservedList {
 struct ObservedContent {
     name: String,
     size: u32,
-    /// Bytes of its type, if it has a fixed size.
+    /// Size of its type in bytes, if it is fixed.
     type_size: Option<u32>,
     writable: bool,
 }
@@ -134,7 +134,8 @@ impl Bench<'_> {
             let exact = call.read_length.checked_rem(length) == Some(0);
             let asked = if exact { read.count() } else { 1 };
             let expected = asked.min(left);
-            // Where the list ends, and for another length, it is assumed.
+            // The manual does not state the end of the list, nor the result for another length: the
+            // rule is assumed.
             let rule: Rule = if exact && asked <= left { "COM-3".into() } else { assumed("COM-3") };
             let kept = u32::try_from(given.len()) == Ok(expected);
             let expected = || format!("{expected} descriptors from object {first} on");
@@ -158,7 +159,7 @@ impl Bench<'_> {
             let mut page = self.records.on(Topic::CncCom, observation);
             page.check("COM-2", other.is_none(), "an ID no other object has", found);
             if let Some((known, was_alone)) = known {
-                // One by one or in sequence it is the same list.
+                // Descriptors read one by one and read in a range must be equal.
                 let rule: Rule = if alone == was_alone { assumed("COM-2") } else { "COM-3".into() };
                 let found = || format!("another descriptor of object {index} than before");
                 page.check(rule, known == owned, "the same descriptor", found);

@@ -1,4 +1,4 @@
-//! Which answer belongs to which request, in whatever order they were captured.
+//! Finds the request of each reply, also if both were captured in another order.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,27 +8,27 @@ use super::super::tally::{count, count_of};
 use super::{CapturedFrame, TrafficJudge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
-/// Requests of a connection that wait for their answers, and bytes of those of all connections; of
-/// more the oldest of the connection are forgotten.
+/// Maximum number of waiting requests of a connection, and of bytes of those of all connections;
+/// beyond it the oldest request of the connection is forgotten.
 const WAITING_MAX: usize = 4096;
 const WAITING_BYTES_MAX: usize = 0x100_0000;
 
-/// Answers that wait for their requests, of all connections, and their bytes.
+/// Maximum number of replies of all connections that wait for their requests, and of their bytes.
 const EARLY_MAX: usize = 4096;
 const EARLY_BYTES_MAX: usize = 0x100_0000;
 
-/// Packets by which an answer may have been captured before its request.
+/// A reply may be captured up to this many packets before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
-/// Requests or answers with one invoke ID that are looked at for one that fits: more than may have
-/// been captured in another order.
+/// Maximum number of requests or replies with the same invoke ID that are compared: more than can
+/// have been captured in another order.
 const ALIKE_MAX: usize = 512;
 
-/// Answers to nothing that are shown of a connection, and bytes of each; the others are counted.
+/// Maximum number of shown replies without a request of a connection, and of bytes of each.
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
 
-/// Answers without a request, in the order of the capture.
+/// Replies whose request has not been captured yet, in the order of the capture.
 #[derive(Debug, Default)]
 pub(super) struct Early {
     all: BTreeMap<u64, CapturedFrame>,
@@ -55,7 +55,7 @@ impl Early {
         Some(reply)
     }
 
-    /// The number of the first that fits, of the first with this invoke ID.
+    /// The number of the first reply with this invoke ID that matches.
     fn find(&self, id: u32, matches: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
         let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let alike = alike.filter_map(|(_, number)| self.all.get(number));
@@ -72,22 +72,22 @@ impl Early {
     }
 }
 
-/// What a request takes beside its bytes while it waits.
+/// Memory of a waiting request besides its bytes.
 const WAITING_OVERHEAD: usize = 1280;
 
 impl CapturedFrame {
-    /// The memory it takes while it waits.
+    /// Its memory while it waits.
     fn memory(&self) -> usize {
         self.frame.len().saturating_add(WAITING_OVERHEAD)
     }
 
-    /// Whether this goes from where a reply goes to, and back.
+    /// Whether the addresses of a reply are those of this request, swapped.
     fn mirrors(&self, reply: &Self) -> bool {
         self.header.source == reply.header.target && self.header.target == reply.header.source
     }
 
-    /// Whether its sender had got a reply when it was sent: that answers something else. TCP says
-    /// so whatever the order in which both were captured.
+    /// Whether the sender of this request had already received a reply, which then answers an
+    /// earlier one. The TCP acknowledgement shows that in any order of capture.
     fn follows(&self, reply: &Self) -> bool {
         let got = self.span.last.acknowledged;
         self.way.connection == reply.way.connection
@@ -96,7 +96,7 @@ impl CapturedFrame {
 }
 
 impl TrafficJudge {
-    /// A request that is to be answered, if it was not before it was captured.
+    /// Waits for the reply to a request, unless the reply was captured first.
     pub(super) fn wait(&mut self, seen: CapturedFrame) {
         let id = seen.header.invoke_id;
         let answered = self.early.find(id, |reply| {
@@ -119,7 +119,8 @@ impl TrafficJudge {
             count(&mut self.tally.forgotten);
             self.lost.entry(connection).or_default().joined = true;
             if self.forget((connection, oldest), 0).is_none() {
-                // It is this one: requests of other connections leave no room for it.
+                // The oldest is this request itself: those of other connections take all the
+                // memory.
                 self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.memory());
                 self.waiting_of.entry(connection).or_default().remove(&seen.number);
                 return;
@@ -129,14 +130,14 @@ impl TrafficJudge {
         self.waiting.entry((connection, id)).or_default().push_back(seen);
     }
 
-    /// The invoke ID of the oldest request that waits on a connection on which too much waits.
+    /// The invoke ID of the oldest waiting request of a connection that exceeds a limit.
     fn oldest_beyond(&self, connection: u64) -> Option<u32> {
         let numbers = self.waiting_of.get(&connection)?;
         let is_full = numbers.len() > WAITING_MAX || self.waiting_bytes > WAITING_BYTES_MAX;
         numbers.first_key_value().map(|(_, id)| *id).filter(|_| is_full)
     }
 
-    /// One of the requests with this key, which waits no more.
+    /// Removes and returns a waiting request with this key.
     pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<CapturedFrame> {
         let all = self.waiting.get_mut(&key)?;
         let one = all.remove(place)?;
@@ -151,8 +152,8 @@ impl TrafficJudge {
         Some(one)
     }
 
-    /// Whether another request with this invoke ID still waits; none if its answer may only not
-    /// have been captured.
+    /// Whether another request with this invoke ID waits for its reply; `None` if that reply may be
+    /// missing in the capture.
     pub(super) fn is_repeated(
         &self,
         seen: &CapturedFrame,
@@ -173,13 +174,13 @@ impl TrafficJudge {
         }
     }
 
-    /// The request that a reply answers, from whom it goes to.
+    /// Removes and returns the request that a reply answers.
     fn request_of(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
         let key = (reply.way.connection, reply.header.invoke_id);
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
         let matches = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
         let here = self.waiting.get(&key).and_then(|all| {
-            // Whoever uses an invoke ID once more has got the answer before, which was lost.
+            // A client reuses an invoke ID after it has received the reply, which is in the gap.
             if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
                 latest.into_iter().find(|&place| all.get(place).is_some_and(matches))
@@ -192,7 +193,7 @@ impl TrafficJudge {
         if let Some(place) = here {
             return self.forget(key, place);
         }
-        // Two routers may answer each other on whichever of their connections.
+        // Between two routers a request and its reply may use different connections.
         let id = reply.header.invoke_id;
         let others = self.waiting_ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let mut others = others.map(|(id, connection)| (*connection, *id));
@@ -203,7 +204,7 @@ impl TrafficJudge {
         self.forget(key, place)
     }
 
-    /// Gives up the requests of replies for which none will come any more.
+    /// Judges replies whose request can no longer arrive.
     pub(super) fn tidy(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
@@ -217,7 +218,7 @@ impl TrafficJudge {
         }
     }
 
-    /// All that is left of a connection's.
+    /// Judges the remaining replies of a connection.
     pub(super) fn settle_all(&mut self, connection: u64) {
         while let Some(number) = self.early.first_of(connection) {
             let Some(reply) = self.early.remove(number) else { return };
@@ -225,13 +226,14 @@ impl TrafficJudge {
         }
     }
 
-    /// A reply of which no request goes from where it goes to.
+    /// Judges a reply without a request whose addresses match.
     fn settle(&mut self, reply: CapturedFrame) {
         let header = reply.header;
         let connection = reply.way.connection;
         let key = (connection, header.invoke_id);
         let is_whole = self.lost.get(&connection).is_none_or(|lost| lost.gap.is_none());
-        // One with wrong addresses is one all the same.
+        // A request with the same invoke ID and command belongs to it although the addresses are
+        // wrong.
         let place = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
             all.iter()
                 .take(ALIKE_MAX)
@@ -255,7 +257,7 @@ impl TrafficJudge {
         }
     }
 
-    /// An answer to nothing, when all there is of its connection is known.
+    /// Judges a reply without a request, once the connection has ended.
     pub(super) fn unasked(&mut self, reply: &CapturedFrame, is_open: bool) {
         let observation =
             Observation::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));

@@ -1,4 +1,4 @@
-//! Dynamic parameters, held together.
+//! Dynamic parameters, compared across exchanges.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::super::findings::{Observation, Topic};
 use super::{Bench, Room};
 use crate::judge::Checks as _;
 
-/// What is known of the dynamic parameters of a CNC.
+/// The numbers of dynamic parameters of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct ObservedParameters {
     /// By index group and kind.
@@ -16,7 +16,7 @@ pub(super) struct ObservedParameters {
 }
 
 impl ObservedParameters {
-    /// Forgets nothing but what changes: indices move (DYN-4), so names are not kept.
+    /// Stores a count. Names are not stored because indices move (DYN-4).
     fn learn(&mut self, room: &mut Room, (group, kind): (u32, String), count: u32) {
         let length = kind.len();
         let key = (group, kind);

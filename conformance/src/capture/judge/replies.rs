@@ -1,4 +1,4 @@
-//! What a CNC answered, for itself; what it says together is judged by what it is about.
+//! Judges a reply alone, and passes it on to be compared with earlier ones.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
@@ -11,7 +11,7 @@ use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::wire_service;
 
-/// What every reply has in its headers.
+/// Checks that apply to the headers of every reply.
 pub(super) fn headers(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -27,7 +27,7 @@ pub(super) fn headers(
     }
 }
 
-/// What the service of a request gives; the answer, if it is one.
+/// Judges the service's reply and returns it if it decodes.
 pub(super) fn service<'e>(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -54,7 +54,7 @@ pub(super) fn service<'e>(
     }
 }
 
-/// An error may come without what would follow a success: if it does, it was seen.
+/// An error reply may lack the fields that follow a success.
 fn short_error(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -77,7 +77,7 @@ pub(super) fn judge(
     let request = match call.dispatch() {
         Ok(request) => request,
         Err(DispatchError::Stream(error)) => {
-            // That it is to be refused is assumed, but where a count has no room.
+            // That the CNC must reject the request is assumed, except if its count is too large.
             let spec = error.field().spec().map(|spec| spec.clause);
             let spec = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { spec };
             let Some(clause) = spec.filter(|id| requirement(id).is_some()) else { return };
@@ -126,7 +126,7 @@ pub(super) fn judge(
     together(bench, observation, &request, reply.as_ref(), call);
 }
 
-/// What it says together with what came before.
+/// Judges a reply together with earlier ones.
 fn together(
     bench: &mut Bench<'_>,
     observation: &Observation<'_>,

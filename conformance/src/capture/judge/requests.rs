@@ -1,4 +1,4 @@
-//! What a client sent, for itself.
+//! Judges a request alone.
 
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
 use ads_cnc::layout::Stream;
@@ -11,7 +11,7 @@ use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::values::until_nul;
 use crate::wire_service;
 
-/// What every request has in its headers.
+/// Checks that apply to the headers of every request.
 pub(super) fn headers(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -32,7 +32,7 @@ pub(super) fn headers(
     }
 }
 
-/// Judges what is asked, and returns what is asked if it is documented nowhere.
+/// Judges a request; returns its address if no manual documents it.
 pub(super) fn judge(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -54,7 +54,7 @@ pub(super) fn judge(
                     ErrorKind::TooLong if function == Function::WriteProgramStream => {
                         "STM-2".into()
                     }
-                    // No room for the answer: how little may be asked for is assumed.
+                    // The reply does not fit into the requested length: the minimum is assumed.
                     ErrorKind::BufferTooSmall => assumed("COM-3"),
                     _ => Rule::from(known.unwrap_or(spec.clause)),
                 };
@@ -84,12 +84,12 @@ pub(super) fn judge(
     }
 }
 
-/// The port of COM is stated; those of SDA and GEO are known from elsewhere.
+/// The manual states the port of COM; those of SDA and GEO are known from online sources.
 fn port_rule(port: AmsPort) -> Rule {
     if port == AmsPort::COM { "GEN-4".into() } else { online("GEN-4") }
 }
 
-/// The function at a call's address, whatever it takes.
+/// The function at a call's address whose service fits.
 fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Function> {
     let group = call.index_group.parts()?;
     let mut all = Function::ALL.iter().copied().filter(|function| {
@@ -97,13 +97,13 @@ fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Functi
         let here = spec.group.contains(group) && spec.offset.contains(call.index_offset);
         here && fits(spec.service)
     });
-    // A function wins over content (SDA-12).
+    // A function takes precedence over content at the same address (SDA-12).
     let first = all.clone().find(|function| !function.spec().is_content());
     first.or_else(|| all.find(|function| function.spec().service == call.service))
 }
 
-/// A function that is asked by another service than its own. On the decoder that may be a walk over
-/// elements, which meets functions there (SDA-12): it is counted.
+/// Judges a call of a function by the wrong service. On the decoder channel it may be a read of all
+/// elements in turn, whose offsets collide with functions (SDA-12): it is counted only.
 fn wrong_service(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -122,7 +122,7 @@ fn wrong_service(
     None
 }
 
-/// A request that the codec reads.
+/// Judges a request that the codec decodes.
 fn documented(
     records: &mut TopicRecords,
     observation: &Observation<'_>,
@@ -161,7 +161,7 @@ fn documented(
     }
 }
 
-/// The fewest bytes of a stream of fixed length; 0 of others.
+/// The length of a stream of fixed length; 0 for others.
 fn least(stream: Stream) -> u32 {
     if stream.layout().is_fixed() { stream.layout().max } else { 0 }
 }

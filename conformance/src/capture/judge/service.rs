@@ -1,4 +1,4 @@
-//! The variables of the Service Interface, in their order.
+//! The variables of the Service Interface: sizes and order of access.
 
 use std::collections::BTreeMap;
 
@@ -11,11 +11,11 @@ use super::Bench;
 use super::requests::name_of;
 use crate::judge::{Checks as _, assumed};
 
-/// What is known of the Service Interface of each channel, by its index group.
+/// The Service Interfaces of a CNC as captured so far, by index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Services {
     known: BTreeMap<u32, ObservedInterface>,
-    /// Whether requests before may not have been captured.
+    /// Whether requests before the first captured one are possible.
     is_lost: bool,
 }
 
@@ -25,22 +25,24 @@ impl Services {
     }
 }
 
-/// One channel's, as a client left it.
+/// The state of one channel's interface.
 #[derive(Debug, Default)]
 struct ObservedInterface {
-    /// More may have been read and written than was captured, for what is asked now.
+    /// Accesses for the current request may be missing in the capture.
     is_lost: bool,
-    /// A service has read that it is asked, and who is.
+    /// The service has read REQUEST_STATE != 0, and the UUID.
     read_state: bool,
     read_id: bool,
-    /// The response, REQUEST_STATE = 0 and RESPONSE_STATE were written for what is asked now.
+    /// The service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE for the current
+    /// request.
     response: bool,
     reset: bool,
     answered: bool,
-    /// A client that plays the program has written these.
+    /// A client that acts as the NC program has written UUID and REQUEST.
     wrote_id: bool,
     wrote_request: bool,
-    /// REQUEST_STATE was written last, and nothing of the answer since.
+    /// A client that acts as the NC program wrote REQUEST_STATE != 0, and no RESPONSE_STATE was
+    /// written since.
     asked: bool,
 }
 
@@ -88,7 +90,7 @@ impl Bench<'_> {
     }
 }
 
-/// Texts have room for 128 bytes, states are UNS32.
+/// A text has at most 128 bytes, a state is an UNS32.
 fn form(page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
     let found = || format!("{length} bytes of {}", variable.name());
@@ -103,7 +105,6 @@ fn form(page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     }
 }
 
-/// Whether a state is other than 0.
 fn is_set(value: &[u8]) -> bool {
     value.iter().any(|byte| *byte != 0)
 }
@@ -113,13 +114,13 @@ impl ObservedInterface {
         match variable {
             ServiceVariable::RequestState => {
                 if is_set(value) && self.answered {
-                    // Asked anew.
+                    // A new request.
                     *self = Self::default();
                 }
                 self.read_state = is_set(value);
             }
             ServiceVariable::Uuid => self.read_id = true,
-            // A service may have answered meanwhile: only 0 tells.
+            // The service may have answered already, so a value other than 0 proves nothing.
             ServiceVariable::ResponseState if self.asked && !is_set(value) => {
                 page.pass(assumed("SVC-3"));
             }
@@ -132,7 +133,7 @@ impl ObservedInterface {
             ServiceVariable::Uuid => self.wrote_id = true,
             ServiceVariable::Request => self.wrote_request = true,
             ServiceVariable::RequestState if is_set(value) => {
-                // Who asks plays the program.
+                // The client acts as the NC program.
                 let found = "REQUEST_STATE before UUID and REQUEST";
                 let kept = self.is_lost || self.wrote_id && self.wrote_request;
                 page.check("SVC-12", kept, "UUID and REQUEST before it", found);

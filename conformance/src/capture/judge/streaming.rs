@@ -1,4 +1,4 @@
-//! NC text on its way to the stream of a channel.
+//! NC text written to the program stream of a channel.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,14 +12,14 @@ use super::super::findings::{Observation, Topic};
 use super::Bench;
 use crate::judge::{Checks as _, assumed};
 
-/// Who has been refused and writes nothing for as long has given up.
+/// After a rejected write, a client that is silent for this long has given up.
 const GIVEN_UP: Duration = Duration::from_secs(30);
 
-/// What is known of the streams of a CNC, by the index group of the channel.
+/// The program streams of a CNC as captured so far, by index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Streams {
     known: BTreeMap<u32, ObservedStream>,
-    /// Whether what was written before may not have been captured.
+    /// Whether earlier writes are possible that were not captured.
     is_lost: bool,
 }
 
@@ -31,9 +31,9 @@ impl Streams {
 
 #[derive(Default)]
 struct ObservedStream {
-    /// What was refused last, and when.
+    /// The packet that was rejected last, and when.
     refused: Option<(Vec<u8>, Option<super::Time>)>,
-    /// What is wrong with the program so far; none while its beginning is not known.
+    /// Checks the program so far; `None` while its beginning is unknown.
     checker: Option<Checker>,
 }
 
@@ -57,7 +57,7 @@ impl Bench<'_> {
         page.check("STM-2", kept, "at most 992 bytes", || format!("{length} bytes"));
         let whole = data.ends_with(b"\r\n");
         page.check("STM-4", whole, "whole lines, each with CR LF", "an open line at the end");
-        // NcText takes lines with any end: what is open was judged, the rest is told apart here.
+        // `NcText` accepts every line end, so bare line feeds are detected here.
         let bare = data.windows(2).any(|two| matches!(two, [first, b'\n'] if *first != b'\r'))
             || data.first() == Some(&b'\n')
             || data.windows(2).any(|two| matches!(two, [b'\r', second] if *second != b'\n'));
@@ -88,7 +88,7 @@ impl Bench<'_> {
                 page.check("STM-6", refused == data, expected, "other data");
             }
         }
-        // Within a comment that began in what was lost, anything may follow.
+        // After a gap the data may be inside a comment, where every byte is allowed.
         if accepted && !is_lost {
             let checker = stream.checker.get_or_insert_with(Checker::new);
             let mut ended = false;
@@ -100,7 +100,8 @@ impl Bench<'_> {
                             DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => {
                                 "STM-8"
                             }
-                            // After an end comes the next program, or what is left of it.
+                            // After the end of a program the next one begins, or the rest of this
+                            // one follows.
                             _ => continue,
                         };
                         page.check(clause, false, "what a stream may have", || finding);

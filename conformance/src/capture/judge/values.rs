@@ -1,4 +1,4 @@
-//! Values of variables, held against their descriptions.
+//! Values of variables, compared with their descriptions.
 
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
@@ -12,18 +12,18 @@ use crate::judge::{Checks as _, assumed};
 const TEXT_MAX: usize = 800;
 
 impl TargetVariable {
-    /// Bytes of what is read or written, if the type says them.
+    /// Size in bytes of the value that is read or written, if the type determines it.
     fn size(&self) -> Option<u32> {
         let element = self.description.var_type.element_size()?;
         Some(if self.indices.is_empty() { self.description.size } else { element })
     }
 
-    /// Whether the number of indices addresses anything.
+    /// Whether the number of indices selects the whole variable or one element.
     fn has_valid_index_count(&self) -> bool {
         self.indices.is_empty() || self.indices.len() == self.description.dimensions.len()
     }
 
-    /// Whether each index is one that the array has.
+    /// Whether each index is within the array.
     fn is_inside(&self) -> bool {
         self.indices.iter().zip(&self.description.dimensions).all(|(index, count)| index < count)
     }

@@ -1,4 +1,4 @@
-//! Numbers, descriptions and handles of variables, held together.
+//! Numbers, descriptions and handles of variables, compared across exchanges.
 
 use std::collections::BTreeMap;
 
@@ -11,21 +11,21 @@ use super::{Bench, Room};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
 
-/// Channels that are told apart.
+/// Maximum number of channels that are distinguished.
 const CHANNELS_MAX: usize = 512;
 
-/// What is known of the variables of a CNC.
+/// The variables of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct Variables {
-    /// By the index group of the channel.
+    /// By index group of the channel.
     channels: BTreeMap<u32, ChannelVariables>,
 }
 
 #[derive(Debug, Default)]
 struct ChannelVariables {
-    /// By kind; that of no kind is the sum.
+    /// By kind; the empty kind has the sum.
     counts: BTreeMap<String, u32>,
-    /// By name: with the kind and index it was described at.
+    /// By name: the description, and the kind and index it was requested by.
     described: BTreeMap<String, (Description, String, u32)>,
     handles: BTreeMap<u32, String>,
     /// The first handle of each name.
@@ -33,7 +33,7 @@ struct ChannelVariables {
 }
 
 impl ChannelVariables {
-    /// Keeps the name of a handle, if there is room for a new one.
+    /// Stores the name of a handle, if there is memory for it.
     fn handle(&mut self, handle: u32, name: &str, room: &mut Room) {
         if self.handles.contains_key(&handle) || room.take(name.len()) {
             self.handles.insert(handle, name.to_owned());
@@ -53,12 +53,12 @@ impl Variables {
         Some(self.channels.entry(group).or_default())
     }
 
-    /// The name of a handle, if it was captured.
+    /// The name of a handle, if its request was captured.
     pub(super) fn name_of(&self, group: u32, handle: u32) -> Option<&str> {
         self.channels.get(&group)?.handles.get(&handle).map(String::as_str)
     }
 
-    /// The described variable that a request reads or writes, and where in it.
+    /// The described variable that a request reads or writes, and the indices.
     pub(super) fn described(&self, request: &Request<'_>) -> Option<TargetVariable> {
         let by_handle = |group: u32, handle: u32, indices: Vec<u32>| {
             let channel = self.channels.get(&group)?;
@@ -169,7 +169,7 @@ impl Bench<'_> {
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
-            // Another configuration: what is known is of the one before.
+            // The configuration has changed: the stored facts are those of the old one.
             *channel = ChannelVariables::default();
         }
         if channel.counts.len() < 64 {
@@ -223,7 +223,7 @@ impl Bench<'_> {
     ) {
         let text = name.to_string();
         let mut page = self.records.on(Topic::CncVar, observation);
-        // In both editions; V.P, V.L and V.S in one of them.
+        // V.CYC has no list in either edition; V.P, V.L and V.S have none in one of them.
         let barred = text.starts_with("V.CYC");
         let expected = "an error number: V.CYC has no handles";
         page.check("VAR-18", !barred, expected, || format!("{handle:#x}"));

@@ -1,4 +1,4 @@
-//! Segments in whatever order they come, and what never comes.
+//! Segments in any order, and missing ones.
 
 use super::*;
 
@@ -45,7 +45,7 @@ fn segments_come_in_any_order() {
             let parts = order.map(|place: usize| parts[place]);
             assert_eq!(joined(&mut begun(), &parts, false), "abcdefghi", "{start} {order:?}");
         }
-        // Once more, in other pieces, and over one another.
+        // Retransmitted, split differently and overlapping.
         let parts: [(u32, &[u8]); 7] = [
             (at(0), b"abc"),
             (at(0), b"abc"),
@@ -68,7 +68,7 @@ fn what_never_came_is_a_gap() {
     assert_eq!(half.memory_size(), 0);
 }
 
-/// The other side has it: it was sent, and not captured.
+/// The other side has acknowledged the bytes: they were sent, but not captured.
 #[test]
 fn what_is_acknowledged_is_not_waited_for() {
     let mut half = Half::default();
@@ -80,7 +80,7 @@ fn what_is_acknowledged_is_not_waited_for() {
     assert!(all.starts_with("___fghhhhh"), "{all}");
 }
 
-/// The last of it never came, and the other side has it, or there is a FIN after it.
+/// The last bytes were not captured, but the other side has acknowledged them, or a FIN follows.
 #[test]
 fn what_is_missing_at_the_end_is_a_gap() {
     let begun = || {

@@ -31,7 +31,8 @@ impl Run {
         let deadline = self.deadline.begin();
         let session = target.with_malformed(self.malformed).open()?;
         let mut session = session.with_deadline(deadline);
-        // Silence is judged case by case only of a device that answers at all.
+        // A device must answer once before its cases run; afterwards silence is judged by each
+        // case.
         match session.greet(&profile) {
             Ok(()) => {}
             Err(Trouble::NotSent) => {
@@ -73,7 +74,7 @@ impl Run {
         let session = session::Session::simulated_to_try(faulty)?;
         let mut session = self.target.recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
-        // The CNC runs as long as it is held.
+        // The CNC runs until `_running` is dropped.
         let (client, _running) = session.into_parts();
         let session = TargetState::new(client, profile).with_cnc(cnc);
         let target = TargetReport {
@@ -122,13 +123,13 @@ impl Run {
     }
 }
 
-/// Whether it is a case that writes, and something came of it.
+/// Whether the case writes and has been executed.
 fn has_written(outcome: &CaseOutcome) -> bool {
     let judged = |one: &RequirementVerdict| one.verdict.is_judged();
     outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
 }
 
-/// What the target says of itself; it need not.
+/// The device information that the target returns; not every target does.
 fn of_itself(session: &mut session::Session) -> Option<DeviceReport> {
     let info = session.device_info(Task::Com).ok()?;
     let state = session.device_state(Task::Com).ok();

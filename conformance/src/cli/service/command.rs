@@ -15,17 +15,17 @@ use super::response::{Ended, KEPT, ServiceResponse, answer};
 use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
-/// How long stdout may stay open when the command has ended: what it has started may hold it.
+/// How long stdout may stay open after the command has ended: a process it started may hold it.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// How often it looks whether the command has ended.
+/// Interval at which the command is polled.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// How many processes may hold the stdout of commands that have ended: each takes a thread. Only one
-/// that has made a session of its own outlives its command.
+/// Maximum number of processes that hold the stdout of an ended command: each takes a thread. Only
+/// a process in a session of its own outlives the command.
 const HOLDERS_MAX: usize = 8;
 
-/// What is run for each request.
+/// The command that is run for each request.
 pub(super) struct ServiceCommand<'s> {
     /// The program and its arguments.
     pub(super) words: &'s [String],
@@ -37,7 +37,7 @@ pub(super) struct ServiceCommand<'s> {
 }
 
 impl ServiceCommand<'_> {
-    /// Runs it for a request, for as long as it may take.
+    /// Runs the command for a request, up to the time limit.
     pub(super) fn run(&self, uuid: ServiceId, request: CncStr<'_>, state: u32) -> ServiceResponse {
         let started = Instant::now();
         match self.start(uuid, state) {
@@ -45,12 +45,12 @@ impl ServiceCommand<'_> {
             Ok(child) => {
                 let stdout = CapturedOutput::start(&child, &self.readers);
                 if let Some(mut stdin) = child.take_stdin() {
-                    // A command need not read it. It fits every pipe.
+                    // A command need not read stdin. The request fits into the buffer of a pipe.
                     let _unread = writeln!(stdin, "{}", utf8(request));
                 }
                 let ended = self.wait(&child, started);
                 let closed = !matches!(ended, Ended::Exited(_)) || stdout.closes();
-                // With all that it has started and that still runs.
+                // Ends the child and all processes that it started.
                 drop(child);
                 stdout.closes();
                 let mut answer = answer(&ended, &stdout.bytes());
@@ -102,7 +102,7 @@ impl ServiceCommand<'_> {
     }
 }
 
-/// The front of what a command writes.
+/// The beginning of a command's output.
 struct CapturedOutput {
     kept: Arc<Mutex<Vec<u8>>>,
     closed: mpsc::Receiver<()>,
@@ -121,14 +121,14 @@ impl CapturedOutput {
                 drop(tell);
             };
             if thread::Builder::new().name("stdout".to_owned()).spawn(read).is_err() {
-                // There is no output, which the answer shows.
+                // Without a thread there is no output; the answer reports that.
                 readers.fetch_sub(1, Ordering::SeqCst);
             }
         }
         Self { kept, closed }
     }
 
-    /// Whether nobody has it open any more within [`GRACE`], and all that was written is kept.
+    /// Whether stdout is closed within [`GRACE`] and all output is stored.
     fn closes(&self) -> bool {
         self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
     }
@@ -138,7 +138,7 @@ impl CapturedOutput {
     }
 }
 
-/// Reads to the end, and keeps the front. A command whose stdout is not read would block.
+/// Reads to the end and stores the beginning. A command whose stdout is not read would block.
 fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     let mut chunk = [0; 4096];
     while let Ok(len @ 1..) = from.read(&mut chunk) {

@@ -30,7 +30,7 @@ use crate::text::some_time;
 use command::ServiceCommand;
 use response::ServiceResponse;
 
-/// How often writes may fail, one after the other.
+/// Maximum number of consecutive failed writes.
 const FAILED_WRITES_MAX: u32 = 5;
 
 /// Answers the requests of NC programs, as a service of the Service Interface: a command is run for
@@ -116,14 +116,14 @@ fn uuid(text: &str) -> Result<ServiceId, String> {
 }
 
 impl ServiceArguments {
-    /// Serves, and says how the process ends.
+    /// Serves, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let done = if self.target.is_dry() { self.show() } else { self.serve() };
         self.target.end(done.map(|()| Exit::Success), |_| None)
     }
 
-    /// Connects to the device, or to a CNC with the manual's NC program, which asks for square
-    /// roots.
+    /// Connects to the device, or to a simulated CNC with the manual's NC program, which requests
+    /// square roots.
     fn open(&self) -> Result<Session, Trouble> {
         let channel = self.channel.channel;
         self.target.open_to_write(Entry::Service(channel), || {
@@ -138,7 +138,7 @@ impl ServiceArguments {
         })
     }
 
-    /// What looking for a request and one answer take.
+    /// Shows the requests of one poll and one answer, without sending them.
     fn show(&self) -> Result<(), Trouble> {
         use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 
@@ -164,7 +164,8 @@ impl ServiceArguments {
 
     fn serve(&self) -> Result<(), Trouble> {
         let channel = self.channel.channel;
-        // A program that has asked would wait for an answer that may not be written.
+        // Checked before the first poll: an NC program would wait forever for an answer that may
+        // not be written.
         let check = |session: &Session| {
             use ServiceVariable::{RequestState, Response, ResponseState};
             let mut writes = [Response, RequestState, ResponseState].into_iter();
@@ -199,7 +200,7 @@ impl ServiceArguments {
         ));
         while answers.is_none_or(|answers| serving.answered < answers) {
             let is_idle = serving.step(&mut session)?;
-            // An answer is written to its end.
+            // A begun answer is always completed.
             if is_idle && (serving.is_enough(answers) || interrupt.sleep(self.poll)) {
                 break;
             }
@@ -209,16 +210,16 @@ impl ServiceArguments {
     }
 }
 
-/// A host at work.
+/// The state of the running service.
 struct Serving<'s> {
     host: Host<'s>,
     command: ServiceCommand<'s>,
     channel: Channel,
-    /// The request that was answered, as it is shown, until it is known how that ended.
+    /// The request being answered, as text, until its outcome is known.
     served: Option<String>,
     answered: u64,
     failed_writes: u32,
-    /// What was complained of last.
+    /// The last warning.
     last_warning: String,
 }
 
@@ -227,7 +228,7 @@ impl Serving<'_> {
         answers.is_some_and(|answers| self.answered >= answers)
     }
 
-    /// Does the next step; whether time is to pass before the one after it.
+    /// Does the next step; returns whether to wait before the one after it.
     fn step(&mut self, session: &mut Session) -> Result<bool, Trouble> {
         match self.host.step() {
             HostStep::Read(variable) => {
@@ -284,7 +285,7 @@ impl Serving<'_> {
         }
     }
 
-    /// Says how the last answer ended.
+    /// Prints the outcome of the last answer.
     fn tell_outcome(&mut self) -> Result<(), Trouble> {
         let Some(served) = self.served.take() else { return Ok(()) };
         match self.host.outcome() {
@@ -309,7 +310,7 @@ impl Serving<'_> {
         }
     }
 
-    /// Prints a warning, unless it was the last one too.
+    /// Prints a warning, unless it is the same as the last one.
     fn warn_once(&mut self, what: &str) {
         if self.last_warning != what {
             complain(format_args!("warning: no request: {what}"));

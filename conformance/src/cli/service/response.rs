@@ -1,4 +1,4 @@
-//! From what a command did to what the NC program is told.
+//! Converts the outcome of a command to the response of the service.
 
 use std::process::ExitStatus;
 use std::time::Duration;
@@ -7,17 +7,17 @@ use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::text::char_to_cp1252;
 use ads_cnc::{CncStr, CncString};
 
-/// Bytes of stdout that are kept: more than can be answered, in UTF-8 too.
+/// Maximum number of stored bytes of stdout: more than fit into a response, in UTF-8 too.
 pub(super) const KEPT: usize = 1024;
 
 const SUCCESS: u32 = 1;
-/// Exit code 1.
+/// Response state for exit code 1.
 const EXIT_CODE_1: u32 = 1001;
 const TIME_OVER: u32 = 1002;
 const ENDED: u32 = 1003;
 const NOT_STARTED: u32 = 1004;
 
-/// What the NC program is told.
+/// Response and state for the NC program.
 #[derive(Debug)]
 pub(super) struct ServiceResponse {
     pub(super) response: CncString,
@@ -28,11 +28,11 @@ pub(super) struct ServiceResponse {
 /// How a command ended.
 #[derive(Debug)]
 pub(super) enum Ended {
-    /// Of itself, or by a signal.
+    /// By itself, or by a signal.
     Exited(ExitStatus),
-    /// It took longer than this.
+    /// It exceeded this time limit.
     TimeOver(Duration),
-    /// A signal to this process.
+    /// This process received a signal.
     Interrupted,
     /// It could not be started.
     NotStarted(String),
@@ -45,7 +45,7 @@ impl Ended {
             Self::Exited(status) => match status.code() {
                 Some(0) => SUCCESS,
                 Some(1) => EXIT_CODE_1,
-                // Windows has codes of 32 bits, which are shown as negative.
+                // Windows has codes of 32 bits, shown as negative numbers.
                 Some(code) => u32::from_le_bytes(code.to_le_bytes()),
                 None => ENDED,
             },
@@ -55,7 +55,7 @@ impl Ended {
         }
     }
 
-    /// What is wrong, if it is not for the command to say.
+    /// The reason, if the command itself did not fail.
     fn reason(&self) -> Option<String> {
         match self {
             Self::Exited(status) if status.code().is_some() => None,
@@ -67,7 +67,7 @@ impl Ended {
     }
 }
 
-/// What the NC program is told when a command ended so with this on stdout.
+/// The response for a command that ended in this way with this stdout.
 pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
     let mut warnings = Vec::new();
     match ended {
@@ -81,7 +81,7 @@ pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
     if let Some(reason) = ended.reason().filter(|_| response.is_empty()) {
         response = reason.into_bytes();
     }
-    // Without a NUL; the CNC has one after it.
+    // Without the NUL, which the CNC appends.
     let most = SERVICE_TEXT_MAX.saturating_sub(1);
     if response.len() > most {
         warnings.push(format!("the response is cut to {most} bytes"));
@@ -95,7 +95,7 @@ pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
 fn cp1252(stdout: &[u8], warnings: &mut Vec<String>) -> Vec<u8> {
     let mut bytes = match std::str::from_utf8(stdout) {
         Ok(text) => to_cp1252(text, warnings),
-        // Cut when it was captured, within a character.
+        // The stored output was cut within a character.
         Err(error) if error.error_len().is_none() && stdout.len() >= KEPT => {
             let whole = stdout.get(..error.valid_up_to()).unwrap_or_default();
             to_cp1252(std::str::from_utf8(whole).unwrap_or_default(), warnings)
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
-        // Any end that leaves stdout alone.
+        // Any outcome for which stdout is used as it is.
         let ServiceResponse { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }
@@ -151,11 +151,11 @@ mod tests {
         let (response, warnings) = of(b"a\0b");
         assert_eq!((&response[..], warnings.len()), (&b"a"[..], 1));
 
-        // By characters, each of which is one byte there.
+        // Characters count, each of which is one byte in CP1252.
         assert_eq!(of("ä".repeat(127).as_bytes()), (vec![0xE4; 127], vec![]));
         let (response, warnings) = of("ä".repeat(128).as_bytes());
         assert_eq!((response, warnings.len()), (vec![0xE4; 127], 1));
-        // A capture may end within a character; a text may not.
+        // Stored output may end within a character; a response must not.
         let captured = [&b"a"[..], "ä".repeat(512).as_bytes()].concat();
         assert_eq!(of(&captured[..KEPT]).0, of(&captured).0);
         assert_eq!(of(b"L\xE4").0, b"L\xE4");

@@ -1,21 +1,21 @@
-//! What is wrong with a program, found before any of it is sent.
+//! Checks a program before any of it is sent.
 
 use std::io::{self, Write};
 
 use ads_cnc::streaming::{LineError, NcText};
 
-/// The most lines of messages: who sends a picture wants no more.
+/// Maximum number of lines of messages, in case the file is not a text.
 const SHOWN_MAX: usize = 100;
 
 /// A text that can be sent.
 pub(super) struct CheckedText<'a> {
     pub(super) text: NcText<'a>,
-    /// Places where the CNC would end streaming.
+    /// Number of places at which the CNC would end streaming.
     pub(super) ends: usize,
 }
 
-/// Looks through a text and says what is wrong, one line for each place; nothing if there are lines
-/// that cannot be sent.
+/// Checks a text and prints one line for each finding; returns `None` if there are lines that
+/// cannot be sent.
 pub(super) fn check<'a>(
     bytes: &'a [u8],
     name: &str,
@@ -35,7 +35,7 @@ pub(super) fn check<'a>(
         let (line, column) = (finding.line, finding.column);
         let level = if finding.kind.ends_streaming() { "error" } else { "warning" };
         ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
-        // It says its place itself, though not as compilers do.
+        // The finding has its line number, but not in the format of compilers.
         let whole = finding.to_string();
         let place = format!("line {line}, column {column}: ");
         let what = whole.strip_prefix(&place).unwrap_or(&whole);
@@ -91,7 +91,7 @@ mod tests {
         (String::from_utf8(out).unwrap(), ends)
     }
 
-    /// Every line that cannot be sent is named, with the codec's own line numbers.
+    /// Every line that cannot be sent is reported, with the line number of the codec.
     #[test]
     fn every_bad_line_is_named() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();

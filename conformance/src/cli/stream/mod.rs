@@ -94,7 +94,7 @@ Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 
 Once it sends, stdout says which lines were taken, and which were not if it ends before its time.";
 
 impl StreamArguments {
-    /// Sends, and says how the process ends.
+    /// Sends, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |_| None)
     }
@@ -126,7 +126,7 @@ impl StreamArguments {
         self.target.open_to_write(Entry::Stream(self.channel.channel), default_cnc)
     }
 
-    /// Every packet as it would be sent, and whether it would be.
+    /// Shows every packet and whether the gate would allow it.
     fn show(&self, text: NcText<'_>) -> Result<Exit, Trouble> {
         let mut session = self.open()?;
         let mut sender = Sender::new(text);
@@ -197,7 +197,7 @@ impl StreamArguments {
         })
     }
 
-    /// The program as messages name it.
+    /// The name of the program in messages.
     fn name(&self) -> String {
         if self.file == Path::new("-") {
             "stdin".to_owned()

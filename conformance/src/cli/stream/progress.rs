@@ -1,4 +1,4 @@
-//! How far it is, on stderr.
+//! Progress on stderr.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use super::super::progress::{self, EVERY};
 /// The time between two lines if stderr is not a terminal.
 const ELSEWHERE: Duration = Duration::from_secs(5);
 
-/// Shows how far it is: one line that changes on a terminal, one every few seconds elsewhere.
+/// Shows progress: one line that changes on a terminal, one every few seconds elsewhere.
 pub(super) struct StreamProgress {
     lines: usize,
     bytes: usize,
@@ -36,12 +36,12 @@ impl StreamProgress {
         self.started.elapsed()
     }
 
-    /// Shows how much was accepted, if that is due, and why it waits.
+    /// Shows how much was accepted, if an update is due, and why it waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
         let due = if !self.line.live {
             ELSEWHERE
         } else if waits.is_some() && !self.waited {
-            // Nothing may come after it for long.
+            // It may be the last update for a long time.
             Duration::ZERO
         } else {
             EVERY
@@ -60,13 +60,13 @@ impl StreamProgress {
         format!("{lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}")
     }
 
-    /// Takes the line off the terminal.
+    /// Clears the line of a terminal.
     pub(super) fn clear(&mut self) {
         self.line.clear();
     }
 }
 
-/// Bytes as people count them.
+/// Formats a number of bytes with a unit.
 pub(super) struct ByteCount(pub(super) usize);
 
 impl fmt::Display for ByteCount {
@@ -75,12 +75,12 @@ impl fmt::Display for ByteCount {
     }
 }
 
-/// Bytes in this time.
+/// Bytes per time.
 pub(super) struct Rate(pub(super) usize, pub(super) Duration);
 
 impl fmt::Display for Rate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A time too short to be measured says nothing.
+        // A shorter time cannot be measured.
         let seconds = self.1.as_secs_f64().max(0.001);
         let bytes = u32::try_from(self.0).map_or(f64::MAX, f64::from);
         scaled(bytes / seconds, f)?;

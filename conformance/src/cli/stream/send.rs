@@ -1,4 +1,4 @@
-//! Packets out, acknowledgements in.
+//! Sends packets and receives acknowledgements.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -12,39 +12,39 @@ use super::progress::{ByteCount, Rate, StreamProgress};
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 
-/// What happens when a packet is refused for now.
+/// How a packet is repeated that the CNC cannot take for now.
 pub(super) struct Retry {
     pub(super) after: Duration,
     pub(super) times: u32,
 }
 
-/// Why no more is sent.
+/// Why sending has ended.
 pub(super) enum SendEnd {
-    /// All of it was taken.
+    /// The CNC has accepted all packets.
     Done,
     /// A signal.
     Interrupted,
-    /// A packet was refused for now, once too often.
+    /// A packet was rejected with "busy" too often.
     GivenUp(AdsError),
-    /// A packet was refused for good, or did not leave.
+    /// A packet was rejected with another error, or not sent.
     Stopped(Trouble),
-    /// A packet left, and whether it was taken is not known.
+    /// A packet was sent, but without a reply it is unknown whether the CNC accepted it.
     Unknown(Trouble),
 }
 
-/// A program on its way.
+/// The state of sending a program.
 pub(super) struct Sending<'a> {
     pub(super) sender: Sender<'a>,
     pub(super) channel: Channel,
     pub(super) retry: Retry,
-    /// How often packets were refused for now.
+    /// How often a packet was rejected with "busy".
     pub(super) refusals: u64,
-    /// Lines of the packet that went out last.
+    /// Number of lines in the last packet sent.
     pub(super) out: usize,
 }
 
 impl Sending<'_> {
-    /// Sends until all is taken or something ends it.
+    /// Sends until all packets are accepted or an error or signal ends it.
     pub(super) fn run(
         &mut self,
         session: &mut Session,
@@ -59,7 +59,7 @@ impl Sending<'_> {
             self.out = packet.iter().filter(|&&byte| byte == b'\n').count();
             let write = WriteProgramStream::new(self.channel, packet);
             let trouble = session.call(&write).err();
-            // What is no answer of the CNC's is not sent again.
+            // Only an ADS error of the CNC is a reason to repeat a packet.
             let ack = match &trouble {
                 None => Ack::Accepted,
                 Some(trouble) => trouble.ads_error().map_or(Ack::Rejected, Ack::from_result),
@@ -83,7 +83,7 @@ impl Sending<'_> {
                         return SendEnd::Interrupted;
                     }
                 }
-                // It may have arrived.
+                // The packet may have arrived.
                 Some(trouble @ (Trouble::NoAnswer(_) | Trouble::Reply(_))) => {
                     return SendEnd::Unknown(trouble);
                 }
@@ -92,7 +92,7 @@ impl Sending<'_> {
         }
     }
 
-    /// What was taken, and what was not.
+    /// What was accepted, and what was not.
     pub(super) fn summary(
         &self,
         name: &str,

@@ -1,4 +1,4 @@
-//! What each word of the vocabulary does.
+//! Executes each word of the vocabulary.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, ElementAddress, Spindle};
 use ads_cnc::dynamic::DynamicKind;
@@ -20,10 +20,10 @@ use crate::clients::Action;
 use crate::clients::message::DONE;
 use crate::values::{self, Type};
 
-/// The most descriptors that are asked for at once.
+/// Maximum number of descriptors in one request.
 const AT_ONCE: u32 = 64;
 
-/// The arguments of a word, one after the other.
+/// An iterator over the arguments of an action.
 struct Arguments<'a>(std::slice::Iter<'a, String>);
 
 impl<'a> Arguments<'a> {
@@ -282,8 +282,8 @@ fn content(object: &Descriptor) -> Type {
     Type::of_content(object.type_name(), object.size())
 }
 
-/// Elements of instances: those of channels, places and spindles are found by their address, all
-/// others are asked for.
+/// The address of an instance: calculated for channels, axis places and spindles, requested for
+/// others.
 fn element(
     wire: &mut Connection,
     action: &Action,

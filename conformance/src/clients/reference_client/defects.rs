@@ -1,14 +1,14 @@
-//! What this project's client can be told to do wrong.
+//! Defects and valid variants of this project's client.
 
 use std::fmt;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClientDefect {
-    /// `client.no-nul`.
+    /// For example `client.no-nul`.
     pub id: &'static str,
-    /// The requirement that has to fail; none of a habit.
+    /// The requirement that has to fail; empty for a valid variant.
     pub requirement: &'static str,
-    /// What the client does.
+    /// What the client does differently.
     pub what: &'static str,
     pub flaw: Flaw,
 }
@@ -24,7 +24,7 @@ macro_rules! flaws {
         defects { $( $flaw:ident $id:literal $requirement:literal $what:literal; )+ }
         habits { $( $habit:ident $habit_id:literal $other:literal; )+ }
     ) => {
-        /// One thing done wrong; its [`ClientDefect`] says what.
+        /// A defect or valid variant; its [`ClientDefect`] describes it.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Flaw { $( $flaw, )+ $( $habit, )+ }
@@ -41,7 +41,7 @@ macro_rules! flaws {
 
 flaws! {
     defects {
-    // What it sends: frames.
+    // Frames it sends.
     TcpLength "client.tcp-length" "ADS-5" "says one byte more in the AMS/TCP header";
     AmsLength "client.ams-length" "ADS-5" "says one byte less in the AMS header";
     ResponseFlag "client.response-flag" "ADS-5" "marks its requests as responses";
@@ -52,7 +52,7 @@ flaws! {
     WriteLength "client.write-length" "ADS-2" "says one byte more in a Write";
     BothLength "client.read-write-length" "ADS-3" "says one byte less written in a ReadWrite";
     ReadForBoth "client.read-for-read-write" "ADS-3" "reads where a ReadWrite is taken";
-    // Where it asks.
+    // Addresses it uses.
     Port "client.port" "GEN-4" "asks the COM task for what the SDA task has";
     NoChannel "client.no-channel" "ADR-5" "leaves the channel out of the group";
     OtherChannel "client.other-channel" "ADR-5" "asks channel 1 for what is of another";
@@ -83,7 +83,7 @@ flaws! {
     ValuePlace "client.value-place" "VAR-14" "reads by name where handles are taken";
     ExtendedPlace "client.extended-place" "VAR-15" "asks for what is extended one place beside";
     AxisFromZero "client.axis-from-zero" "VAR-26" "counts axes from 0";
-    // What it asks with.
+    // Data it sends.
     NoNul "client.no-nul" "VAR-9" "sends names without NUL";
     KindOpen "client.kind-open" "VAR-1" "sends kinds without NUL";
     KindDot "client.kind-dot" "VAR-1" "sends kinds with a final dot";
@@ -93,7 +93,7 @@ flaws! {
     WriteNoCount "client.write-no-count" "VAR-12" "leaves it out of writes";
     NoSeparator "client.no-separator" "VAR-13" "sends no NUL between name and value";
     ValueSwapped "client.value-swapped" "GEN-1" "writes contents in big-endian";
-    // What it takes.
+    // Replies it accepts.
     AnyInvokeId "client.any-invoke-id" "ADS-5" "takes replies to any invoke ID";
     AnyCommand "client.any-command" "ADS-5" "takes replies to any command";
     AnyFlags "client.any-flags" "ADS-5" "takes requests for replies";
@@ -148,7 +148,7 @@ flaws! {
     }
 }
 
-/// Every defect a client can have.
+/// All defects of this project's client.
 ///
 /// ```
 /// use ads_cnc_conformance::clients::{defects, find_defect};
@@ -160,12 +160,12 @@ pub const fn defects() -> &'static [ClientDefect] {
     ALL
 }
 
-/// What a client may do otherwise than this project's: it is as right, and must raise nothing.
+/// Valid variants: the client acts differently, but no requirement may fail.
 pub const fn habits() -> &'static [ClientDefect] {
     HABITS
 }
 
-/// The defect with this ID, or the habit.
+/// The defect or valid variant with this ID.
 pub fn find_defect(id: &str) -> Option<&'static ClientDefect> {
     ALL.iter().chain(HABITS).find(|one| one.id == id)
 }

@@ -5,13 +5,13 @@ use ads_cnc::ads::AdsError;
 /// The reason why an action has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Fail {
-    /// The CNC refuses.
+    /// An ADS error of the CNC.
     Refused(AdsError),
-    /// Something is wrong, here or in the CNC.
+    /// Another error, in the client or in a reply.
     Error(String),
-    /// It dies here.
+    /// The client crashes.
     Dies,
-    /// It waits for ever.
+    /// The client hangs.
     Hangs,
 }
 

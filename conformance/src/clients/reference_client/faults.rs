@@ -1,4 +1,4 @@
-//! What this project's client does wrong, or otherwise, to the bytes of requests and replies.
+//! Applies a defect or valid variant to the bytes of requests and replies.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -7,7 +7,7 @@ use ads_cnc::operation::{Call, Service};
 use super::Flaw;
 use super::error::Fail;
 
-/// A request, to be spoilt.
+/// A request before it is encoded.
 pub(super) struct OutgoingRequest {
     pub(super) port: AmsPort,
     pub(super) service: Service,
@@ -29,7 +29,7 @@ impl OutgoingRequest {
         }
     }
 
-    /// Whether it is a function of variables, at this offset.
+    /// Whether it is the function of the decoder with this offset.
     const fn is(&self, offset: u32) -> bool {
         self.group & 0xFF00 == 0x2300 && self.offset == offset
     }
@@ -135,7 +135,7 @@ impl OutgoingRequest {
             }
             Flaw::ValueSwapped if com_content => self.data.reverse(),
             Flaw::StreamLong if !sda && self.offset == 0x90 => {
-                // Comment up to the end of the last line.
+                // Turns the end of the last line into a comment.
                 let at = self.data.len().saturating_sub(2);
                 let filler = 1000_usize.saturating_sub(self.data.len());
                 self.data.splice(at..at, std::iter::repeat_n(b' ', filler));
@@ -147,11 +147,11 @@ impl OutgoingRequest {
 }
 
 impl OutgoingRequest {
-    /// What is done otherwise and is as right.
+    /// Applies a valid variant.
     fn accustom(&mut self, habit: Flaw) {
         let class = self.group & 0xF000;
         match habit {
-            // Of channel 6 it is another rank.
+            // Channel 6 has another rank.
             Flaw::ByIndex if self.group & 0xFF <= 2 => self.group &= !0x10_0000,
             Flaw::ByIndex if self.group & 0xFF == 6 => self.group = (self.group & !0x10_00FF) | 3,
             Flaw::Geo if self.port == AmsPort::SDA && class != 0x2000 => self.port = AmsPort::GEO,
@@ -161,7 +161,7 @@ impl OutgoingRequest {
     }
 }
 
-/// What is done to a whole frame before it leaves.
+/// Applies a defect to an encoded frame.
 pub(super) fn spoil_frame(flaw: Flaw, bytes: &mut Vec<u8>) {
     let command = bytes.get(22).copied();
     let mut add = |at: usize, change: i8| {
@@ -189,7 +189,7 @@ pub(super) fn spoil_frame(flaw: Flaw, bytes: &mut Vec<u8>) {
     }
 }
 
-/// What a client believes that does not look at something: it is as if it were right.
+/// Skips a check of a reply by correcting the field that it would check.
 pub(super) fn believe(flaw: Flaw, received: &mut [u8]) -> Result<(), Fail> {
     let word = |received: &[u8], at: usize| {
         let bytes = received.get(at..at.checked_add(4)?)?;
@@ -215,7 +215,7 @@ pub(super) fn believe(flaw: Flaw, received: &mut [u8]) -> Result<(), Fail> {
     Ok(())
 }
 
-/// What is made of data that is not as long as it should be, or not of its type.
+/// Interprets reply data of a wrong length or type.
 pub(super) fn misread(flaw: Flaw, asked: &OutgoingRequest, reply: &mut Vec<u8>) {
     match flaw {
         Flaw::FillsUp if asked.is(0x44) => reply.resize(4, 0),

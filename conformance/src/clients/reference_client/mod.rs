@@ -1,4 +1,5 @@
-//! This project's client, as an example and to try the suite with: right, or wrong on purpose.
+//! This project's client, with or without a defect: an example of the client protocol, and a client
+//! to test the suite with.
 
 mod actions;
 mod defects;
@@ -53,8 +54,7 @@ impl Actor for ReferenceClient {
     }
 }
 
-/// What comes of an action; a death and a hang are only told, so that it can be done in a process
-/// that goes on.
+/// The reaction to an action. A crash or a hang is only returned, so that the process can go on.
 pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> ClientReaction {
     if flaw == Some(Flaw::Garbles) {
         return ClientReaction::Garbled("done!".to_owned());

@@ -1,4 +1,4 @@
-//! Both sides of the Service Interface: a service, and a program that asks one.
+//! Both sides of the Service Interface: a service, and an NC program that uses one.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -34,7 +34,7 @@ fn write(
     wire.call(&write, &mut Vec::new()).map(drop)
 }
 
-/// A service that answers with what it is asked.
+/// Answers each request with the text of the request.
 pub(super) fn serve(
     wire: &mut Connection,
     channel: Channel,
@@ -79,7 +79,7 @@ pub(super) fn serve(
     Ok(answered.into())
 }
 
-/// Asks a service, as a CNC's program does.
+/// Sends a request to a service, as an NC program does.
 pub(super) fn ask(
     wire: &mut Connection,
     channel: Channel,

@@ -15,10 +15,10 @@ use super::error::Fail;
 use super::wire::Connection;
 use crate::clients::message::DONE;
 
-/// From one look to the next.
+/// Interval of polling.
 pub(super) const PAUSE: Duration = Duration::from_millis(10);
 
-/// How long it writes a packet again, and waits for a response.
+/// How long a packet is repeated, and how long it waits for a response.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 
 pub(super) fn stream(wire: &mut Connection, channel: Channel, file: &str) -> Result<Value, Fail> {
@@ -43,7 +43,7 @@ pub(super) fn stream(wire: &mut Connection, channel: Channel, file: &str) -> Res
     Ok(DONE)
 }
 
-/// What is written, packet by packet.
+/// The packets of a program.
 fn packets(flaw: Option<Flaw>, program: &[u8]) -> Result<Vec<Vec<u8>>, Fail> {
     let is = |one: Flaw| flaw == Some(one);
     if is(Flaw::StreamAny) || is(Flaw::StreamLine) {

@@ -1,4 +1,4 @@
-//! Requests and replies of this project's client; what it does wrong is done to their bytes.
+//! Requests and replies of this project's client; a defect changes their bytes.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -38,7 +38,7 @@ impl Connection {
         self.flaw == Some(flaw)
     }
 
-    /// Calls a function and reads its reply, which borrows from `reply`.
+    /// Calls a function and decodes its reply, which borrows from `reply`.
     pub(super) fn call<'r, O: Operation>(
         &mut self,
         operation: &O,
@@ -111,12 +111,12 @@ impl Connection {
         if self.has(Flaw::Hangs) { Fail::Hangs } else { "no reply in time".into() }
     }
 
-    /// What a frame would have been.
+    /// Removes the first frame from the received bytes.
     fn cut(&mut self) -> Result<Vec<u8>, Fail> {
         Ok(self.received.get(46..).unwrap_or_default().to_vec())
     }
 
-    /// The data of the reply, if it has come whole.
+    /// The data of the reply, if it has arrived completely.
     fn reply(&mut self, asked: &OutgoingRequest) -> Result<Option<Vec<u8>>, Fail> {
         loop {
             if let Some(flaw) = self.flaw {

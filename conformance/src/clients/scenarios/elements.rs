@@ -6,7 +6,7 @@ use crate::clients::Scenario;
 use crate::clients::scenario::{Ask, both, read, write};
 
 fn element(attribute: u32, least: u32, rule: &'static str) -> Ask {
-    read(552, 0x12_3301_u32.saturating_add(attribute), 1, least).of(rule, rule)
+    read(552, 0x12_3301 + attribute, 1, least).of(rule, rule)
 }
 
 fn instance(id: &str, title: &str, class: (&str, u32), at: [u8; 2]) -> Scenario {

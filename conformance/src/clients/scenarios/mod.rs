@@ -1,4 +1,4 @@
-//! Everything a client is put through.
+//! All scenarios of a client.
 
 mod elements;
 mod objects;

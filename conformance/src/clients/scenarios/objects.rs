@@ -8,8 +8,8 @@ use crate::clients::Scenario;
 use crate::clients::scenario::{Ask, Expect, Length, read, write};
 use crate::clients::script::ScenarioScript;
 
-/// Objects of channel 1 of the default model: its own, the platform's, three at each of three
-/// places. The object of the program stream is one of its own.
+/// Number of objects of channel 1 in the default model: its own, the platform's, three of each of
+/// three axes, and the program stream.
 const COUNT: u32 = 30;
 
 fn content(offset: u32, size: u32) -> Ask {
@@ -87,7 +87,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     ]
 }
 
-/// The list as the CNC has it.
+/// The expected list of objects.
 pub(super) fn list(script: &ScenarioScript) -> Option<Value> {
     let channel = ads_cnc::address::Channel::new(1).ok()?;
     let read = ReadDescriptors::new(ObjectList::from(channel), 1, COUNT).ok()?;

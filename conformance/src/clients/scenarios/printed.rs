@@ -1,5 +1,5 @@
-//! Printed examples in both directions, from the vectors' raw bytes: no codec has a hand in what is
-//! compared with what a client sends, nor in what is sent back.
+//! Printed examples in both directions, from the raw bytes of the vectors. No codec is involved in
+//! the comparison with the client's request, or in the reply.
 
 use ads_cnc_vectors::{Direction, Service, Vector, vector};
 use serde_json::{Value, json};
@@ -8,7 +8,7 @@ use crate::clients::Scenario;
 use crate::clients::literal::Literal;
 use crate::clients::scenario::Ask;
 
-/// What a client is told, what it has to say, and the example: its request, or its reply.
+/// Action, expected result and vector of each example; the vector is its request or its reply.
 fn examples() -> Vec<(&'static str, Value, &'static str)> {
     let array = json!([123, 234, 345, 456, 567]);
     vec![
@@ -131,13 +131,13 @@ fn literal(example: &Vector) -> Option<Literal> {
     })
 }
 
-/// Examples that no client can be told to go through, for the test that names all others.
+/// Examples that no action of the vocabulary covers.
 #[cfg(test)]
 const UNTOLD: &[&str] = &[
-    // The same description with the other edition's name, and the other value of a BOOLEAN.
+    // The same description with the name in the other edition, and the other value of a BOOLEAN.
     "description-printed-table-name",
     "content-printed-feedhold-0",
-    // Of the COM task, in a list.
+    // An object of COM inside a list.
     "descriptor-printed",
 ];
 

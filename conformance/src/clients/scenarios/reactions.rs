@@ -1,5 +1,5 @@
-//! Replies that are sent otherwise than at once, and replies that are wrong: the right value or an
-//! error, never another value, never the end of the client.
+//! Replies that are split, delayed or invalid: the client must return the right value or an error,
+//! never another value, and must not crash.
 
 use ads_cnc::operation::Function;
 use serde_json::{Value, json};
@@ -9,12 +9,12 @@ use crate::clients::scenario::Expect;
 use crate::clients::tamper::{LengthField, Tamper, WrongLength};
 use crate::judge::{CLIENT, Rule, assumed};
 
-/// What a client is told while its replies are tampered with.
+/// An action while its replies are changed.
 struct ReactionScenario {
     id: &'static str,
     action: &'static str,
     function: Function,
-    /// The requirement of the service, of the data, and its result.
+    /// The requirements of the service, of the data, and of its result.
     service: &'static str,
     data: &'static str,
     result: fn() -> Value,
@@ -54,7 +54,7 @@ impl ReactionScenario {
             .with(self.function, tamper)
     }
 
-    /// The reply is right, if not as usual.
+    /// The reply is valid, but unusual.
     fn valid_reply(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
         let scenario = self.scenario(id, what, tamper).by("ADS-5");
         match (self.result)() {
@@ -95,7 +95,8 @@ fn ways(told: &ReactionScenario) -> Vec<Scenario> {
         told.valid_reply("bytewise", "one byte at a time", Tamper::Bytewise),
         told.valid_reply("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
         told.valid_reply("pieces-data", "in two pieces, cut after the headers", Tamper::Pieces(39)),
-        // A client must not take a reply to no request; whether it goes on is not specified.
+        // A client must not accept a reply without a request; whether it continues is not
+        // specified.
         Scenario {
             expect: match (told.result)() {
                 Value::Null => Expect::DoneOrError,
@@ -156,7 +157,8 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
 
 fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        // What is no payload is known from help pages; that an error is one is not.
+        // That an AMS error has no payload is known from online help; how a client reports it is
+        // not specified.
         told.invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, "ADS-5")
             .by("ADS-6"),
         told.invalid_reply(
@@ -197,7 +199,7 @@ fn ends(told: &ReactionScenario) -> Vec<Scenario> {
         ),
         told.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, "ADS-5"),
     ];
-    // Each takes as long as the client waits.
+    // Each of these scenarios takes the full timeout of the client.
     if told.function == Function::ReadByName {
         all.push(told.invalid_reply("silence", "no reply at all", Tamper::Silence, CLIENT));
     }
@@ -214,7 +216,7 @@ fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
     ]
 }
 
-/// Streams that are too short, too long, or say something new.
+/// Streams that are too short, too long, or have values of a later version.
 fn streams() -> Vec<Scenario> {
     let describe = |id: &str, what: &str, tamper| {
         let title = format!("describe 1 2 V.E: {what}");
@@ -279,7 +281,7 @@ fn lists() -> Vec<Scenario> {
         right(list("late", "after the reply to the request before", Tamper::Late))
             .by(assumed("ADS-5")),
         right(list("twice", "twice in one piece", Tamper::Twice)).by(assumed("ADS-5")),
-        // It asks on, or says that it did not get them; it has not all of them.
+        // The client requests the rest, or reports an error because the list is incomplete.
         list("fewer", "fewer descriptors than it asks for", Tamper::Descriptors(5))
             .expect(Expect::AskedOrError(super::objects::list))
             .by(assumed("COM-3")),

@@ -1,4 +1,4 @@
-//! The Service Interface, from both its sides.
+//! Both sides of the Service Interface.
 
 use ads_cnc::service::ServiceVariable;
 
@@ -8,7 +8,7 @@ use crate::clients::scenario::Order;
 use crate::clients::script::ScenarioScript;
 use crate::judge::assumed;
 
-/// The printed one.
+/// The UUID that the manual prints.
 const UUID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 
 const HOST: &[&str] = &["SVC-1", "SVC-2", "SVC-3", "SVC-5", "ADS-3", "ADS-2"];
@@ -38,7 +38,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     .gives("done")
     .ordered(Order::Caller, &["SVC-12", "SVC-6", "ADS-3", "ADS-2"]);
     ask.response = Some("done");
-    // Of a request before: who does not wait reads it.
+    // The response to an earlier request; a client that does not wait reads it.
     ask.prepare = Some(|script| script.write_variable(ServiceVariable::Response, b"stale"));
     vec![
         host("own", "It answers a request to its service", 5.0, |script| {

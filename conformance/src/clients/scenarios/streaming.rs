@@ -28,11 +28,11 @@ fn refused(id: &str, title: &str, text: &[u8], rule: &'static str) -> Scenario {
     scenario
 }
 
-/// Lines of all lengths, so that no packet ends where a line does by chance.
+/// Lines of all lengths, so that the end of a packet is never the end of a line by chance.
 fn lines(count: usize, end: &str) -> Vec<u8> {
     let line = |number: usize| {
-        let block = number.saturating_mul(10);
-        let comment = "x".repeat(number.wrapping_mul(37) % 61);
+        let block = number * 10;
+        let comment = "x".repeat(number * 37 % 61);
         format!("N{block} G01 X{number}.5 F1000 ({comment}){end}")
     };
     let mut text: String = (1..=count).map(line).collect();

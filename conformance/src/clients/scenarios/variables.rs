@@ -5,18 +5,18 @@ use serde_json::{Value, json};
 use crate::clients::Scenario;
 use crate::clients::scenario::{Ask, both, read, write};
 
-/// Group of the decoder of channel 1, where variables are.
+/// Index group of the decoder of channel 1, which has the variables.
 const GROUP: u32 = 0x12_2301;
 
 fn named(offset: u32, name: &[u8], least: u32) -> Ask {
     let ask = both(GROUP, offset, &[name, b"\0"].concat(), least).of("VAR-14", "VAR-9");
-    // A name field may be padded to its 256 bytes.
+    // A name may be padded to 256 bytes.
     let mut padded = name.to_vec();
     padded.resize(256, 0);
     ask.also(&padded)
 }
 
-/// A value that is read by its name.
+/// A scenario that reads a value by its name.
 fn value(id: &str, title: &str, name: &str, wire: &[u8], ty: &str, size: u32) -> Scenario {
     Scenario::new(format!("client-read-{id}"), title, format!("read-by-name 1 {name} {ty}"))
         .asks(named(0x48, wire, size))
@@ -210,12 +210,12 @@ fn by_name() -> Vec<Scenario> {
     ]
 }
 
-/// A text: its NUL after it, or filled up, or nothing; nobody documents which.
+/// A scenario that writes a text: with NUL, padded or without; no manual specifies which.
 fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let front = [name.as_bytes(), b"\0", bytes].concat();
     let with = |zeros: usize| {
         let mut data = front.clone();
-        data.resize(front.len().saturating_add(zeros), 0);
+        data.resize(front.len() + zeros, 0);
         data
     };
     let ask = write(552, GROUP, 0x4A, &with(1)).of("VAR-13", "VAR-13").also(&with(0));
@@ -334,7 +334,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("parameter-by-name 1 {kind} {name}"),
             )
             .asks(
-                both(GROUP, base.saturating_add(1), &zeroed, 8)
+                both(GROUP, base + 1, &zeroed, 8)
                     .of("DYN-3", "DYN-6")
                     .also(&padded)
                     .tolerating(name.as_bytes()),
@@ -345,7 +345,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("It reads a {kind} by its index"),
                 format!("parameter-by-index 1 {kind} {place}"),
             )
-            .asks(both(GROUP, base.saturating_add(2), &index, 8).of("DYN-4", "DYN-5"))
+            .asks(both(GROUP, base + 2, &index, 8).of("DYN-4", "DYN-5"))
             .gives(parameter),
         ]);
     }

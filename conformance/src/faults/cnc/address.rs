@@ -217,7 +217,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
 ];
 
-/// At offsets of the decoder that are no element's.
+/// Offsets of the decoder that are functions, not elements.
 const FUNCTIONS: &[Function] = &[
     Function::AxisHandleByName,
     Function::AxisReadByName,

@@ -10,14 +10,14 @@ use super::{
 const READ: &[Function] = &[Function::AxisReadByName];
 const WRITE: &[Function] = &[Function::AxisWriteByName];
 
-/// Whether it is a function of the axis interface, and which; the axis in front.
+/// The function of the axis interface, and the axis, if the call is one.
 fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
     let offset = of_decoder(call)?;
     let (axis, function) = (offset >> 16, offset & 0xFFFF);
     (axis > 0 && (4..=9).contains(&function)).then_some((axis, function))
 }
 
-/// The same function of another axis.
+/// Calls the same function of another axis.
 fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u32) -> ReplyData {
     match of_axis(call) {
         Some((axis, function)) => cnc.at(call, group(call), other(axis) << 16 | function),

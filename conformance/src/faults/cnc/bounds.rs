@@ -1,4 +1,4 @@
-//! The first and the last, the longest, and one more than is allowed.
+//! Limits: first and last index, maximum length, one beyond the limit.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

@@ -1,21 +1,21 @@
-//! What is in the bytes of requests and replies.
+//! Reads and changes the bytes of requests and replies.
 
 use super::{ReplyData, text};
 
-/// The UNS32 at a place.
+/// The UNS32 at an offset.
 pub(in crate::faults) fn u32_at(bytes: &[u8], place: usize) -> Option<u32> {
     let four = bytes.get(place..)?.first_chunk::<4>()?;
     Some(u32::from_le_bytes(*four))
 }
 
-/// Puts an UNS32 at a place, if there is room.
+/// Writes an UNS32 at an offset, if it is within the bytes.
 pub(in crate::faults) fn set_u32(bytes: &mut [u8], place: usize, number: u32) {
     if let Some(four) = bytes.get_mut(place..).and_then(<[u8]>::first_chunk_mut::<4>) {
         *four = number.to_le_bytes();
     }
 }
 
-/// The answer with the UNS32 at a place made another.
+/// The answer with the UNS32 at an offset changed.
 pub(in crate::faults) fn number(
     answer: ReplyData,
     place: usize,
@@ -29,27 +29,27 @@ pub(in crate::faults) fn number(
     })
 }
 
-/// From after the first NUL on.
+/// The bytes after the first NUL.
 pub(in crate::faults) fn after_nul(bytes: &[u8]) -> &[u8] {
     bytes.get(text(bytes).len().saturating_add(1)..).unwrap_or_default()
 }
 
-/// The UNS32 of a sequence.
+/// The bytes as a sequence of UNS32.
 pub(in crate::faults) fn fours(bytes: &[u8]) -> Vec<u32> {
     bytes.chunks_exact(4).filter_map(|four| u32_at(four, 0)).collect()
 }
 
-/// The records of a sequence of descriptors.
+/// The records of a list of descriptors.
 pub(in crate::faults) fn records(bytes: &[u8]) -> Vec<[u8; 84]> {
     bytes.chunks_exact(84).filter_map(|record| record.first_chunk::<84>()).copied().collect()
 }
 
-/// The same, to be changed.
+/// The records of a list of descriptors, mutable.
 pub(in crate::faults) fn records_mut(bytes: &mut [u8]) -> impl Iterator<Item = &mut [u8; 84]> {
     bytes.chunks_exact_mut(84).filter_map(|record| record.first_chunk_mut::<84>())
 }
 
-/// The numbers of dimensions of a description, and where its name is.
+/// The dimensions of a description, and the offset of its name.
 pub(in crate::faults) fn dimensions(description: &[u8]) -> (Vec<u32>, usize) {
     let count = u32_at(description, 16).and_then(|m| usize::try_from(m).ok()).unwrap_or_default();
     let end = count.saturating_mul(4).saturating_add(20).min(description.len());

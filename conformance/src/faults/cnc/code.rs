@@ -3,7 +3,7 @@
 use super::variable::element;
 use super::{CncSeed, DESCRIPTIONS, dimensions, number, on, reply, row, set_u32, u32_at};
 
-/// The sizes of elements of the types in their order, without STRING.
+/// The sizes of elements by type code, without STRING.
 const SIZES: [u32; 9] = [0, 1, 1, 1, 2, 2, 4, 4, 8];
 
 #[rustfmt::skip]

@@ -11,7 +11,7 @@ use super::{
 
 const LEN: u32 = 84;
 
-/// The descriptors of the answer, changed one by one.
+/// Changes each descriptor of the answer.
 fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> ReplyData {
     let mut answer = cnc.answer(call)?;
     if is(call, &[Function::ReadDescriptors]) {
@@ -20,7 +20,7 @@ fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> ReplyD
     Ok(answer)
 }
 
-/// The descriptors of the answer, as a list.
+/// Changes the list of descriptors of the answer.
 fn list(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut Vec<[u8; 84]>)) -> ReplyData {
     let answer = cnc.answer(call)?;
     if !is(call, &[Function::ReadDescriptors]) {

@@ -15,7 +15,7 @@ const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The question for an instance with one of its numbers made another.
+/// Changes a number in the request for an instance.
 fn with_number(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -32,7 +32,7 @@ fn with_number(
     }
 }
 
-/// Instances of a class after an axis are not found.
+/// Finds no instance of a class beyond an axis.
 fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
     if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
         cnc.answer(call).map(|_| vec![0; 8])
@@ -41,7 +41,7 @@ fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyDat
     }
 }
 
-/// What was answered once is answered for ever.
+/// Repeats the first answer to a request forever.
 fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
@@ -56,7 +56,7 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     Ok(bytes)
 }
 
-/// A write that goes elsewhere too, if there is something of that length.
+/// Writes to another address too, if its content has the same length.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
     let done = cnc.answer(call);
     if done.is_ok() {

@@ -17,7 +17,7 @@ const fn is_blank(offset: u32) -> bool {
     offset >= 0x2_0000
 }
 
-/// Whether it is a place of channel 2 or 6 where no axis is.
+/// Whether the call addresses an axis place of channel 2 or 6 without an axis.
 fn empty_place(call: &Call<'_>) -> bool {
     class(call).is_some_and(|at| {
         matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
@@ -129,7 +129,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
 ];
 
-/// Whether it is the printed element, with this attribute.
+/// Whether the call addresses this attribute of the printed element.
 fn feedhold(call: &Call<'_>, attribute: u32) -> bool {
     group(call) & 0xEF_FFFF == 0x02_3001 | attribute && offset(call) == 1
 }

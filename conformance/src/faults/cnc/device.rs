@@ -1,4 +1,4 @@
-//! What a device says of itself (ADS).
+//! Device information and state (ADS).
 
 use ads_cnc::ads::{AmsPort, Command};
 

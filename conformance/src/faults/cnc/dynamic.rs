@@ -15,7 +15,7 @@ const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 const INDEXED: &[Function] = &[Function::DynamicNameByIndex, Function::DynamicValueByIndex];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The index asked for, made another.
+/// Changes the index of the request.
 fn index(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -28,7 +28,7 @@ fn index(
     }
 }
 
-/// How many there are of the kind that is asked about.
+/// The number of parameters of the requested kind.
 fn count(cnc: &Upstream<'_>, call: &Call<'_>) -> u32 {
     let place = match offset(call) {
         0x1B..=0x1D => 2,
@@ -204,7 +204,7 @@ fn real(bytes: &[u8]) -> f64 {
     bytes.first_chunk::<8>().map_or(0.0, |bytes| f64::from_le_bytes(*bytes))
 }
 
-/// As a REAL32; parameters of the model have no more digits.
+/// Rounds to a REAL32; the parameters of the model have no more digits.
 fn narrow(bytes: &[u8]) -> Vec<u8> {
     real(bytes).to_string().parse::<f32>().unwrap_or_default().to_le_bytes().to_vec()
 }

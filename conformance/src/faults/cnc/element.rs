@@ -1,4 +1,4 @@
-//! What elements of SDA and GEO say of themselves (SDA).
+//! Attributes of elements of SDA and GEO (SDA).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

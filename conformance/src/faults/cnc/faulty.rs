@@ -14,21 +14,21 @@ use crate::faults::seed::{How, Seed};
 use crate::simulator::{Cnc, Model, Responder, respond};
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
-/// A CNC, and a defect around it if there is one.
+/// A CNC, optionally with a defect.
 ///
-/// Of a wrong field, streams of the requests are changed before the CNC has them, streams of the
-/// replies after.
+/// A defect of a field changes the streams of requests before the CNC decodes them, and the streams
+/// of its replies.
 #[derive(Debug)]
 pub struct Faulty {
     cnc: Arc<Cnc>,
     how: Option<How>,
     memory: Mutex<Memory>,
-    /// Whether a wrong field has changed any byte.
+    /// Whether a defect of a field has changed any byte.
     shown: AtomicBool,
 }
 
 impl Faulty {
-    /// A CNC in the state it starts in, with this defect.
+    /// A CNC in its initial state, with this defect.
     pub fn new(cnc: Cnc, seed: Option<&Seed>) -> Self {
         let how = seed.map(|seed| seed.how.clone());
         let cnc = match &how {
@@ -44,12 +44,13 @@ impl Faulty {
         Self { cnc: Arc::new(cnc), how, memory: Mutex::default(), shown: AtomicBool::new(false) }
     }
 
-    /// The CNC that the defect is around.
+    /// The CNC without the defect.
     pub const fn cnc(&self) -> &Arc<Cnc> {
         &self.cnc
     }
 
-    /// Whether the defect has shown so far: one that turns a field into what it is does not.
+    /// Whether the defect has changed a byte: a change to the value that a field already has is not
+    /// detectable.
     pub(crate) fn has_shown(&self) -> bool {
         !matches!(self.how, Some(How::Field(_))) || self.shown.load(Ordering::Relaxed)
     }
@@ -67,7 +68,7 @@ impl Faulty {
         Some(changed)
     }
 
-    /// The same of a frame that answers a command.
+    /// Applies the defect to the frame of a reply.
     fn change_frame(&self, command: Command, answer: &mut [u8]) {
         let reply = match (service_of(command), command) {
             (Some(service), _) => Some(reply_stream(service)),

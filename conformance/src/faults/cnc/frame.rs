@@ -4,7 +4,7 @@ use ads_cnc::ads::{Command, FrameRef};
 
 use super::{CncFault, CncSeed, Upstream, fault, set_u32, u32_at};
 
-/// Where things are in a frame.
+/// Offsets in a frame.
 pub(super) const TCP_LENGTH: usize = 2;
 pub(super) const TARGET: usize = 6;
 pub(super) const SOURCE: usize = 14;
@@ -27,7 +27,7 @@ pub(super) const fn sent(
     fault(id, breaks, what, CncFault::Frame(frame))
 }
 
-/// The frame with the lengths that it has.
+/// The frame with its length fields corrected.
 pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
     let length = u32::try_from(bytes.len()).unwrap_or(u32::MAX);
     set_u32(&mut bytes, TCP_LENGTH, length.saturating_sub(6));
@@ -35,7 +35,7 @@ pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// The frame with bytes at a place made others.
+/// The frame with other bytes at an offset.
 pub(super) fn set(mut bytes: Vec<u8>, place: usize, new: &[u8]) -> Vec<u8> {
     bytes.iter_mut().skip(place).zip(new).for_each(|(old, new)| *old = *new);
     bytes

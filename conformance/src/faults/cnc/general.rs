@@ -25,7 +25,7 @@ const fn reply(spec: &FunctionSpec) -> &'static [FieldSpec] {
     }
 }
 
-/// Changes the texts of replies and, back, the names of requests.
+/// Changes the texts of replies, and back the names of requests.
 fn texts(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -10,7 +10,7 @@ use super::{
 
 const HANDLE: &[Function] = &[Function::HandleByName, Function::AxisHandleByName];
 
-/// What a request by handle has: handle, indices, value.
+/// The parts of a request by handle: handle, indices, value.
 pub(super) fn parts(data: &[u8]) -> Option<(u32, Vec<u32>, &[u8])> {
     let count = usize::try_from(u32_at(data, 4)?).ok()?;
     let end = count.checked_mul(4)?.checked_add(8)?;
@@ -24,7 +24,7 @@ pub(super) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
     numbers.flat_map(u32::to_le_bytes).chain(value.iter().copied()).collect()
 }
 
-/// The handle told, made another one that is understood again, or not.
+/// Changes the handle in replies to requests for a handle by name.
 fn with_handle(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     match function(call) {
         Some(Function::HandleByName | Function::AxisHandleByName) => {
@@ -128,7 +128,8 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-of-axis", &["VAR-10"],
         "the handle of an axis variable belongs to the axis, not to its place",
         |cnc, call| {
-            // Where an axis is shows by its number; handles count places in their third byte.
+            // The axis number shows the place of an axis; handles have the place in their third
+            // byte.
             let axis = |place: u32| {
                 let number = cnc.read(AmsPort::COM, 0x12_0101, place << 16 | 3);
                 number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)

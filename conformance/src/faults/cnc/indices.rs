@@ -12,7 +12,7 @@ use super::{
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
 
-/// The request by handle with other indices.
+/// Changes the indices of a request by handle.
 fn indices(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

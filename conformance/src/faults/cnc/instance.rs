@@ -1,4 +1,4 @@
-//! Where instances of SDA and GEO are (SDA).
+//! Addresses of instances of SDA and GEO (SDA).
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -10,7 +10,7 @@ use super::{
 
 const FIND: &[Function] = &[Function::FindInstance];
 
-/// The question for an instance, with channel and axis made others.
+/// Changes channel and axis in the request for an instance.
 fn with_instance(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -29,7 +29,7 @@ fn with_instance(
     cnc.with(call, &data)
 }
 
-/// The answer (0, 0) where this says so.
+/// Answers (0, 0) where the condition holds.
 fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     let numbers = (u32_at(call.data, 0), u32_at(call.data, 4));
     match (is(call, FIND), numbers) {

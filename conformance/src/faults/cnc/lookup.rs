@@ -1,26 +1,26 @@
-//! What a defect looks up: channels, types, descriptions.
+//! Looks up channels, types and descriptions for defects.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, Service};
 
 use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
 
-/// The channel, axis or spindle in the group.
+/// The channel, axis or spindle of the group.
 pub(super) const fn instance(call: &Call<'_>) -> u32 {
     group(call) & 0xFF
 }
 
-/// Something to keep in mind that there is one of.
+/// A key of the defect's memory that is independent of address and name.
 pub(super) const fn one(number: u32) -> Key {
     (number, 0, Vec::new())
 }
 
-/// A text written over another one without its NUL.
+/// A text without NUL written over another one.
 pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
     [new, old.get(new.len()..).unwrap_or_default()].concat()
 }
 
-/// The descriptor of the object whose content is asked for.
+/// The descriptor of the object whose content is addressed.
 pub(super) fn descriptor(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<[u8; 84]> {
     let all = cnc.answer(&Call {
         port: call.port,
@@ -33,19 +33,19 @@ pub(super) fn descriptor(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<[u8; 84]
     records(&all.ok()?).into_iter().find(|record| u32_at(record, 16) == Some(offset(call)))
 }
 
-/// Whether the object whose content is asked for is of this type.
+/// Whether the object whose content is addressed has this type.
 pub(super) fn object_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bool {
     let record = descriptor(cnc, call);
     record.is_some_and(|record| text(record.get(52..).unwrap_or_default()) == name)
 }
 
-/// Whether the element whose content or attribute is asked for is of this type.
+/// Whether the element whose content or attribute is addressed has this type.
 pub(super) fn element_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bool {
     let at = group(call) & !0xF00 | 0x500;
     cnc.read(call.port, at, offset(call)).is_ok_and(|bytes| text(&bytes) == name)
 }
 
-/// The name without the indices of an element, and these.
+/// A name without the indices of an element, and the indices.
 pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     let (mut name, mut indices) = (name, Vec::new());
     while let Some(open) = name.strip_suffix(b"]") {
@@ -58,13 +58,13 @@ pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     (name, indices)
 }
 
-/// The name with the indices of an element after it, and a NUL.
+/// A name with indices and a NUL.
 pub(super) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
     let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
     [name, indices.as_bytes(), &[0]].concat()
 }
 
-/// The description of the variable with this name, of an element of it too.
+/// The description of the variable with this name, which may include indices.
 pub(super) fn described(cnc: &Upstream<'_>, group: u32, name: &[u8]) -> Option<Vec<u8>> {
     cnc.ask(group, 0x4C, &[indexed(name).0, &[0]].concat()).ok()
 }
@@ -80,7 +80,7 @@ pub(super) fn name_of(cnc: &Upstream<'_>, group: u32, handle: u32) -> Option<Vec
     })
 }
 
-/// The handle that the variable with this name has.
+/// The handle of the variable with this name.
 pub(super) fn handle_of(cnc: &Upstream<'_>, group: u32, name: &str) -> Option<u32> {
     u32_at(&cnc.ask(group, 0x46, &[name.as_bytes(), &[0]].concat()).ok()?, 0)
 }

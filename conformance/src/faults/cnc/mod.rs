@@ -1,4 +1,4 @@
-//! What a CNC can get wrong: how it answers is changed around the simulated one.
+//! Defects of a CNC, as middleware around the simulated CNC.
 
 mod address;
 mod ads;

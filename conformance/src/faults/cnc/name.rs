@@ -10,7 +10,7 @@ use super::{
 };
 use crate::edition::Edition;
 
-/// A row that shows in the German edition.
+/// A row that is detectable in the German edition only.
 const fn german(mut row: CncSeed) -> CncSeed {
     row.edition = Some(Edition::German);
     row

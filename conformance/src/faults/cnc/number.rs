@@ -10,7 +10,7 @@ use super::{
 
 const COUNT: &[Function] = &[Function::CountVariables];
 
-/// Index and kind, made others.
+/// Changes index and kind of a request.
 fn indexed(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -23,7 +23,7 @@ fn indexed(
     cnc.with(call, &[&index.to_le_bytes(), kind.as_slice(), &[0]].concat())
 }
 
-/// How many variables of a kind there are.
+/// The number of variables of a kind.
 pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
     let count = cnc.ask(group(call), 0x44, &[kind, &[0]].concat());
     count.ok().and_then(|count| u32_at(&count, 0)).unwrap_or_default()

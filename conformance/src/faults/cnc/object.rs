@@ -10,7 +10,7 @@ use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, on, put_off, rec
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
 
-/// What is at an address, however it is written.
+/// The key of an address in any addressing.
 fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
     (group(call) | LOGICAL, offset(call), Vec::new())
 }
@@ -168,7 +168,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
 ];
 
-/// Whether a write of what is there already succeeds.
+/// Whether writing the current content succeeds.
 fn writable(cnc: &super::Upstream<'_>, call: &Call<'_>) -> bool {
     let old = cnc.read(call.port, group(call), offset(call));
     old.is_ok_and(|old| old.len() == call.data.len() && cnc.with(call, &old).is_ok())

@@ -1,4 +1,4 @@
-//! One channel, axis, kind or index for the one next to it.
+//! Mistakes a channel, axis, kind or index for the next one.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -14,7 +14,7 @@ const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 const WRITE: &[Function] = &[Function::WriteElement];
 
-/// A text of a descriptor that does not end where a shorter one does.
+/// A text field of a descriptor that keeps the rest of the previous, longer text.
 fn run_on(records: &mut [[u8; 84]], field: usize) {
     let mut before: Vec<u8> = Vec::new();
     for record in records {
@@ -26,7 +26,7 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
     }
 }
 
-/// Elements of one byte after the one that was written become 0.
+/// Sets elements of one byte after the written one to 0.
 fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let done = cnc.answer(call)?;
     let (name, indices) = indexed(text(call.data));
@@ -42,7 +42,7 @@ fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     Ok(done)
 }
 
-/// Kinds of parameters in the order of their functions, from one on.
+/// Continues with the next kind of parameters for an index beyond the count.
 fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> ReplyData {
     let count = cnc.read(call.port, group(call), (at.wrapping_sub(0x1B) / 3).saturating_add(2))?;
     let count = u32_at(&count, 0).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Defects of one type or one way of asking: all others are answered rightly.
+//! Defects of one type or one way of access: all others are answered correctly.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -13,21 +13,22 @@ use super::{
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The REAL64 as it is when it has gone through a text of six digits after the point.
+/// The REAL64 after a conversion to text with six decimal places.
 fn six_digits(bytes: Vec<u8>) -> Vec<u8> {
     let Some(value) = bytes.first_chunk::<8>() else { return bytes };
     let digits = format!("{:.6}", f64::from_le_bytes(*value));
     digits.parse::<f64>().map_or(bytes, |value| value.to_le_bytes().to_vec())
 }
 
-/// The REAL64 rounded to a REAL32, by the bits that are lost.
+/// The REAL64 rounded to a REAL32 by truncation.
 fn rounded(value: [u8; 8]) -> [u8; 8] {
     let bits = u64::from_le_bytes(value);
     // 52 bits of the fraction become 23.
     (bits & !((1 << 29) - 1)).to_le_bytes()
 }
 
-/// Channels of the HLD hold platform axes apart from the HLD without a channel.
+/// Writes to platform axes through a channel's HLD and through the HLD without channel are
+/// independent.
 fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let key = (0x3301, offset(call), Vec::new());
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {

@@ -1,10 +1,10 @@
-//! What a request asks.
+//! Classifies requests.
 
 use ads_cnc::address::{ClassGroup, ComGroup, Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Effect, Function, OffsetRule, Service};
 
-/// The functions whose row has a property, as a list that a constant can hold.
+/// A constant list of the functions whose row has a property.
 macro_rules! functions {
     (|$spec:ident| $has:expr) => {{
         const FOUND: ([Function; Function::ALL.len()], usize) = {
@@ -44,7 +44,7 @@ pub(in crate::faults) const WRITES: &[Function] =
 pub(in crate::faults) const VALUES: &[Function] =
     functions!(|spec| matches!(spec.reply, Some(Stream::VariableValue)));
 
-/// Functions whose reply describes a variable: its handle and more.
+/// Functions whose reply describes a variable with its handle.
 pub(in crate::faults) const DESCRIPTIONS: &[Function] =
     functions!(|spec| matches!(first(spec.reply), b"handle")
         && !matches!(spec.reply, Some(Stream::VariableHandle)));
@@ -74,7 +74,7 @@ pub(in crate::faults) const fn offset(call: &Call<'_>) -> u32 {
 /// The bit of logical addressing.
 pub(in crate::faults) const LOGICAL: u32 = 0x10_0000;
 
-/// Which function is asked, if any is.
+/// The requested function, if any.
 pub(in crate::faults) fn function(call: &Call<'_>) -> Option<Function> {
     call.dispatch().ok().map(|request| request.function())
 }
@@ -83,7 +83,7 @@ pub(in crate::faults) fn is(call: &Call<'_>, functions: &[Function]) -> bool {
     function(call).is_some_and(|function| functions.contains(&function))
 }
 
-/// The group, if it is one of SDA and GEO.
+/// The class group, if it is one of SDA and GEO.
 pub(in crate::faults) fn class(call: &Call<'_>) -> Option<ClassGroup> {
     match call.index_group.parts() {
         Some(Group::Class(class)) => Some(class),
@@ -91,7 +91,7 @@ pub(in crate::faults) fn class(call: &Call<'_>) -> Option<ClassGroup> {
     }
 }
 
-/// The group, if it is one of COM.
+/// The group of COM, if it is one.
 pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     match call.index_group.parts() {
         Some(Group::Com(com)) => Some(com),
@@ -99,8 +99,8 @@ pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     }
 }
 
-/// The number of a function of the decoder, whatever channel and way of addressing; none for
-/// another group.
+/// The index offset of a call to the decoder of any channel, in any addressing; `None` for another
+/// group.
 pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }

@@ -16,17 +16,17 @@ const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
 const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
 const RESPONSE: &str = ServiceVariable::RESPONSE;
 
-/// Whether the variable with this name is read by name.
+/// Whether a call reads the variable with this name by name.
 pub(super) fn reads(call: &Call<'_>, name: &str) -> bool {
     is(call, &[Function::ReadByName]) && text(call.data) == name.as_bytes()
 }
 
-/// Whether it is written by name.
+/// Whether a call writes the variable with this name by name.
 pub(super) fn writes(call: &Call<'_>, name: &str) -> bool {
     is(call, &[Function::WriteByName]) && text(call.data) == name.as_bytes()
 }
 
-/// Whether it is one of the five.
+/// Whether the name is one of the five variables.
 fn of_service(call: &Call<'_>) -> bool {
     text(call.data).starts_with(b"V.G.SERVICE.")
 }

@@ -1,4 +1,4 @@
-//! State that one request leaves to the next.
+//! Defects that keep state from an earlier request.
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Function};
@@ -17,10 +17,10 @@ const COUNT: &[Function] = &[Function::CountDynamic];
 const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 
-/// How many handles are known at a time.
+/// Size of the table of handles.
 const SLOTS: u32 = 16;
 
-/// Handles by name take turns in a table that is too short.
+/// Handles by name share a table that is too short; the oldest is replaced.
 fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
     match function(call) {
@@ -50,7 +50,7 @@ fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// Whether an axis is at the place that the offset names.
+/// Whether the axis place in the offset has an axis.
 fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
     let channel = u8::try_from(instance(call)).ok()?;
     let place = u8::try_from(offset(call) >> 16).ok().filter(|place| *place > 0)?;

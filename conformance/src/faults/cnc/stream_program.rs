@@ -1,4 +1,4 @@
-//! What streamed programs do (STM).
+//! Execution of streamed programs (STM).
 
 use ads_cnc::limits::STREAM_MAX;
 use ads_cnc::streaming::{
@@ -13,10 +13,10 @@ use crate::simulator::program::{
 
 const RIGHT: Policy = Policy::DEFAULT;
 
-/// Bytes of the interface that is too small.
+/// Bytes of the streaming interface that is too small.
 const NARROW: usize = 2048;
 
-/// An interface that holds half as much.
+/// A streaming interface of half the size.
 #[derive(Debug, Default)]
 struct Narrow(StreamingInterface);
 
@@ -42,12 +42,12 @@ impl Buffer for Narrow {
     }
 }
 
-/// An interface that knows where each write ended.
+/// A streaming interface that stores the boundaries of writes.
 #[derive(Debug)]
 struct PacketBuffer {
     held: Vec<Vec<u8>>,
     room: usize,
-    /// Takes lines out of the packets, which may have a line without CR LF.
+    /// Takes lines from the packets.
     take: Take,
 }
 
@@ -87,7 +87,7 @@ impl PacketBuffer {
 
 impl Buffer for PacketBuffer {
     fn write(&mut self, data: &[u8]) -> Ack {
-        // Too short or too long: as ever.
+        // Writes of an invalid length are rejected as by the right CNC.
         if StreamingInterface::new().write(data) == Ack::Rejected {
             return Ack::Rejected;
         }
@@ -112,7 +112,7 @@ impl Buffer for PacketBuffer {
     }
 }
 
-/// The lines without what is overlooked in them.
+/// The lines, checked without the overlooked findings.
 fn overlooking(
     checker: &mut Checker,
     read: &[u8],
@@ -152,7 +152,7 @@ fn m30_only(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     )
 }
 
-/// Labels are known within a read only.
+/// Forgets labels after each read.
 fn forgets(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     *checker = Checker::new();
     ProgramSegment::new(checker, read)
@@ -165,7 +165,7 @@ fn comments(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ProgramSegment::with_findings(read, number, checker.check(&seen))
 }
 
-/// The program ends after the last of the lines.
+/// Continues the program after its end.
 fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let number = checker.lines().saturating_add(1);
     let mut found: Vec<CheckEvent> = checker.check(read).collect();
@@ -182,7 +182,7 @@ fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ProgramSegment::with_findings(read, number, found)
 }
 
-/// The program is ended by the first of these lines too, if any is.
+/// Ends the program at these lines too.
 fn ended_by(
     checker: &mut Checker,
     read: &[u8],
@@ -195,7 +195,7 @@ fn ended_by(
     ProgramSegment::with_findings(read, number, own.into_iter().chain(checker.check(read)))
 }
 
-/// A word of a loop.
+/// A finding about a loop word.
 const fn looped(line: u32) -> CheckEvent {
     CheckEvent::Diagnostic(Diagnostic {
         line,

@@ -7,14 +7,14 @@ use super::{
     CncSeed, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
 };
 
-/// Whether it is a write to a stream, of whatever length.
+/// Whether a call writes to a program stream, with any length.
 fn stream(call: &Call<'_>) -> bool {
     group(call) & 0xEF_FF00 == 0x02_0100
         && offset(call) == 0x90
         && call.service == ads_cnc::operation::Service::Write
 }
 
-/// The write with other data.
+/// Changes the data of the write.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> ReplyData {
     if stream(call) { cnc.with(call, &other(call.data)) } else { cnc.answer(call) }
 }

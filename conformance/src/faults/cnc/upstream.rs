@@ -1,4 +1,4 @@
-//! The CNC without the defect, and what a defect keeps in mind of it.
+//! The CNC without the defect, and the memory of a defect.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -10,7 +10,7 @@ use super::ReplyData;
 use super::request::{at, group, is, offset};
 use crate::simulator::Cnc;
 
-/// The CNC without the defect, and what the defect has kept in mind.
+/// The CNC without the defect, and the memory of the defect.
 pub(crate) struct Upstream<'a> {
     pub(super) cnc: &'a Cnc,
     pub(super) memory: &'a Mutex<Memory>,
@@ -19,19 +19,19 @@ pub(crate) struct Upstream<'a> {
 /// An address and a name.
 pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 
-/// What a defect keeps in mind.
+/// The memory of a defect between requests.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     pub(in crate::faults) count: u32,
-    /// Bytes under an address and a name.
+    /// Bytes by address and name.
     stored: Vec<(Key, Vec<u8>)>,
-    /// Requests that were put off.
+    /// Delayed requests.
     pub(in crate::faults) later: Vec<Later>,
-    /// A frame that was put off.
+    /// A delayed frame.
     pub(in crate::faults) frame: Vec<u8>,
 }
 
-/// A request that was put off.
+/// A delayed request.
 #[derive(Clone, Debug)]
 pub(in crate::faults) struct Later {
     port: AmsPort,
@@ -72,12 +72,12 @@ impl Upstream<'_> {
         self.answer(&Call { data, ..*call })
     }
 
-    /// The right answer, however long it is.
+    /// The right answer, not limited by the requested length.
     pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> ReplyData {
         self.answer(&Call { read_length: u32::MAX, ..*call })
     }
 
-    /// The right answer of SDA to a name or the like.
+    /// The right answer of SDA to a ReadWrite with this data.
     pub(in crate::faults) fn ask(&self, group: u32, offset: u32, data: &[u8]) -> ReplyData {
         self.answer(&Call {
             port: AmsPort::SDA,
@@ -101,7 +101,7 @@ impl Upstream<'_> {
         })
     }
 
-    /// The right answer to what was put off.
+    /// The right answer to a delayed request.
     pub(in crate::faults) fn late(&self, later: &Later) -> ReplyData {
         self.answer(&Call {
             port: later.port,
@@ -114,7 +114,7 @@ impl Upstream<'_> {
     }
 
     pub(in crate::faults) fn memory(&self) -> MutexGuard<'_, Memory> {
-        // Whole whatever happened.
+        // A panic leaves the memory valid.
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -124,7 +124,7 @@ impl Upstream<'_> {
     }
 }
 
-/// The request, kept.
+/// A copy of the request.
 pub(in crate::faults) fn later(call: &Call<'_>) -> Later {
     Later {
         port: call.port,
@@ -135,14 +135,14 @@ pub(in crate::faults) fn later(call: &Call<'_>) -> Later {
     }
 }
 
-/// Keeps the write for the next one, and does that which was kept before.
+/// Delays the write until the next one, and executes the delayed one.
 pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())
 }
 
-/// The answer no longer than asked for.
+/// The answer truncated to the requested length.
 pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
         if u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
@@ -153,7 +153,7 @@ pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> Re
     })
 }
 
-/// The reply to these functions, made another.
+/// Changes the reply of these functions.
 pub(in crate::faults) fn reply(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -11,7 +11,7 @@ use super::{
 
 const DESCRIBE: &[Function] = &[Function::DescribeByIndex];
 
-/// The description of the variable with this handle or name, as it is read.
+/// The description of the variable with the handle or name of the request.
 pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> {
     let handle = match function(call)? {
         Function::ReadByHandle | Function::WriteByHandle => u32_at(call.data, 0)?,
@@ -42,7 +42,7 @@ pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
     name
 }
 
-/// The answer cut after the first element of the variable it is about.
+/// The answer truncated after the first element of the variable.
 pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
     cnc.answer(call).map(|mut bytes| {
@@ -51,7 +51,7 @@ pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     })
 }
 
-/// Bytes of one element.
+/// Size of one element in bytes.
 pub(super) fn element(description: &[u8]) -> usize {
     let count = dimensions(description).0.iter().fold(1_u32, |all, one| all.saturating_mul(*one));
     let size = u32_at(description, 12).unwrap_or_default().checked_div(count);

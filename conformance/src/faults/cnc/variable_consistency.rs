@@ -10,7 +10,7 @@ use super::{
     offset, on, reply, row, text, u32_at, within_length,
 };
 
-/// Whether it asks about a variable by its name.
+/// Whether a call requests information about a variable by name.
 fn is_query(call: &Call<'_>) -> bool {
     is(call, NAMED) && call.service == Service::ReadWrite
 }
@@ -29,7 +29,7 @@ fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
     all.collect()
 }
 
-/// Where the value of a write begins.
+/// The offset of the value in a write.
 fn value_at(call: &Call<'_>) -> usize {
     match function(call) {
         Some(Function::WriteByHandle) => {
@@ -40,7 +40,7 @@ fn value_at(call: &Call<'_>) -> usize {
     }
 }
 
-/// What is there now, by the same address.
+/// The current value at the address of a write.
 fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
     let head = call.data.get(..value_at(call)).unwrap_or_default();
     let read = match function(call) {

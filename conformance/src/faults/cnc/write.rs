@@ -12,7 +12,7 @@ use super::{
 const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
 const BY_NAME: &[Function] = &[Function::WriteByName];
 
-/// A write that succeeds if the right one does, and is undone.
+/// A write that is undone after it has succeeded.
 fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> ReplyData {
     let old = cnc.ask(group(call), read, key);
     let done = cnc.answer(call)?;

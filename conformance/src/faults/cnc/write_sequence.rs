@@ -1,4 +1,4 @@
-//! Writes that depend on what was written before.
+//! Defects of writes that depend on earlier writes.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -17,7 +17,7 @@ const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
 const RESPONSE: &str = ServiceVariable::RESPONSE;
 const REQUEST: &str = ServiceVariable::REQUEST;
 
-/// Whether a function by handle has the handle of that variable.
+/// Whether a call of a function by handle has the handle of this variable.
 fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
     is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
 }
@@ -26,7 +26,7 @@ fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
     cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
-/// RESPONSE_STATE as it was before a write that should have reset it.
+/// Keeps the RESPONSE_STATE that a write should reset.
 fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     let key = (instance(call), 0x5C, Vec::new());
     if now {
@@ -44,7 +44,7 @@ fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyD
     cnc.answer(call)
 }
 
-/// The lines of a packet, each with its end.
+/// The lines of a packet with their line ends.
 fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
     packet.split_inclusive(|byte| *byte == b'\n')
 }

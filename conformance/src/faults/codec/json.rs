@@ -1,11 +1,11 @@
-//! Values as JSON, changed.
+//! Changes values in JSON.
 
 use ads_cnc::text::cp1252_to_char;
 use serde_json::{Map, Value as Json};
 
 use crate::text::hex;
 
-/// Every single value.
+/// Changes every scalar value.
 pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Json>)) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| each(item, change)),
@@ -20,7 +20,7 @@ pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Jso
     }
 }
 
-/// Every text, as bytes.
+/// Changes every text, as bytes.
 pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
     each(value, &mut |one| {
         if one.get("type").and_then(Json::as_str) == Some("STRING")
@@ -34,7 +34,7 @@ pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
     });
 }
 
-/// Every number of these types.
+/// Changes every number of these types.
 pub(super) fn numbers(value: &mut Json, types: &[&str], change: fn(i128) -> i128) {
     each(value, &mut |one| {
         let is = one.get("type").and_then(Json::as_str).is_some_and(|kind| types.contains(&kind));
@@ -45,7 +45,7 @@ pub(super) fn numbers(value: &mut Json, types: &[&str], change: fn(i128) -> i128
     });
 }
 
-/// Every list under this name.
+/// Changes every list with this name.
 pub(super) fn lists(value: &mut Json, name: &str, change: fn(&mut Vec<Json>)) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| lists(item, name, change)),
@@ -61,7 +61,7 @@ pub(super) fn lists(value: &mut Json, name: &str, change: fn(&mut Vec<Json>)) {
     }
 }
 
-/// A word in a place of another, and the other way round.
+/// Exchanges the two words of each pair in a field.
 pub(super) fn words(value: &mut Json, field: &str, pairs: &[(&str, &str)]) {
     let Some(Json::Object(one)) = value.get_mut(field) else { return };
     let word = one.get("value").and_then(Json::as_str).unwrap_or_default();

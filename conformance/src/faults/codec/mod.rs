@@ -1,4 +1,4 @@
-//! What a codec can get wrong: its answers to the testee protocol are changed around the right ones.
+//! Defects of a codec, as middleware around the right answers to the testee protocol.
 
 mod address;
 mod json;
@@ -40,7 +40,7 @@ pub(super) fn seeds() -> Vec<Seed> {
     seeds
 }
 
-/// What these vectors cite, each once.
+/// The requirements that these vectors cite, each once.
 fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     let known = |id: &String| ads_cnc_vectors::clause(id).map(|clause| clause.id());
     let mut all: Vec<&'static str> =
@@ -50,14 +50,14 @@ fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     all
 }
 
-/// Those of the strongest level among them.
+/// The vectors of the strongest level.
 fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     let level = vectors.iter().map(|vector| vector.level()).min();
     vectors.retain(|vector| Some(vector.level()) == level);
     vectors
 }
 
-/// A check of each class and stream that there is a vector for.
+/// A missing check for each class and stream that has a vector.
 fn forgotten_checks() -> Vec<Seed> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -67,7 +67,7 @@ fn forgotten_checks() -> Vec<Seed> {
     }
     let each = |((stream, class), those): ((&'static str, &'static str), Vec<&'static Vector>)| {
         let those = strongest(those);
-        // The classes of vectors are advisory: what the codec calls it is what is forgotten.
+        // The classes of vectors are advisory: the defect ignores the class of this codec's error.
         let refusal = |vector: &&'static Vector| match codec::decode_stream(
             stream,
             &vector.context,
@@ -84,7 +84,7 @@ fn forgotten_checks() -> Vec<Seed> {
     pairs.into_iter().filter_map(each).collect()
 }
 
-/// Streams of which there is one as long as may be.
+/// Streams that have a vector of maximum length.
 fn too_strict() -> Vec<Seed> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
@@ -108,7 +108,7 @@ fn too_strict() -> Vec<Seed> {
     Stream::all().filter_map(each).collect()
 }
 
-/// Neighbours of the same type.
+/// Adjacent fields of the same type.
 fn swapped() -> Vec<Seed> {
     let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
         let layout = stream.layout();
@@ -117,7 +117,7 @@ fn swapped() -> Vec<Seed> {
             .filter(|(one, other)| one.ty == other.ty)
             .map(move |(one, other)| (layout, one, other))
     });
-    // What only counts is no field of a value.
+    // Counters are not fields of a value.
     let is_value = |stream: &str, field: &str| {
         let accepted = |vector: &&Vector| vector.stream == stream && vector.is_accepted();
         vectors().iter().filter(accepted).any(|vector| match &vector.expect {
@@ -143,7 +143,7 @@ fn swapped() -> Vec<Seed> {
         .collect()
 }
 
-/// Streams with numbers.
+/// Streams with numbers of several bytes.
 fn turned() -> Vec<Seed> {
     let each = |stream: Stream| {
         let layout = stream.layout();

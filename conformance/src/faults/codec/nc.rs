@@ -1,14 +1,14 @@
-//! What streaming does not permit in NC text (STM).
+//! Rules of streaming in NC text (STM).
 
 use super::row::{CodecFault, CodecSeed, Right, accepted, refused, row};
 use crate::codec::message::{Answer, Output, Question, Rejection};
 
-/// What the text is with every line made another.
+/// The text with every line changed.
 pub(super) fn lines(text: &[u8], other: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     text.split_inclusive(|byte| *byte == b'\n').flat_map(other).collect()
 }
 
-/// The text with every such word made another of the same length, whatever its case.
+/// The text with every occurrence of a word replaced by one of the same length, in any case.
 fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
     let mut text = text.to_vec();
     let is_word = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_alphanumeric);
@@ -24,12 +24,12 @@ fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
     text
 }
 
-/// The text with all such bytes made others.
+/// The text with these bytes replaced.
 fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
     text.iter().map(|byte| if of.contains(byte) { other } else { *byte }).collect()
 }
 
-/// Refuses NC text with this in it, whatever its case.
+/// Rejects NC text that contains this word, in any case.
 fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
@@ -40,7 +40,7 @@ fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> 
     }
 }
 
-/// Takes what is refused for this.
+/// Accepts text that is rejected for this reason.
 pub(super) fn accepts(right: Right<'_>, question: &Question, op: &str, class: &str) -> Answer {
     match right(question) {
         Answer::Reject(Rejection { class: Some(found), .. })

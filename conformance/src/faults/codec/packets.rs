@@ -3,7 +3,7 @@
 use super::nc::{accepts, lines};
 use super::row::{CodecFault, CodecSeed, refused, row};
 
-/// Packets of at most this many bytes, of whole lines.
+/// Packets of whole lines with at most this many bytes.
 fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
     let mut all: Vec<Vec<u8>> = Vec::new();
     let text = packets.concat();

@@ -1,15 +1,15 @@
-//! What is refused though it is right.
+//! Rejection of valid input.
 
 use super::row::{CodecFault, CodecSeed, Right, refused, row};
 use crate::codec::message::{Answer, Question};
 
-/// The first question's bytes at a place, as UNS32.
+/// The UNS32 at an offset of the first input.
 fn at(question: &Question, place: usize) -> Option<u32> {
     let bytes = question.hex.as_deref()?.get(place..)?.first_chunk::<4>()?;
     Some(u32::from_le_bytes(*bytes))
 }
 
-/// Refuses the bytes of a stream that are like this.
+/// Rejects the bytes of a stream that match a condition.
 fn strict(
     right: Right<'_>,
     question: &Question,

@@ -1,4 +1,4 @@
-//! Wrong fields: in their stream, and in no other.
+//! A defect of a field changes its stream and no other.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
@@ -29,7 +29,7 @@ fn a_defect_shows_in_its_stream_only() {
         cnc.answer(&call(0x12_2301, offset, 2048, data))
     };
     let read = b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0";
-    // The request is misread: the next element, another handle, one index less.
+    // The request is changed: next element, other handle, one index less.
     assert_eq!(with("variable-handle-read.indices.flip", 0x47, read), Ok(vec![15, 0, 0, 0]));
     let handle = with("variable-handle-read.handle.flip", 0x47, read);
     assert_eq!(handle, Err(AdsError::INVALID_DATA));
@@ -40,14 +40,14 @@ fn a_defect_shows_in_its_stream_only() {
     assert_eq!(with("variable-count.count.flip", 0x46, b"V.E.vartest\0"), Ok(vec![4, 0, 0, 2]));
 }
 
-/// Defects reach what elements and writes are made of too.
+/// Defects reach the streams inside requests for elements and writes too.
 #[test]
 fn a_defect_shows_in_elements_and_writes() {
     let read = |group| Call { service: Service::Read, ..call(group, 1, 256, &[]) };
     let length = faulty("element-length.length.flip").answer(&read(0x12_3601));
     assert_eq!(length, Ok(vec![0, 0, 0, 0]));
     assert_eq!(faulty("content.content.invert").answer(&read(0x12_3301)), Ok(vec![0xFE]));
-    // The value is misread: 0x7A for 0x7B.
+    // The value is changed: 0x7A instead of 0x7B.
     let cnc = faulty("variable-name-write.value.flip");
     let write = call(0x12_2301, 0x4A, 0, b"V.E.test[4]\0\x7B\0\0\0");
     assert_eq!(cnc.answer(&Call { service: Service::Write, ..write }), Ok(vec![]));
@@ -71,7 +71,7 @@ fn a_defect_shows_in_headers() {
     };
     assert_eq!(ask("ams-header.invoke_id.flip")[34..38], 0x0102_0305_u32.to_le_bytes());
     assert_eq!(ask("read-write-reply.result.flip")[38], 1);
-    // Read as offset 0x45.
+    // Received as offset 0x45.
     assert_eq!(ask("read-write-request.index_offset.flip")[38..40], [5, 7]);
     assert_eq!(ask("ams-tcp-header.length.flip")[..6], [0, 0, 45, 0, 0, 0]);
 }

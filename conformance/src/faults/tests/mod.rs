@@ -1,4 +1,4 @@
-//! Each of them shows somewhere, and every requirement has one or a reason to have none.
+//! Each defect is detectable, and every requirement has a defect or a reason to have none.
 
 mod fields;
 mod transcript;
@@ -36,13 +36,13 @@ fn ids_differ_and_sentences_say_something() {
     }
 }
 
-/// One that changes nothing is none.
+/// A defect that changes no answer is not a defect.
 #[test]
 fn every_defect_of_a_cnc_shows() {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
     for seed in of_kind(&[SeedKind::Cnc, SeedKind::Different]) {
-        // When bytes come, and in how many pieces, they do not show.
+        // Timing and splitting of frames are not in the transcript.
         if matches!(seed.how, How::Cnc(CncFault::Pieces(_))) || seed.id == "different.slow" {
             continue;
         }
@@ -57,11 +57,11 @@ fn every_defect_of_a_cnc_shows() {
             hidden.push(seed.id.as_str());
         }
     }
-    // A function that nobody asks for in the transcript cannot go wrong there.
+    // Functions that the transcript does not request are not covered.
     assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
 }
 
-/// All that the vectors and sequences ask a codec.
+/// All requests of the vectors and sequences to a codec.
 fn questions() -> Vec<Question> {
     let cases = suite::cases();
     cases.iter().flat_map(|case| testee::questions(case, "en-1.05")).collect()
@@ -81,7 +81,7 @@ fn every_defect_of_a_codec_shows() {
     assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
 }
 
-/// A must without a defect has a reason, and none has both.
+/// A must without a defect has a reason, and no must has both.
 #[test]
 fn every_must_can_be_broken() {
     let clients = clients::defects().iter().map(|defect| defect.requirement);

@@ -1,4 +1,4 @@
-//! All that a CNC is asked, to see whether it says anything else than another.
+//! A sequence of requests that distinguishes a CNC from another one.
 
 mod sequences;
 mod writes;
@@ -10,7 +10,7 @@ use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use super::{Faulty, Seed};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
-/// A CNC that is asked, and its replies, up to the first difference from another.
+/// A CNC and its replies, up to the first difference from another transcript.
 pub(super) struct Transcript<'t> {
     faulty: Faulty,
     cnc: Arc<Cnc>,
@@ -299,7 +299,7 @@ impl<'t> Transcript<'t> {
         self.read(552, 0x12_2301, 0x44, 4);
     }
 
-    /// By name, by the handle of that, and by its description.
+    /// Reads by name, by handle, and the description.
     fn named(&mut self, name: &[u8]) {
         for group in [0x12_2301, 0x12_2302] {
             self.ask(group, 0x48, 4096, name);

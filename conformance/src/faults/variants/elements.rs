@@ -1,4 +1,4 @@
-//! What a CNC may do otherwise with elements and parameters: nothing of it is wrong.
+//! Valid variants of elements and dynamic parameters.
 
 use ads_cnc::address::{Attribute, Class};
 use ads_cnc::ads::AdsError;
@@ -18,13 +18,13 @@ const ATTRIBUTES: &[Function] = &[
     Function::ReadElementWriteFlag,
 ];
 
-/// Whether the number of elements is read: a multiple of the stride alone does not tell.
+/// Whether a call requests the number of elements; the offset alone is ambiguous.
 fn is_number(call: &Call<'_>) -> bool {
     let of_content = class(call).is_some_and(|at| at.attribute == Attribute::Content);
     of_content && call.service == Service::Read && offset(call) & 0xFFF == 0
 }
 
-/// Instances of a class that are not there.
+/// Hides instances of a class.
 fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     match (is(call, FIND), u32_at(call.data, 0), u32_at(call.data, 4)) {
         (true, Some(channel), Some(axis)) if is_absent(group(call) & 0xF000, channel, axis) => {
@@ -34,7 +34,7 @@ fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> 
     }
 }
 
-/// Whether it is at a place of channel 2 or 6 where no axis is.
+/// Whether a call addresses an axis place of channel 2 or 6 without an axis.
 fn empty_place(call: &Call<'_>) -> bool {
     class(call).is_some_and(|at| {
         matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
@@ -43,7 +43,7 @@ fn empty_place(call: &Call<'_>) -> bool {
     })
 }
 
-/// The stride of classes of which none is printed.
+/// Changes the stride of classes without a printed one.
 fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let of = |at: Class| {
         matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)
@@ -124,7 +124,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         "the CNC is one whose parameters come and go all the time", CncFault::Model(MODEL))),
 ];
 
-/// A CNC with channels of other numbers, and parameters that are there for a moment.
+/// A CNC with other channel numbers and temporary parameters.
 const MODEL: &str = r#"
 cnc-version = "V4.29.0"
 spindles = 1

@@ -1,4 +1,4 @@
-//! Other CNCs: with channels, axes, objects and variables of their own.
+//! Valid variants with other models: channels, axes, objects and variables.
 
 use super::row::unprinted;
 use crate::faults::cnc::{CncFault, CncSeed, fault};
@@ -10,13 +10,13 @@ pub(super) const ROWS: &[CncSeed] = &[
     model("different.model-many", "the CNC has twelve channels, and axes in another order", MANY),
 ];
 
-/// A row about a CNC with another model.
+/// A row with another model.
 const fn model(id: &'static str, what: &'static str, model: &'static str) -> CncSeed {
     unprinted(fault(id, &[], what, CncFault::Model(model)))
 }
 
-/// A CNC of an old version that offers next to nothing: no axis, nothing to be written, streaming
-/// off, no Service Interface.
+/// A CNC of an old version with few features: no axis, no writable object, no streaming, no Service
+/// Interface.
 const BARE: &str = r#"
 cnc-version = "V2.11.2010.0"
 
@@ -48,7 +48,7 @@ name = "BV axis {}"
 name = "S {}"
 "#;
 
-/// A CNC with more than one usually has, and in another order.
+/// A CNC with more of everything than usual, in another order.
 const MANY: &str = r#"
 spindles = 3
 

@@ -1,4 +1,4 @@
-//! Other ways to reject, to answer late, and to end texts.
+//! Valid variants of rejecting, delaying and terminating replies.
 
 use std::thread;
 use std::time::Duration;
@@ -67,7 +67,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 let remains = |bytes: Vec<u8>| {
-                    // As far as the longest name goes.
+                    // Limited by the longest name.
                     let room = if is(call, &[Function::DynamicNameByIndex]) { 90 } else { 240 };
                     let remains = if bytes.len() < room { &b"ns\0of"[..] } else { &[] };
                     [&bytes[..], remains].concat()
@@ -80,7 +80,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         })),
     unprinted(row("different.texts-end", &[], "the value of a STRING ends behind its NUL", |cnc, call| {
-        // Whichever way it is read: handles are known from where they were given.
+        // In either addressing, handles are known from the reply that returned them.
         let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
         let is_text =
             |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));

@@ -1,5 +1,5 @@
-//! What a CNC may take though no client should send it, or leave out of what nobody has to take:
-//! which requests it refuses no manual says.
+//! Valid variants that accept requests no client should send, or lack optional functions: the
+//! manuals do not specify which requests are rejected.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Function, OffsetRule, Service};
@@ -13,7 +13,7 @@ use crate::faults::cnc::{
 const COUNT: &[Function] = &[Function::CountVariables];
 const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule::OfAxis(_)));
 
-/// What handles of the axis interface have that those of the channel interface have not.
+/// A bit of the handles of the axis interface that distinguishes them.
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
@@ -81,7 +81,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             Some(Function::ReadByHandle | Function::WriteByHandle) => {
                 let mut data = call.data.to_vec();
                 let handle = u32_at(&data, 0).unwrap_or_default();
-                // Those of axes begin with 1.
+                // The top byte of an axis handle is 1.
                 if handle >> 24 == (OF_AXIS_INTERFACE >> 24) | 1 {
                     set_u32(&mut data, 0, handle & !OF_AXIS_INTERFACE);
                 }

@@ -1,4 +1,4 @@
-//! What the manuals leave open, done as another CNC might.
+//! Valid variants of behaviour that the manuals do not specify.
 
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
@@ -11,7 +11,7 @@ use crate::faults::cnc::{
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 
-/// The request with the case of its name as it is listed, if it is in another.
+/// Replaces the name of the request by the listed one that differs in case only.
 fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let answer = cnc.answer(call);
     if !is(call, NAMED) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
@@ -36,7 +36,7 @@ fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// Whether a STRING is written, other than one of the Service Interface.
+/// The size of the value if a STRING is written, except one of the Service Interface.
 fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     if !is(call, &[Function::WriteByName]) || call.data.starts_with(b"V.G.SERVICE.") {
         return None;
@@ -51,7 +51,7 @@ fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     (u32_at(&described, 4) == Some(9)).then_some(size)
 }
 
-/// Where an axis is now: it moves a little with each look at it.
+/// The position of an axis, which changes a little with each read.
 fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
     answer.map(|bytes| match bytes.first_chunk::<8>() {
         Some(value) if bytes.len() == 8 => {
@@ -130,7 +130,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                     let own = u32_at(record, 12).unwrap_or_default() & 0x0F_FF00;
                     let asked = group(call) & 0xFF;
                     let all = u32_at(record, 12).unwrap_or_default();
-                    // The platform's stay where they are.
+                    // Elements of the platform keep their addresses.
                     if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
                         set_u32(record, 12, own | asked);
                     }
@@ -191,7 +191,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         CncFault::Model(NUMBERS))),
 ];
 
-/// A CNC whose numbers are as large as they may be.
+/// A CNC with maximum numbers.
 const NUMBERS: &str = r#"
 cnc-version = "V3.1.3100.0"
 edition = "de-1.051"

@@ -17,7 +17,7 @@ impl Walk<'_> {
         let none = BTreeSet::new();
         let platform = self.list(ObjectList::PLATFORM, &none)?.unwrap_or_default();
         for &channel in channels {
-            // The first channel lists the platform's objects once more (COM-4).
+            // The first channel lists the platform's objects again (COM-4).
             if self.is_selected(List::Channel(channel.number())) {
                 self.list(channel.into(), &platform)?;
             }
@@ -30,8 +30,8 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Lists the objects of a list but for those at known addresses; the addresses of all. None if the
-    /// target has no such list.
+    /// Adds the objects of a list, except those at known addresses; returns the addresses of all.
+    /// `None` if the target does not have the list.
     fn list(
         &mut self,
         objects: ObjectList,
@@ -40,7 +40,7 @@ impl Walk<'_> {
         let Some(count) = self.count_objects(objects)? else { return Ok(None) };
         let list = List::from(objects);
         let is_selected = self.enter(list);
-        // That of the platform is asked for what it shares with the first channel's, too.
+        // The platform's list is always read: the first channel repeats its objects.
         if !is_selected && list != List::Platform {
             return Ok(Some(AddressSet::new()));
         }
@@ -58,7 +58,7 @@ impl Walk<'_> {
         Ok(Some(addresses))
     }
 
-    /// How many objects a list has; None if it has none.
+    /// The number of objects of a list; `None` if the target does not have the list.
     pub(super) fn count_objects(
         &mut self,
         list: impl Into<ObjectList>,

@@ -13,14 +13,15 @@ use super::{Attributes, CLASSES, Walk, Walker as _};
 use crate::session::Trouble;
 use crate::values::Type;
 
-/// The most that an offset has room for.
+/// Maximum number that fits into an index offset.
 const ELEMENTS_MAX: u32 = 0xFFFF;
 
-/// The most names of one element of a class that are told apart.
+/// Maximum number of different elements stored for one element number of a class.
 const ALIKE_MAX: usize = 64;
 
 impl Walk<'_> {
-    /// Which of SDA and GEO has a class no manual says: GEO is asked for what SDA does not have.
+    /// No manual specifies whether SDA or GEO serves a class: GEO is queried for classes that SDA
+    /// does not have.
     pub(super) fn elements(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
         for class in CLASSES {
             self.task = Task::Sda;
@@ -53,7 +54,7 @@ impl Walk<'_> {
         })
     }
 
-    /// Whether the target has an instance; lists its elements.
+    /// Adds the elements of an instance; returns whether the target has it.
     fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, Trouble> {
         let query = FindInstance::new(class, channel, axis);
         let is_of_channel = class == Class::Spindle || channel > 0;
@@ -71,7 +72,7 @@ impl Walk<'_> {
             None => None,
         };
         let Some(first) = first else { return Ok(false) };
-        // A target that gives one address for every axis would have no last one.
+        // A target that returns the same address for every axis would never end the list.
         if self.instances.contains(&first) {
             self.note(list, "said to be where another instance is, and taken for none");
             return Ok(false);
@@ -124,7 +125,7 @@ impl Walk<'_> {
             None => {
                 let read = self.attributes(element, name)?;
                 let alike = self.alike.entry(key).or_default();
-                // Of instances that are not alike not all can be known.
+                // Beyond the limit different instances are read every time.
                 if alike.len() < ALIKE_MAX {
                     alike.push(read.clone());
                 }

@@ -1,4 +1,4 @@
-//! Finds what a CNC has: [`objects`](super) lists the requests.
+//! Reads the lists of a CNC; [`objects`](super) documents the requests.
 
 mod com;
 mod elements;
@@ -22,27 +22,27 @@ pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
 /// Descriptors in one request.
 pub const RANGE: u32 = 256;
 
-/// The most objects that are listed, and looked at in one list.
+/// Maximum number of listed objects, and of objects read in one list.
 pub const OBJECTS_MAX: u32 = 100_000;
-/// The most bytes of all their names and units.
+/// Maximum number of bytes of all names and units.
 pub const NAMES_MAX: usize = 8 << 20;
-/// The most requests of a walk.
+/// Maximum number of requests of a walk.
 pub const REQUESTS_MAX: u64 = 1_000_000;
-/// The most notes.
+/// Maximum number of notes.
 const NOTES_MAX: usize = 1_000;
 
-/// What to look for.
+/// The selection of objects.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Which channels; none for all.
+    /// The channels; empty for all.
     pub channels: Vec<Channel>,
-    /// Which lists, by the name that [`List`] shows.
+    /// The lists, by the name of [`List`].
     pub lists: Option<Pattern>,
-    /// Which names.
+    /// The names.
     pub names: Option<Pattern>,
     /// Variables and parameters, not objects and elements.
     pub variables: bool,
-    /// Ask every attribute of every element.
+    /// Read every attribute of every element.
     pub exact: bool,
 }
 
@@ -50,28 +50,28 @@ pub struct Options {
 pub struct WalkResult {
     /// In the order of their lists.
     pub objects: Vec<Object>,
-    /// How many lists there are.
+    /// Number of lists.
     pub lists: u32,
-    /// How many requests it took.
+    /// Number of requests.
     pub requests: u64,
-    /// What the CNC did not tell.
+    /// Notes about objects that could not be read.
     pub notes: Vec<String>,
-    /// Whether a maximum ended the walk; a note says which.
+    /// Whether a limit ended the walk; a note says which.
     pub is_cut: bool,
 }
 
 /// The progress of a walk.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkProgress {
-    /// The list that is being read.
+    /// The list being read.
     pub list: List,
-    /// Objects found so far.
+    /// Number of objects so far.
     pub objects: usize,
-    /// Requests so far.
+    /// Number of requests so far.
     pub requests: u64,
 }
 
-/// Finds all that is meant. What the CNC refuses to tell is noted and left out.
+/// Finds all selected objects. Those that the CNC rejects are noted and left out.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::Cnc;
@@ -88,7 +88,7 @@ pub struct WalkProgress {
 /// ```
 ///
 /// # Errors
-/// That there is no answer at all.
+/// If the CNC does not answer.
 pub fn walk(
     session: &mut Session,
     options: &Options,
@@ -124,18 +124,18 @@ struct Walk<'w> {
     options: &'w Options,
     watch: &'w mut dyn FnMut(WalkProgress),
     found: WalkResult,
-    /// The list that is being read.
+    /// The list being read.
     list: Option<List>,
     /// Bytes of all names and units so far.
     names: usize,
     /// The first elements of the instances found.
     instances: Vec<ElementAddress>,
-    /// The task that requests to classes go to: SDA or GEO.
+    /// The task that serves the current class: SDA or GEO.
     task: Task,
-    /// Why GEO is not asked.
+    /// The error if GEO is not queried.
     geo: Result<(), Trouble>,
-    /// Attributes that were read, by class, whether of an axis, and number: elements of other instances
-    /// with the same name are assumed to have the same.
+    /// Attributes already read, by class, whether of an axis, and number: elements of other
+    /// instances with the same name are assumed to have the same.
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
 }
 
@@ -166,7 +166,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Notes how many of a list have no reply.
+    /// Adds a note about entries of a list whose requests were rejected.
     fn note_rejected(&mut self, list: List, count: u32, answered: u32) {
         let rejected = count.saturating_sub(answered);
         if rejected > 0 {
@@ -178,7 +178,7 @@ impl Walk<'_> {
         self.options.lists.as_ref().is_none_or(|lists| lists.matches(&list.to_string()))
     }
 
-    /// Whether a list is selected, and is read from now on.
+    /// Begins a list; returns whether it is selected.
     fn enter(&mut self, list: List) -> bool {
         let is_selected = self.is_selected(list);
         if is_selected {
@@ -207,7 +207,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// The channels that are active.
+    /// The active channels.
     fn channels(&mut self) -> Result<Vec<Channel>, Trouble> {
         if !self.options.channels.is_empty() {
             return self.channels_given();
@@ -277,7 +277,7 @@ impl Walker for Walk<'_> {
         match self.session.request(task, request) {
             Ok(data) => Ok(Some(data)),
             Err(Trouble::Ads { .. }) => Ok(None),
-            // Not every CNC need have it.
+            // GEO is optional.
             Err(trouble @ (Trouble::Ams { .. } | Trouble::NoAnswer(_))) if is_geo => {
                 self.geo = Err(trouble);
                 Ok(None)
@@ -287,7 +287,7 @@ impl Walker for Walk<'_> {
     }
 }
 
-/// A channel that has no objects still decodes.
+/// A decoder exists even for a channel without objects.
 fn decoder_of(channel: Channel) -> FindInstance {
     FindInstance::new(Class::Decoder, channel.number().into(), 0)
 }

@@ -43,7 +43,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Lists what has an index in a list, from `first` on.
+    /// Adds the entries of a list by index, from `first` on.
     fn by_index(
         &mut self,
         list: List,

@@ -1,4 +1,4 @@
-//! What every walk asks for, and where its lists end.
+//! The requests that every walk sends, and the end of its lists.
 
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{CountElements, ObjectList, ReadDescriptors, Request};
@@ -13,7 +13,7 @@ pub const GAP: u32 = 8;
 /// The most channels, axes and spindles.
 pub(super) const NUMBER_MAX: u32 = 255;
 
-/// The kinds of variables that have an index.
+/// The kinds of variables with an index.
 pub(crate) const KINDS: [(&str, Kind<'static>); 3] =
     [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
 
@@ -27,13 +27,14 @@ pub(crate) const CLASSES: [Class; 6] = [
     Class::Spindle,
 ];
 
-/// A number of elements. Its width is not documented: a narrower one is decoded as a length is.
+/// Decodes a number of elements. Its size is not documented: a shorter one is decoded as a length
+/// is.
 pub(crate) fn decode_element_count(data: &[u8]) -> Option<u32> {
     let count = ElementCount::decode(data).map(|count| count.0);
     count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
 }
 
-/// Sends the requests of a walk: a tool over its session, a case of the suite over its probe.
+/// Sends the requests of a walk: a tool through its session, a case of the suite through its probe.
 pub(crate) trait Walker: Sized {
     /// Why a walk ends early.
     type Error;
@@ -44,7 +45,7 @@ pub(crate) trait Walker: Sized {
         request: impl Into<Request<'r>>,
     ) -> Result<Option<Vec<u8>>, Self::Error>;
 
-    /// As [`request`](Self::request), and `None` too if the data is not the stream `T`.
+    /// Like [`request`](Self::request), but also `None` if the data is not the stream `T`.
     fn decoded<'r, T>(&mut self, request: impl Into<Request<'r>>) -> Result<Option<T>, Self::Error>
     where
         T: for<'b> Decode<'b>,
@@ -52,7 +53,8 @@ pub(crate) trait Walker: Sized {
         Ok(self.request(request)?.and_then(|data| T::decode(&data).ok()))
     }
 
-    /// Visits numbers, up to [`GAP`] in a row that the target rejects; how many it does not.
+    /// Visits numbers until [`GAP`] consecutive ones are rejected; returns how many are not
+    /// rejected.
     fn each(
         &mut self,
         numbers: impl IntoIterator<Item = u32>,
@@ -72,8 +74,8 @@ pub(crate) trait Walker: Sized {
         Ok(count)
     }
 
-    /// The objects of a list with `count` of them, `range` in a request; one in a request after a
-    /// request for several was rejected.
+    /// Visits the objects of a list with `count` objects, `range` per request, or one per request
+    /// after a request for several was rejected.
     fn objects_of(
         &mut self,
         list: ObjectList,
@@ -101,9 +103,9 @@ pub(crate) trait Walker: Sized {
         Ok(all)
     }
 
-    /// Visits every instance of a class by its channel and its axis; `is_there` looks whether the
-    /// target has it. With `aliases` the axes of the platform are visited in the HLD of every channel
-    /// too, else in that of the first channel if the platform has none (E-30).
+    /// Visits every instance of a class by channel and axis; `is_there` checks whether the target
+    /// has it. With `aliases` the axes of the platform are visited in the HLD of every channel too;
+    /// otherwise in that of the first channel if the platform has none (E-30).
     fn instances_of(
         &mut self,
         class: Class,
@@ -142,7 +144,7 @@ pub(crate) trait Walker: Sized {
         }
     }
 
-    /// Visits the axes of a channel from this one on, up to the first that is not there; how many are.
+    /// Visits the axes of a channel from `first` on until one is missing; returns their number.
     fn axes_of(
         &mut self,
         channel: u32,
@@ -159,9 +161,9 @@ pub(crate) trait Walker: Sized {
         Ok(count)
     }
 
-    /// How many elements an instance has, as the target says.
+    /// The number of elements of an instance according to the target.
     fn count_elements(&mut self, first: ElementAddress) -> Result<Option<u32>, Self::Error> {
-        // A target may give the address of a function.
+        // The address that the target returned may be that of a function.
         let data = match CountElements::new(first) {
             Ok(count) => self.request(count)?,
             Err(_) => None,

@@ -1,4 +1,4 @@
-//! What was found and the bytes that show it, as the template wants them.
+//! A finding and its bytes, as the template needs them.
 
 use serde::Serialize;
 
@@ -41,17 +41,17 @@ struct BytesView {
 
 #[derive(Serialize, Default)]
 struct RowView {
-    /// Items that are passed over; then there is nothing else.
+    /// Number of omitted items; all other fields are empty then.
     more: usize,
     offset: usize,
     bytes: Vec<ByteView>,
-    /// Zeros after the bytes that are not shown.
+    /// Number of omitted zeros after the bytes.
     zeros: usize,
     field: String,
     value: String,
     meaning: String,
     differs: bool,
-    /// What should be there.
+    /// The expected field.
     instead: Option<Box<RowView>>,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
 fn evidence(evidence: &EvidenceReport) -> EvidenceView {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
         evidence;
-    // With the same fields, what was expected is below what was received instead.
+    // With the same fields, the expected ones are shown below the received ones.
     let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
         let places = |bytes: &BytesReport| -> Vec<usize> {
             bytes.fields.iter().map(|field| field.offset).collect()
@@ -122,7 +122,7 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
     }
 }
 
-/// Zeros at the end of a field that are shown.
+/// Maximum number of shown zeros at the end of a field.
 const ZEROS: usize = 8;
 
 fn row(field: &FieldReport) -> RowView {

@@ -1,4 +1,4 @@
-//! A subject's requirements and cases, as the template wants them.
+//! A subject's requirements and cases, as the template needs them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,12 +34,12 @@ struct RequirementView {
     waived: bool,
 }
 
-/// Cases that belong together: a stream's vectors, or those of one area.
+/// A group of cases: the vectors of a stream, or the cases of an area.
 #[derive(Serialize)]
 struct GroupView {
     title: String,
     counts: Vec<Chip>,
-    /// Whether it is folded up at first.
+    /// Whether it is collapsed at first.
     folded: bool,
     cases: Vec<CaseView>,
 }
@@ -104,7 +104,7 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
 }
 
 fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
-    // What needs attention first.
+    // The gravest first.
     cases.sort_by(|one, other| {
         let rank =
             |case: &CaseReport| (case.waived, u8::MAX.saturating_sub(case.verdict.gravity()));
@@ -116,7 +116,7 @@ fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
     GroupView { title, counts, folded, cases }
 }
 
-/// Class and text of a number of verdicts.
+/// CSS class and text of a count.
 type Chip = (String, String);
 
 fn chips(verdicts: impl Iterator<Item = (Verdict, bool)>) -> Vec<Chip> {

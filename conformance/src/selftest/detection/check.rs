@@ -1,4 +1,4 @@
-//! The committed table against what is measured now.
+//! Compares the committed table with new measurements.
 
 use serde::{Serialize, Serializer};
 
@@ -7,32 +7,32 @@ use crate::faults::Seed;
 use crate::judge::order;
 use crate::selftest::parallel;
 
-/// How much is measured again.
+/// Which defects are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Every defect that changed, and [`SAMPLE`] others that this seed picks.
+    /// Every changed defect, and [`SAMPLE`] others picked by this seed.
     Sample(u32),
     /// Every defect.
     All,
 }
 
-/// How many defects a sample has.
+/// Number of defects in a sample.
 pub const SAMPLE: usize = 60;
 
-/// The table, and what was measured of it again.
+/// The table, and the result of the new measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckedTable {
     /// The figures of each mode.
     #[serde(serialize_with = "figures")]
     pub table: DetectionTable,
-    /// How many defects were measured now.
+    /// Number of measured defects.
     pub measured: usize,
-    /// What is not as the committed table has it.
+    /// Differences from the committed table.
     pub differences: Vec<String>,
 }
 
 impl CheckedTable {
-    /// Measures as many of these defects as wanted. `whole` is whether they are all there are.
+    /// Measures the defects in scope. `whole`: `seeds` are all defects.
     pub(crate) fn new(
         seeds: Vec<&'static Seed>,
         scope: Scope,
@@ -80,7 +80,7 @@ impl CheckedTable {
     }
 }
 
-/// Those that changed since the table was written, and some others.
+/// The defects that changed since the table was written, and a sample of the others.
 fn sample(
     mut seeds: Vec<&'static Seed>,
     seed: u32,
@@ -99,7 +99,7 @@ fn sample(
     wanted
 }
 
-/// What of a row is another than it was.
+/// The columns of a row that differ.
 fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
     let id = &now.id;
     let Some(before) = before else { return vec![format!("{id}: not in the table")] };
@@ -123,7 +123,7 @@ fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
     differences
 }
 
-/// As JSON has it: the figures, and what is missed.
+/// JSON: the figures, and the missed defects.
 fn figures<S: Serializer>(table: &DetectionTable, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct OfMode<'t> {
@@ -141,7 +141,7 @@ fn figures<S: Serializer>(table: &DetectionTable, serializer: S) -> Result<S::Ok
 }
 
 impl DetectionTable {
-    /// The defects that are missed in a mode, each with the request that would have shown it.
+    /// The missed defects of a mode, each with the request that would have detected it.
     pub fn missed(&self, mode: Mode) -> impl Iterator<Item = (&DetectionRow, &str)> {
         self.rows.iter().filter_map(move |row| match row.modes.get(&mode).map(|one| &one.result) {
             Some(Found::Missed(request)) => Some((row, request.as_str())),

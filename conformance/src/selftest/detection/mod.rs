@@ -1,11 +1,10 @@
-//! What the suite detects from outside: every seeded defect of a CNC, in each mode in which a user
-//! can run the suite against a device.
+//! The detection of every seeded defect of a CNC over the wire, in each mode in which a user can
+//! run the suite against a device.
 //!
-//! A CNC of this process is asked through the gate, as `ads-cnc run --target` asks a device: with
-//! the same cases, defaults and limits, and with nothing of the simulator's inside. Its clock moves
-//! on only while an answer is awaited in vain, so that a run takes no time and gives the same result
-//! each time. No device holds the values that the manuals print in examples, so no profile claims
-//! them.
+//! A CNC in this process is tested through the gate, as `ads-cnc run --target` tests a device: with
+//! the same cases, defaults and limits, and without access to the simulator's state. Its clock
+//! advances only while the client waits for a missing reply, so that a run takes little time and is
+//! repeatable. No device holds the values of the manuals' examples, so no profile claims them.
 
 mod check;
 mod requests;
@@ -35,13 +34,13 @@ pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 /// How the suite is run against a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mode {
-    /// Queries only, and no profile.
+    /// Queries only, without a profile.
     ReadOnly,
-    /// Queries only, with a profile that tells everything about the device.
+    /// Queries only, with a complete profile of the device.
     Profiled,
-    /// Without a profile; a file for `--allow-write` names every writable value.
+    /// Without a profile; the file of `--allow-write` names every writable value.
     Writes,
-    /// Such a file, the full profile, and malformed requests.
+    /// The file of `Writes`, the profile of `Profiled`, and malformed requests.
     All,
 }
 
@@ -65,43 +64,42 @@ impl Mode {
     }
 }
 
-/// What came of one defect in one mode.
+/// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detection {
-    /// How it came out.
     pub result: Found,
     pub requirements: BTreeSet<String>,
     pub cases: BTreeSet<String>,
 }
 
-/// How a defect came out in one mode.
+/// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// A requirement that its row declares broken fails.
+    /// A requirement of the defect's row fails.
     Caught,
     /// Only other requirements fail.
     Elsewhere,
-    /// Nothing fails. This request would have shown it.
+    /// No requirement fails; this request would detect the defect.
     Missed(String),
-    /// Nothing fails, and no request that the mode may send tells it from a right CNC: from the one
-    /// without a defect, or from that of this witness.
+    /// No requirement fails, and no request of the mode distinguishes the CNC from a right one:
+    /// from the CNC without the defect, or from this witness.
     Undetectable(String),
-    /// Of a correct variant: nothing fails, as it should be.
+    /// A valid variant, and no requirement fails.
     Quiet,
-    /// Of a correct variant: something fails.
+    /// A valid variant, but a requirement fails.
     Alarm,
 }
 
-/// A CNC to run the suite against, without a defect.
+/// A CNC without a defect to run the suite against.
 struct Device {
     model: &'static str,
     settings: Settings,
     profile: Profile,
-    /// Every writable value, but for the numbers of axes.
+    /// Every writable value, except axis numbers.
     allowed: Allowed,
-    /// The answers that a CNC without a defect gives, by what its gate lets through.
+    /// The answers of the CNC without a defect, by the requests its gate allows.
     right: [OnceLock<Vec<u64>>; 3],
-    /// Its correct variants, mode by mode.
+    /// Its valid variants, by mode.
     variants: Mutex<BTreeMap<Mode, witness::Variants>>,
 }
 
@@ -121,7 +119,7 @@ impl Device {
         })
     }
 
-    /// The CNC of the default model, by an edition.
+    /// The CNC of the default model with an edition.
     fn of_edition(edition: Edition) -> Result<&'static Self, Trouble> {
         static ENGLISH: OnceLock<Device> = OnceLock::new();
         static GERMAN: OnceLock<Device> = OnceLock::new();
@@ -131,13 +129,13 @@ impl Device {
         };
         if device.get().is_none() {
             let settings = Settings { edition: Some(edition), version: None };
-            // Another thread may have been faster, with the same.
+            // Another thread may have set an equal one.
             let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
         }
         device.get().ok_or_else(|| Trouble::Internal("no device".to_owned()))
     }
 
-    /// A CNC of it, with this defect if there is one.
+    /// A CNC of this device, optionally with a defect.
     fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
         let internal = |error| Trouble::Internal(format!("the model: {error}"));
         let model = Model::with_settings(self.model, "the model", self.settings);
@@ -145,7 +143,7 @@ impl Device {
         Ok(Arc::new(Faulty::new(cnc, seed)))
     }
 
-    /// The answers of the CNC without a defect to every request that a mode may send.
+    /// The digests of the answers without a defect to every request that a mode may send.
     fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
         let [queries, writes, all] = &self.right;
         let right = match mode {
@@ -159,12 +157,12 @@ impl Device {
         Ok(right.get().map_or(&[], Vec::as_slice))
     }
 
-    /// What the suite finds, run as a user runs it.
+    /// The outcomes of the suite, run as a user runs it.
     fn outcomes(&self, seed: Option<&Seed>, mode: Mode) -> Result<Vec<CaseOutcome>, Trouble> {
         let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
         let mut session = session::Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
         if session.greet(&profile).is_err() {
-            // There is no report of a device that answers nothing.
+            // For a device without any answer `run` makes no report.
             return Ok(Vec::new());
         }
         let (client, _) = session.into_parts();
@@ -177,8 +175,8 @@ impl Device {
     }
 }
 
-/// What a file for `--allow-write` would name: each value that the CNC says can be written, with
-/// what it does not list.
+/// The complete file of `--allow-write`: each value that the CNC describes as writable, and the
+/// writable values it does not list.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = session::Session::in_process(cnc, Gate::queries())?;
@@ -205,21 +203,21 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> 
     Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
 }
 
-/// Measures a defect, or a correct variant, in every mode.
+/// Measures a defect, or a valid variant, in every mode.
 ///
 /// # Errors
-/// A fault of the suite, or of the simulated CNC.
+/// An error of the suite, or of the simulated CNC.
 pub fn measure(seed: &Seed) -> Result<DetectionRow, Trouble> {
     let detect = |mode| detect(seed, mode).map(|detection| (mode, detection));
     let modes = Mode::ALL.into_iter().map(detect).collect::<Result<BTreeMap<_, _>, _>>()?;
     Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
 }
 
-/// A hash of what the row says of the defect, and of the answers up to the first that is another
-/// than that of the CNC without it.
+/// A hash of the defect's row, and of the answers up to the first that differs from the CNC without
+/// it.
 ///
 /// # Errors
-/// A fault of the simulated CNC.
+/// An error of the simulated CNC.
 pub fn hash(seed: &Seed) -> Result<String, Trouble> {
     let devices = devices(seed)?;
     let Seed { id, requirements, what, edition, .. } = seed;
@@ -232,8 +230,8 @@ pub fn hash(seed: &Seed) -> Result<String, Trouble> {
     Ok(table::hash(&text))
 }
 
-/// The CNCs that a defect is tried on: that of the edition that it shows in, or of both; of a
-/// variant with a model of its own that one.
+/// The CNCs to try a defect on: with the edition in which it is detectable, or with both; for a
+/// variant with a model of its own, that model.
 fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
     if let Some(model) = seed.own_model() {
         return witness::of_model(model).map(|device| vec![device]);
@@ -245,8 +243,7 @@ fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
     editions.into_iter().map(Device::of_edition).collect()
 }
 
-/// What the suite finds of a defect in a mode: on the CNC of each edition, up to the first on which
-/// it is caught.
+/// The result of a defect in a mode: on the CNC of each edition, until it is caught.
 fn detect(seed: &Seed, mode: Mode) -> Result<Detection, Trouble> {
     let devices = devices(seed)?;
     let mut outcomes = Vec::new();
@@ -266,7 +263,7 @@ fn detect(seed: &Seed, mode: Mode) -> Result<Detection, Trouble> {
         _ if !failed.is_empty() => Found::Elsewhere,
         _ => witness::of(seed, &devices, mode)?,
     };
-    // A declared requirement that is no must is caught by a warning.
+    // A requirement below must is caught by a warning.
     let counts = |id: &str, verdict: Verdict| match verdict {
         Verdict::Fail | Verdict::Vacuous => true,
         Verdict::Warning | Verdict::Differs => {

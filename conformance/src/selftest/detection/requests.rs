@@ -1,9 +1,9 @@
-//! Every request that a mode may send, to tell two CNCs apart: how each is sent, also malformed,
-//! and its answer recorded.
+//! Every request that a mode may send, to distinguish two CNCs: each request is sent, also
+//! malformed, and its answer recorded.
 //!
-//! The requests follow from the function table, from what the asked CNC says it has, from boundary
-//! values and from short sequences; never from the cases of the suite. Two CNCs that answer all of
-//! them alike are asked the same, so equal digests mean equal answers.
+//! The requests are derived from the function table, from the lists of the CNC, from boundary
+//! values and short sequences, but not from the cases of the suite. Two CNCs with equal answers
+//! receive the same requests, so equal digests mean equal answers.
 
 mod queries;
 mod writes;
@@ -25,11 +25,11 @@ use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
 
-/// Channel numbers and ranks that are asked for; a CNC with more is asked for these alone.
+/// The requested channel numbers and ranks; others are left out.
 const CHANNELS: [u32; 14] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 255];
-/// Axes, places and spindles that are asked for.
+/// The requested axes, places and spindles.
 const AXES: [u32; 7] = [1, 2, 3, 4, 5, 6, 255];
-/// How many requests of a function are also sent malformed.
+/// Number of requests of a function that are also sent malformed.
 const MALFORMED_EACH: usize = 6;
 
 #[derive(Clone)]
@@ -41,7 +41,7 @@ struct Variable {
     writable: bool,
 }
 
-/// A content with an address that was found, of an object or an element.
+/// The address of a content of an object or an element in a list.
 struct ContentAddress {
     group: IndexGroup,
     offset: IndexOffset,
@@ -49,7 +49,7 @@ struct ContentAddress {
     size: u32,
 }
 
-/// A CNC that is asked, and the digest of each answer.
+/// A CNC, and the digest of each of its answers.
 pub(super) struct Dialogue<'t> {
     client: Client,
     cnc: Arc<Cnc>,
@@ -61,15 +61,15 @@ pub(super) struct Dialogue<'t> {
     contents: Vec<ContentAddress>,
 }
 
-/// What came of asking everything.
+/// The recorded answers.
 pub(super) struct RecordedAnswers {
     pub(super) answers: Vec<u64>,
-    /// The first request that was answered otherwise than by the CNC it was compared with.
+    /// The first request whose answer differs from that of the other CNC.
     pub(super) difference: Option<String>,
 }
 
-/// Asks a CNC everything that its client's gate lets through; up to the first answer that is not
-/// this one of another CNC, if there is one to compare with.
+/// Sends all requests that the client's gate allows; if there are answers of another CNC to compare
+/// with, only up to the first difference.
 pub(super) fn ask_everything(
     client: Client,
     cnc: Arc<Cnc>,
@@ -101,7 +101,7 @@ impl Dialogue<'_> {
             self.streams();
             self.services();
         }
-        // Again: some answers differ only after others, or after writes. And in time.
+        // Once more: some answers differ only after others, after writes or after some time.
         self.queries();
         for _ in 0..12 {
             self.cnc.pass(Duration::from_secs(1));
@@ -125,7 +125,7 @@ impl Dialogue<'_> {
         self.elements();
     }
 
-    /// Sends a request that the gate lets through; the data of a success.
+    /// Sends a request if the gate allows it; returns the data of a success.
     fn ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -139,7 +139,7 @@ impl Dialogue<'_> {
         data
     }
 
-    /// Sends a request with one fault each.
+    /// Sends variants of a request, each with one fault.
     fn send_malformed(&mut self, call: &Call<'_>, answered: usize) {
         let longer = [call.data, &[0]].concat();
         let shorter = |count: usize| call.data.get(..call.data.len().checked_sub(count)?);
@@ -203,7 +203,7 @@ impl Dialogue<'_> {
         self.answers.push(answer);
     }
 
-    /// The channels that answer at all, by number and by rank.
+    /// The channels that answer, by number and by rank.
     fn channels(&mut self) -> Vec<Channel> {
         let numbers = CHANNELS.iter().filter_map(|&number| Channel::new(number).ok());
         let ranks = CHANNELS.iter().filter_map(|&rank| Channel::by_index(rank).ok());
@@ -218,8 +218,8 @@ impl Dialogue<'_> {
     }
 }
 
-/// Index lists for an array: of the first and the last element and one in between, one index beyond
-/// each dimension, and one index too many.
+/// Index lists for an array: the first, the last and a middle element, one index beyond each
+/// dimension, and one index too many.
 fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let mut parts: Vec<Vec<u32>> = [0, 1, u32::MAX]
         .map(|at| dimensions.iter().map(|&count| at.min(count.saturating_sub(1))).collect())
@@ -236,7 +236,7 @@ fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
     parts
 }
 
-/// Indices as a name has them.
+/// Indices in the notation of names.
 fn brackets(indices: &[impl Display]) -> String {
     indices.iter().map(|index| format!("[{index}]")).collect()
 }

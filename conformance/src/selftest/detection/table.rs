@@ -1,8 +1,8 @@
-//! The committed table: what the suite detects of each seeded defect, in each mode.
+//! The committed table: the detection of each seeded defect, in each mode.
 //!
-//! One line for each defect and outcome, fields separated by tabs: defect, hash of the defect,
-//! modes, outcome, what shows it, requirements that fail, cases that fail. A correct variant of the
-//! CNC is `quiet` where nothing fails.
+//! One line for each defect and result, fields separated by tabs: defect, hash of the defect,
+//! modes, result, the request or witness, requirements that fail, cases that fail. A valid variant
+//! of the CNC is `quiet` if no requirement fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
@@ -18,17 +18,17 @@ use crate::suite;
 /// The table of this version, which `selftest --renew` writes.
 const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 
-/// What is measured of one defect or variant.
+/// The measurement of a defect or variant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionRow {
     pub id: String,
-    /// A hash of what the row says of the defect, and of what the CNC answers with it.
+    /// A hash of the defect's row, and of the CNC's answers with it.
     pub hash: String,
-    /// What came of it, mode by mode.
+    /// The result by mode.
     pub modes: BTreeMap<Mode, Detection>,
 }
 
-/// All rows, and a hash of what they all rest on.
+/// All rows, and a hash of their common inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionTable {
     /// A hash of the cases, the levels of the requirements and the default model.
@@ -37,24 +37,24 @@ pub struct DetectionTable {
     pub rows: Vec<DetectionRow>,
 }
 
-/// How many defects came out how in one mode.
+/// The number of defects with each result in a mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Figures {
-    /// By a requirement that the defect's row declares broken.
+    /// A requirement of the defect's row fails.
     pub caught: usize,
-    /// By other requirements alone.
+    /// Only other requirements fail.
     pub elsewhere: usize,
-    /// By none, though a request would show it.
+    /// No requirement fails, though a request would detect the defect.
     pub missed: usize,
-    /// By none, and no request would show it.
+    /// No requirement fails, and no request would detect the defect.
     pub undetectable: usize,
-    /// Correct variants by which nothing fails.
+    /// Valid variants without a failed requirement.
     pub quiet: usize,
-    /// Correct variants by which a requirement fails.
+    /// Valid variants with a failed requirement.
     pub alarms: usize,
 }
 
-/// The hash of what all rows rest on.
+/// The hash of the common inputs of all rows.
 pub fn inputs() -> String {
     let mut text = DEFAULT_MODEL.to_owned();
     let mut cases = suite::cases();
@@ -69,13 +69,13 @@ pub fn inputs() -> String {
     hash(&text)
 }
 
-/// 16 digits of a text.
+/// The hash of a text in 16 digits.
 pub(super) fn hash(text: &str) -> String {
     format!("{:016x}", digest(text.as_bytes()))
 }
 
 impl DetectionTable {
-    /// The table of this version; none if it cannot be read.
+    /// The table of this version; `None` if it cannot be parsed.
     pub fn published() -> Option<Self> {
         Self::parse(PUBLISHED)
     }
@@ -84,7 +84,7 @@ impl DetectionTable {
         self.rows.iter().find(|row| row.id == seed.id)
     }
 
-    /// How many came out how in a mode.
+    /// The number of defects with each result in a mode.
     pub fn figures(&self, mode: Mode) -> Figures {
         let mut figures = Figures::default();
         for row in &self.rows {
@@ -102,8 +102,8 @@ impl DetectionTable {
         figures
     }
 
-    /// How many requirements fail by a defect of a single field, in the mode without writes and
-    /// profile: the median and the 90th percentile of those that are caught at all.
+    /// The number of requirements that fail for a defect of a single field in the mode without
+    /// writes and profile: median and 90th percentile of the defects that are caught.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
         let of_field = |row: &&DetectionRow| {
             let seed = faults::by_id(&row.id);
@@ -123,7 +123,7 @@ impl DetectionTable {
         (at(5), at(9))
     }
 
-    /// As it is committed.
+    /// The text of the committed file.
     pub fn to_text(&self) -> String {
         let mut text = format!("inputs\t{}\n", self.inputs);
         for DetectionRow { id, hash, modes } in &self.rows {
@@ -179,7 +179,7 @@ impl DetectionTable {
         Some(table)
     }
 
-    /// The figures and the list of what is missed, as a document.
+    /// The document with the figures and the missed defects.
     pub fn to_markdown(&self) -> String {
         let mut text = "# What the suite detects from outside\n\n\
             Written by `ads-cnc selftest --renew`, like the [table](detection.tsv) of every defect \

@@ -1,8 +1,8 @@
-//! Why a defect cannot be detected in a mode: a right CNC gives the same answers to every request
-//! that the mode may send.
+//! Shows that a defect is undetectable in a mode: a right CNC, the witness, gives the same answers
+//! to every request that the mode may send.
 //!
-//! That right CNC is the one without the defect, a correct variant of it, or one with another
-//! model. In a mode with a profile, it is one of which the same profile is true.
+//! The witness is the CNC without the defect, a valid variant of it, or one with another model. In
+//! a mode with a profile, that profile is also true of the witness.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -13,7 +13,7 @@ use crate::faults::{self, FieldChange, FieldDefect, Seed, SeedKind};
 use crate::session::{Session, Trouble};
 use crate::simulator::Settings;
 
-/// Fields whose value is free, so that a one-to-one change of it gives a right CNC too: stream, field,
+/// Fields with arbitrary values: a one-to-one change of them gives a right CNC too. Stream, field,
 /// changes, and why.
 const FREE: &[(&str, &str, &[FieldChange], &str)] = &[
     ("device-info-reply", "major", ONE_TO_ONE, "a CNC may have any version"),
@@ -49,7 +49,7 @@ pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
     free.map(|(.., why)| *why)
 }
 
-/// The witness, or the first request that tells the defect from the CNC without it.
+/// The witness, or the first request that distinguishes the defect from the CNC without it.
 pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result<Found, Trouble> {
     if let Some(why) = is_right(seed) {
         return Ok(Found::Undetectable(format!("a right CNC: {why}")));
@@ -62,7 +62,7 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
             answers(device, Some(seed), mode, Some(right))?;
         let Some(request) = difference else { continue };
         shown = shown.or(Some(request));
-        // One that differs from the right CNC elsewhere gives other answers.
+        // Only a variant with the same first difference can have the same answers.
         let alike = variants(device, mode)?.get(&first_difference(&mine)).cloned();
         let mut witness = None;
         for variant in alike.unwrap_or_default() {
@@ -82,7 +82,7 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
     }
 }
 
-/// The answers of a CNC to everything that a mode may send.
+/// The answers of a CNC to every request that a mode may send.
 pub(super) fn answers(
     device: &Device,
     seed: Option<&Seed>,
@@ -95,8 +95,8 @@ pub(super) fn answers(
     Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
 }
 
-/// Correct variants, by the place and the digest of the first answer that is another than that of
-/// the CNC without a defect.
+/// Valid variants, by position and digest of the first answer that differs from the CNC without a
+/// defect.
 pub(super) type Variants = Arc<BTreeMap<(usize, Option<u64>), Vec<&'static Seed>>>;
 
 fn first_difference(answers: &[u64]) -> (usize, Option<u64>) {
@@ -120,7 +120,7 @@ fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
     Ok(Arc::clone(known.entry(mode).or_insert(Arc::new(variants))))
 }
 
-/// The device with this model, which is one of the correct variants.
+/// The device with this model, which is that of a valid variant.
 pub(super) fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
     static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
     let devices = DEVICES.get_or_init(Mutex::default);
@@ -128,7 +128,7 @@ pub(super) fn of_model(model: &'static str) -> Result<&'static Device, Trouble> 
     if let Some(device) = devices.get(model) {
         return Ok(device);
     }
-    // Three of them, for as long as the process lives.
+    // Three of them, for the lifetime of the process.
     let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
     devices.insert(model, device);
     Ok(device)

@@ -1,4 +1,4 @@
-//! Whatever is called is answered: with data that the function's stream takes, or a number.
+//! Every call is answered: with data that the function's stream decodes, or an error number.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -6,12 +6,12 @@ use ads_cnc::operation::Service;
 
 use super::*;
 
-/// Numbers that look like chance and are the same in every run.
+/// Pseudo-random numbers that are the same in every run.
 struct Chance(u64);
 
 impl Chance {
     fn below(&mut self, end: u32) -> u32 {
-        // Knuth's multiplier; the high bits are the better ones.
+        // Knuth's multiplier; use the high bits.
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         u32::try_from(self.0 >> 33).unwrap() % end
@@ -55,7 +55,7 @@ const NAMES: &[&[u8]] = &[
     b"\0\0\0\0\0\0\0\0",
 ];
 
-/// Near what is there, so that some of it is.
+/// A random call near existing addresses, so that some of them exist.
 fn call<'a>(chance: &mut Chance, data: &'a [u8]) -> Call<'a> {
     use Service::{Read, ReadWrite, Write};
     let axis = chance.of(&[0, 0, 0, 0x1000, 0x1_0000, 0x2_0000, 0x6_0000, 0xFFFF_0000]);
@@ -107,7 +107,7 @@ fn any_call_is_answered() {
         assert!(u32::try_from(reply.len()).unwrap() <= call.read_length);
         assert!(request.decode_reply(&reply).is_ok(), "{call:?}: {reply:?}");
     }
-    // Else it says little.
+    // With fewer answers the test would prove little.
     assert!(answered > 5_000, "{answered}");
     assert!(functions.len() > 25, "{functions:?}");
 }

@@ -14,13 +14,13 @@ use crate::simulator::model::Item;
 use crate::simulator::owner::Owner;
 use crate::simulator::{to_len, to_u32};
 
-/// What the first element of an instance says of itself: the number of the others.
+/// The type of the first element of an instance, which is the number of the others.
 const COUNT_TYPE: &str = "UNS32";
 const COUNT_LENGTH: u32 = 4;
 const COUNT_UNIT: &str = "-";
 
 impl AnsweringCnc<'_> {
-    /// Where an instance is; (0, 0) if there is none (SDA-2).
+    /// The address of an instance; (0, 0) if it does not exist (SDA-2).
     pub(super) fn find_instance(&self, op: &FindInstance) -> ReplyData {
         let found = self.instance(op.class_group(), op.query().channel, op.query().axis);
         encode(found.map_or(ObjectAddress::NONE, ObjectAddress::from))
@@ -35,7 +35,7 @@ impl AnsweringCnc<'_> {
         self.locate(address).is_ok().then_some(address)
     }
 
-    /// The content; of the first element, how many there are besides.
+    /// The content; of the first element, the number of the others.
     pub(super) fn read_element(&self, address: ElementAddress) -> ReplyData {
         match self.locate(address)? {
             (owner, None) => encode(ElementCount(to_u32(content::items(self.model, owner).len()))),
@@ -53,7 +53,7 @@ impl AnsweringCnc<'_> {
         Ok(Vec::new())
     }
 
-    /// The name; that of the first element is the instance's.
+    /// The name; of the first element, that of the instance.
     pub(super) fn element_name(&self, address: ElementAddress) -> ReplyData {
         match self.element(address)? {
             (_, Some(item)) => encode_text(item.name.as_cnc_str()),
@@ -83,14 +83,14 @@ impl AnsweringCnc<'_> {
         encode(flag)
     }
 
-    /// An element, none for the first of an instance.
+    /// The element at an address; `None` for the first of an instance.
     fn element(&self, address: ElementAddress) -> Result<(Owner, Option<&Item>), AdsError> {
         let (owner, index) = self.locate(address)?;
         let item = index.map(|index| content::items(self.model, owner).get(index));
         Ok((owner, item.map(|item| item.ok_or(AdsError::INVALID_OFFSET)).transpose()?))
     }
 
-    /// Whose element is at an address, and which; none for the first.
+    /// Owner and index of the element at an address; `None` for the first.
     ///
     /// The instances of a class are those of SDA-5. That the position controller itself has no
     /// elements, and that a platform axis is in every HLD, is assumed (E-30).
@@ -160,7 +160,7 @@ impl AnsweringCnc<'_> {
     }
 }
 
-/// As printed: 0x1000 for the platform axes of the HLD, else 0x10000 (ADR-7, E-01).
+/// As printed: 0x1000 for the platform axes of the HLD, otherwise 0x10000 (ADR-7, E-01).
 const fn stride(class: Class, instance: u8) -> AxisStride {
     match (class, instance) {
         (Class::Hld, 0) => AxisStride::X1000,
@@ -169,7 +169,7 @@ const fn stride(class: Class, instance: u8) -> AxisStride {
 }
 
 fn text(text: &str) -> ReplyData {
-    // Names were checked to be CP1252.
+    // The model has checked that names are CP1252.
     encode_text(CncStr::new(text).map_err(|_| AdsError::INVALID_DATA)?)
 }
 

@@ -1,4 +1,4 @@
-//! From an ADS request to data or an error number.
+//! Answers an ADS request with data or an error number.
 
 mod dynamic;
 mod elements;
@@ -28,25 +28,25 @@ pub struct Cnc {
 }
 
 impl Cnc {
-    /// A CNC with this data model, in the state it starts in.
+    /// A CNC with this data model, in its initial state.
     pub fn new(model: Model) -> Self {
         let policy = Policy::DEFAULT;
         let state = Mutex::new(CncState::new(&model, policy));
         Self { model, state, clock: Clock::running(), policy }
     }
 
-    /// With this data model, in the state it starts in.
+    /// Replaces the data model; the state is the initial one.
     pub(crate) fn with_model(self, model: Model) -> Self {
         Self { clock: self.clock, ..Self::new(model) }
     }
 
-    /// With NC programs of this policy, in the state it starts in.
+    /// Replaces the policy of its NC programs; the state is the initial one.
     pub(crate) fn with_policy(mut self, policy: Policy) -> Self {
         self.state = Mutex::new(CncState::new(&self.model, policy));
         Self { policy, ..self }
     }
 
-    /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
+    /// The CNC of the manuals' examples: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
     ///
     /// # Errors
     /// None: a test builds it.
@@ -54,8 +54,7 @@ impl Cnc {
         Model::default_model().map(Self::new)
     }
 
-    /// With a stopped clock: time passes by [`pass`](Self::pass) only. What happens in time,
-    /// a test then has under control.
+    /// Stops the clock: only [`pass`](Self::pass) advances it, so that tests control the time.
     ///
     /// ```
     /// use std::time::Duration;
@@ -90,7 +89,7 @@ impl Cnc {
         self
     }
 
-    /// Lets time pass: parameters come and go, programs run on.
+    /// Advances the clock: parameters are created and deleted, programs continue.
     pub fn pass(&self, time: Duration) {
         self.clock.pass(time);
     }
@@ -99,21 +98,21 @@ impl Cnc {
         &self.model
     }
 
-    /// The state as it is by now.
+    /// The state, advanced to the current time.
     pub(super) fn state(&self) -> MutexGuard<'_, CncState> {
         self.state_and_time().0
     }
 
-    /// The same, and when that is: the clock is read once for each request.
+    /// The state, and its time: the clock is read once for each request.
     fn state_and_time(&self) -> (MutexGuard<'_, CncState>, Duration) {
-        // No panic is reachable under the lock, and each value is whole whatever happened.
+        // No panic is reachable under the lock, and it would leave each value valid.
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let now = self.now();
         state.advance(now);
         (state, now)
     }
 
-    /// Time since it was switched on.
+    /// Time since the CNC was started.
     pub(super) fn now(&self) -> Duration {
         self.clock.now()
     }
@@ -149,7 +148,7 @@ impl Cnc {
         Responder::respond(self, net_id, frame, answers);
     }
 
-    /// How its NC programs go about.
+    /// The policy of its NC programs.
     pub(super) const fn policy(&self) -> Policy {
         self.policy
     }
@@ -188,7 +187,7 @@ impl Cnc {
             Request::DynamicValueByName(op) => running.dynamic_by_name(op),
             Request::DynamicValueByIndex(op) => running.dynamic_by_index(op),
             Request::WriteProgramStream(op) => running.write_program_stream(op),
-            // `Request` may get more functions; the assertion below is false then.
+            // `Request` is non-exhaustive; the assertion below fails for a new function.
             _ => Err(AdsError::INVALID_OFFSET),
         }
     }
@@ -206,7 +205,7 @@ impl Responder for Cnc {
     }
 }
 
-/// The CNC while it answers.
+/// The CNC while it answers a request.
 struct AnsweringCnc<'a> {
     model: &'a Model,
     state: MutexGuard<'a, CncState>,
@@ -236,7 +235,7 @@ fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
 }
 
 fn encode<'a>(reply: impl Into<Reply<'a>>) -> ReplyData {
-    // The model was checked to fit: this does not fail.
+    // The model was checked, so this does not fail.
     reply.into().encode_to_vec().map_err(|_| AdsError::INVALID_DATA)
 }
 

@@ -34,7 +34,7 @@ impl AnsweringCnc<'_> {
         Ok(Vec::new())
     }
 
-    /// The objects of a list; the platform's are in that of the first channel too (COM-4).
+    /// The objects of a list; the first channel's list includes the platform's (COM-4).
     fn objects(&self, list: ObjectList) -> Result<DescriptorsRef<'_>, AdsError> {
         let parts = list.parts();
         let list = match (parts.table, parts.instance) {
@@ -53,9 +53,9 @@ impl AnsweringCnc<'_> {
         list.map(Descriptors::as_ref).ok_or(AdsError::INVALID_GROUP)
     }
 
-    /// Whose content is at an address, and which of it.
+    /// Owner and index of the object at an address.
     ///
-    /// Of a platform axis both forms are taken, the axis in the group or in the offset (E-04).
+    /// For a platform axis both forms are accepted, the axis in the group or in the offset (E-04).
     fn object(&self, (com, offset): (ComGroup, IndexOffset)) -> Result<(Owner, usize), AdsError> {
         let split = offset.axis_and_element(AxisStride::X10000);
         let (axis, element) = split.map_err(|_| AdsError::INVALID_OFFSET)?;

@@ -20,7 +20,7 @@ fn call(group: u32, offset: u32, read_length: u32, data: &[u8]) -> Call<'_> {
     }
 }
 
-/// Channel 1, plenty of room.
+/// Requests to channel 1, with a large read length.
 fn ask(offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
     cnc().answer(&call(0x12_2301, offset, 2048, data))
 }
@@ -51,7 +51,7 @@ fn printed_examples() {
     let array = le(&[123, 234, 345, 456, 567]);
     assert_eq!(ask(0x47, b"\x34\x12\x00\x02\0\0\0\0"), Ok(array.clone()));
     assert_eq!(ask(0x48, b"V.E.Testvar\0"), Ok(array));
-    // Not the 333 that is printed: the array above holds (E-27).
+    // Not the printed 333: the array above decides (E-27).
     assert_eq!(ask(0x48, b"V.E.Testvar[3]\0"), Ok(le(&[456])));
     assert_eq!(ask(0x4B, b"\x03\0\0\0V.E\0"), Ok(vec![2, 0, 0, 0, 2, 0, 0, 0]));
     for kind in [b"\0\0\0\0V.G\0", b"\0\0\0\0V.A\0"] {
@@ -59,10 +59,10 @@ fn printed_examples() {
     }
     assert_eq!(ask(0x2_0004, b"V.A.WCS\0"), Ok(vec![0x1B, 0, 2, 1]));
     assert_eq!(ask(0x2_0005, b"V.A.WCS\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
-    // An axis that is not there, and a name with an axis of its own.
+    // An axis that does not exist, and a name with an axis.
     assert_eq!(ask(0x4_0005, b"V.A.WCS\0"), Err(AdsError::SYMBOL_NOT_FOUND));
     assert_eq!(ask(0x2_0005, b"V.A.WCS.Y\0"), Err(AdsError::SYMBOL_NOT_FOUND));
-    // The channel interface has it under the axis's name.
+    // The channel interface has it with the axis's name.
     assert_eq!(ask(0x46, b"V.A.WCS.Y\0"), Ok(vec![0x1B, 0, 2, 1]));
     assert_eq!(ask(0x48, b"V.A.WCS.Y\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
 
@@ -155,7 +155,7 @@ fn a_rank_is_no_number() {
     for group in [0x12_2303, 0x12_2305, 0x12_23FF, 0x02_2304, 0x02_2306] {
         assert_eq!(channel(group), Err(AdsError::INVALID_GROUP), "{group:#x}");
     }
-    // Elements may be there, but no channel 0 that has variables.
+    // Elements may exist there, but channel 0 has no variables.
     assert_eq!(channel(0x12_2300), Err(AdsError::INVALID_OFFSET));
 }
 
@@ -170,7 +170,7 @@ fn what_is_unknown_has_a_number() {
     assert_eq!(ask(0x4B, b"\0\0\0\0V.P\0"), Err(E::SYMBOL_NOT_FOUND));
     assert_eq!(cnc().answer(&call(0xF005, 0x44, 4, none)), Err(E::INVALID_GROUP));
     assert_eq!(com(0x12_0101, 0x4, 1), Err(E::INVALID_OFFSET));
-    // The program stream is not read (STM-1).
+    // The program stream cannot be read (STM-1).
     assert_eq!(com(0x12_0101, 0x90, 1), Err(E::SERVICE_NOT_SUPPORTED));
     let port = Call { port: AmsPort(851), ..call(0x12_2301, 0x44, 4, none) };
     assert_eq!(cnc().answer(&port), Err(E::TARGET_PORT_NOT_FOUND));
@@ -183,7 +183,7 @@ fn what_is_unknown_has_a_number() {
         assert_eq!(ask(0x46, name.as_bytes()), Err(E::SYMBOL_NOT_FOUND), "{name}");
         assert_eq!(ask(0x48, name.as_bytes()), Err(E::SYMBOL_NOT_FOUND), "{name}");
     }
-    // A handle is the variable's, not an element's.
+    // A handle belongs to the variable, not to an element.
     assert_eq!(ask(0x46, b"V.E.test[1]\0"), Err(E::SYMBOL_NOT_FOUND));
     for name in ["V.E.test[5]\0", "V.E.test[1][1]\0", "V.E.vartest[0]\0", "V.E.matrix[1]\0"] {
         assert_eq!(ask(0x48, name.as_bytes()), Err(E::INVALID_DATA), "{name}");
@@ -233,7 +233,7 @@ fn lengths_have_to_fit() {
     }
 }
 
-/// Who is told by the list where to stream to can do so in every channel (STM-1).
+/// Every channel has the program stream that its list contains (STM-1).
 #[test]
 fn every_channel_lists_the_object_it_streams_through() {
     for channel in [1, 2, 6] {
@@ -249,7 +249,7 @@ fn every_channel_lists_the_object_it_streams_through() {
 #[test]
 fn object_lists() {
     let count = |group| com(group, 0, 4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
-    // 19 of its own, 9 of its places, 2 of the platform.
+    // 19 of its own, 9 of its axes, 2 of the platform.
     assert_eq!(count(0x13_0101), Ok(30));
     assert_eq!(count(0x03_0101), Ok(30));
     assert_eq!(count(0x13_0100), Ok(2));
@@ -258,13 +258,13 @@ fn object_lists() {
     for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0206] {
         assert_eq!(count(absent), Err(AdsError::INVALID_GROUP), "{absent:#x}");
     }
-    // That group is of contents.
+    // A group of contents.
     assert_eq!(count(0x12_0101), Err(AdsError::INVALID_OFFSET));
     assert_eq!(com(0x13_0101, 0, 3), Err(AdsError::INVALID_SIZE));
 
     let read = |first, length| com(0x13_0101, first, length).map(|bytes| bytes.len() / 84);
     assert_eq!((read(1, 84), read(1, 168), read(1, 30 * 84)), (Ok(1), Ok(2), Ok(30)));
-    // No more than there are; one for a length between.
+    // At most the existing ones; one if the length is not a multiple.
     assert_eq!((read(29, 4 * 84), read(1, 31 * 84), read(1, 100)), (Ok(2), Ok(30), Ok(1)));
     assert_eq!(read(1, 84 * 10_000_000), Ok(30));
     assert_eq!(read(1, 83), Err(AdsError::INVALID_SIZE));
@@ -286,7 +286,7 @@ fn object_lists() {
     assert_eq!(axis[12..20], [0, 2, 0x12, 0, 1, 0, 1, 0]);
 }
 
-/// Each object is read where its descriptor says, as long as it says.
+/// Each object can be read at the address and with the length of its descriptor.
 #[test]
 fn every_object_is_where_its_descriptor_says() {
     let cnc = cnc();
@@ -307,7 +307,8 @@ fn every_object_is_where_its_descriptor_says() {
     }
 }
 
-/// Sixteen and more platform axes: the stride 0x1000 goes on beyond what looks like another.
+/// Sixteen and more platform axes: their offsets with the stride 0x1000 reach the range of the
+/// other stride.
 #[test]
 fn many_platform_axes() {
     let axes: String = (1..=40).map(|n| format!("[[axis]]\nname = \"A{n}\"\n")).collect();
@@ -325,12 +326,12 @@ fn many_platform_axes() {
         let number = Ok(u16::try_from(axis).unwrap().to_le_bytes().to_vec());
         assert_eq!(read(0x12_3300, 0x1000 * axis + 1, 2), number);
         assert_eq!(read(0x12_3301, 0x1_0000 * axis + 1, 2), number);
-        // Counted wherever the first element is.
+        // The first element has the number of elements.
         assert_eq!(read(0x12_3300, 0x1000 * axis, 4), Ok(vec![1, 0, 0, 0]));
     }
 }
 
-/// They go to the program of a channel that is there.
+/// Packets are written to the program of an existing channel.
 #[test]
 fn packets_of_the_program_stream() {
     let write = |group| {

@@ -54,7 +54,7 @@ impl AnsweringCnc<'_> {
         let channel = self.channel(op.channel)?;
         self.permit(Function::DescribeExtended, op.kind)?;
         let at = self.by_index(channel, op.kind, op.index)?;
-        // V.G and V.A have none (VAR-16).
+        // V.G and V.A have no extended description (VAR-16).
         encode(ExtendedReply(self.variable(channel, at)?.extended))
     }
 
@@ -62,7 +62,7 @@ impl AnsweringCnc<'_> {
         let channel = self.channel(op.channel)?;
         let (named, indices) = self.named(Function::DescribeByName, channel, op.name.text())?;
         let Resolved::Variable(at) = named else {
-            // What a parameter is; that it has no handle is assumed.
+            // The description of a parameter; that it has no handle is assumed.
             return encode(DescriptionByNameRef {
                 handle: Handle(0),
                 var_type: VariableType::REAL64,
@@ -87,7 +87,7 @@ impl AnsweringCnc<'_> {
     pub(super) fn handle_by_name(&self, op: &HandleByName<'_>) -> ReplyData {
         let channel = self.channel(op.channel)?;
         match self.named(Function::HandleByName, channel, op.name.text())? {
-            // A handle is the variable's, not an element's.
+            // A handle belongs to the variable, not to an element.
             (Resolved::Variable(at), indices) if indices.is_empty() => {
                 encode(self.handle(channel, at)?)
             }
@@ -156,7 +156,8 @@ impl AnsweringCnc<'_> {
         self.write(channel, at, indices, op.value.as_bytes())
     }
 
-    /// The value of a variable or of one of its elements; blank where no axis is (SDA-11).
+    /// The value of a variable or of one of its elements; zeros for a place without an axis
+    /// (SDA-11).
     fn read(&self, channel: usize, at: At, indices: U32List<'_>) -> ReplyData {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
@@ -210,7 +211,7 @@ impl AnsweringCnc<'_> {
                 values.and_then(|values| values.get_mut(variable))
             }
         };
-        // Where no axis is there is nothing to be written.
+        // A place without an axis cannot be written.
         copy_padded(
             value.and_then(|value| value.get_mut(part)).ok_or(AdsError::INVALID_DATA)?,
             bytes,

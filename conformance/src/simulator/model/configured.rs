@@ -1,20 +1,20 @@
-//! What the model says of variables, for who holds answers against it.
+//! The variables of the model, to compare answers with.
 
 use ads_cnc::{CncString, ExtendedDescription, VariableAccess, VariableType};
 
 use super::Model;
 use super::variable::Variable;
 
-/// A variable of a channel, as it is at the start.
+/// A variable of a channel in its initial state.
 #[derive(Clone, Debug)]
 pub(crate) struct Configured {
     pub(crate) name: CncString,
     pub(crate) var_type: VariableType,
     pub(crate) access: VariableAccess,
-    /// Bytes of all of it.
+    /// Size of the whole value in bytes.
     pub(crate) size: usize,
     pub(crate) dimensions: Vec<u32>,
-    /// What only V.E has.
+    /// V.E only.
     pub(crate) extended: Option<ExtendedDescription>,
     pub(crate) value: Vec<u8>,
 }

@@ -1,4 +1,4 @@
-//! A model as it is in the file. Each part has its place in the file, for errors.
+//! The structure of a model file, with the position of each part for errors.
 
 use serde::Deserialize;
 use toml::{Spanned, Value};
@@ -74,7 +74,7 @@ pub(super) struct RequestRow {
     pub(super) wait: Option<Spanned<WaitTable>>,
 }
 
-/// Parameters of the cycle.
+/// Parameters of the cycle SysServiceWait.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "UPPERCASE")]
 pub(super) struct WaitTable {

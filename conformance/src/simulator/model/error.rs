@@ -1,8 +1,8 @@
-//! An error of a data model, and where it is.
+//! Errors of a data model, with their position.
 
 use std::ops::Range;
 
-/// A data model that cannot be served: where it says what cannot be, and why not.
+/// An error in a data model, with its position and the reason.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::Model;
@@ -20,7 +20,7 @@ pub struct ModelError {
 }
 
 impl ModelError {
-    /// The line, from 1; none if the file cannot be read at all.
+    /// The line, from 1; `None` if the file cannot be read at all.
     pub const fn line(&self) -> Option<usize> {
         self.line
     }
@@ -34,7 +34,7 @@ impl ModelError {
     }
 }
 
-/// A file under reading: makes errors of places in it.
+/// The file being parsed: makes errors from positions.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
@@ -47,7 +47,7 @@ impl Source<'_> {
         ModelError { file: self.file.to_owned(), line, reason: reason.to_string() }
     }
 
-    /// A file that is no text from there on.
+    /// The error for a file that is not UTF-8 from this offset on.
     pub(super) fn not_text(bytes: &[u8], at: usize, file: &str) -> ModelError {
         let byte = bytes.get(at).copied().unwrap_or_default();
         let reason = format!("text in UTF-8 is needed, and byte {byte:#04X} is none");
@@ -55,7 +55,7 @@ impl Source<'_> {
     }
 }
 
-/// The line of a place, from 1.
+/// The line of an offset, from 1.
 fn line(bytes: &[u8], at: usize) -> usize {
     let before = bytes.get(..at).unwrap_or(bytes);
     before.iter().filter(|&&byte| byte == b'\n').count().saturating_add(1)

@@ -1,4 +1,4 @@
-//! What objects and elements have in common: a content of a type.
+//! Objects and elements: a content with a type.
 
 use std::collections::HashMap;
 
@@ -22,28 +22,28 @@ impl Item {
     }
 }
 
-/// Where a content is from.
+/// The source of a content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum Meaning {
-    /// It is what was written last.
+    /// The value written last.
     Value,
-    /// The logical number of the axis at the place, 0 for none. Writing it exchanges axes.
+    /// The logical number of the axis at the place, 0 without an axis. A write exchanges axes.
     AxisNumber,
 }
 
-/// Values at the start.
+/// Initial values.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::simulator) struct Initial {
-    /// Bytes of each.
+    /// Size of each value in bytes.
     pub(in crate::simulator) size: usize,
     pub(super) values: InitialValues,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum InitialValues {
-    /// One for all instances.
+    /// The same for all instances.
     Same(Vec<u8>),
-    /// One for each; zeros for those after.
+    /// One for each instance; zeros for instances beyond.
     Each(Vec<Vec<u8>>),
 }
 
@@ -63,13 +63,13 @@ impl Initial {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Objects {
     pub(in crate::simulator) items: Vec<Item>,
-    /// Low part of the offset of each.
+    /// Low part of each object's offset.
     pub(in crate::simulator) elements: Vec<u32>,
     pub(super) by_element: HashMap<u32, usize>,
 }
 
 impl Objects {
-    /// The object at this element.
+    /// The index of the object with this element number.
     pub(in crate::simulator) fn at(&self, element: u32) -> Option<usize> {
         self.by_element.get(&element).copied()
     }
@@ -94,8 +94,8 @@ impl Elements {
 /// A class of SDA and GEO.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct ClassModel {
-    /// Of each channel; of the spindles, of each spindle.
+    /// Elements of each channel; in the class of spindles, of each spindle.
     pub(in crate::simulator) channel: Elements,
-    /// Of each axis.
+    /// Elements of each axis.
     pub(in crate::simulator) axis: Elements,
 }

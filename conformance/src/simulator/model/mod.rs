@@ -3,6 +3,7 @@
 //! It is read from TOML; the comments of the default model describe what it may contain:
 //! `ads-cnc serve --print-model` writes it out.
 
+#[allow(clippy::restriction)]
 mod build;
 mod claims;
 mod configured;
@@ -31,7 +32,7 @@ use crate::edition::{CncVersion, Edition};
 pub(super) use build::parameter_kind;
 use error::Source;
 
-/// The default model, as it is read: what the manuals print, and something of everything else.
+/// The default model: the values of the manuals' examples, and an example of every other feature.
 pub const DEFAULT_MODEL: &str = include_str!("default.toml");
 
 impl Model {
@@ -43,16 +44,16 @@ impl Model {
         Self::from_toml(DEFAULT_MODEL, "the default model")
     }
 
-    /// A model from TOML; `file` is what errors name it by.
+    /// Parses a model from TOML; `file` is its name in errors.
     ///
     /// # Errors
-    /// [`ModelError`] for what is no TOML, unknown keys, and whatever does not fit together or
-    /// into the streams.
+    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do
+    /// not fit into the streams.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
         Self::with_settings(text, file, Settings::default())
     }
 
-    /// [`from_toml`](Self::from_toml), with other settings than the file has.
+    /// [`from_toml`](Self::from_toml) with settings that override those of the file.
     ///
     /// # Errors
     /// Those of [`from_toml`](Self::from_toml).
@@ -60,7 +61,7 @@ impl Model {
         build::build(Source { file, text }, settings)
     }
 
-    /// [`with_settings`](Self::with_settings) of a file.
+    /// [`with_settings`](Self::with_settings) for a file.
     ///
     /// # Errors
     /// Those of [`from_toml`](Self::from_toml), and a file that cannot be read.
@@ -78,23 +79,23 @@ impl Model {
         self.edition
     }
 
-    /// The version that it claims to be; none has everything.
+    /// The version that it claims to be; `None` has all features.
     pub const fn version(&self) -> Option<CncVersion> {
         self.version
     }
 
-    /// Logical numbers of all channels, the inactive too.
+    /// Logical numbers of all channels, including inactive ones.
     pub fn channels(&self) -> impl Iterator<Item = u8> {
         self.channels.iter().map(|channel| channel.number)
     }
 
-    /// How streaming is set up in the channel with this logical number.
+    /// The streaming configuration of the channel with this logical number.
     pub fn program(&self, channel: u8) -> Option<&ProgramConfig> {
         let channel = self.channels.iter().find(|one| one.number == channel);
         channel.map(|channel| &channel.program)
     }
 
-    /// The class's elements; of which instances, the class says.
+    /// The elements of a class; the class determines their instances.
     pub(super) fn class(&self, class: Class) -> Option<&ClassModel> {
         self.classes.get(class_place(class))
     }

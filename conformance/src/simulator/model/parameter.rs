@@ -1,4 +1,4 @@
-//! Dynamic parameters, and when they are there.
+//! Dynamic parameters, and when they exist.
 
 use std::time::Duration;
 
@@ -10,15 +10,15 @@ use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 pub(in crate::simulator) struct Parameter {
     pub(in crate::simulator) kind: DynamicKind,
     pub(in crate::simulator) name: CncString,
-    /// Whenever it comes.
+    /// The initial value each time it is created.
     pub(in crate::simulator) value: DynamicValue,
-    /// It is there while the content of this object of the channel is not 0.
+    /// It exists only while the content of this object of the channel is not 0.
     pub(in crate::simulator) needs: Option<usize>,
-    /// And while its time is.
+    /// It exists only at these times.
     pub(in crate::simulator) times: Times,
 }
 
-/// When a parameter is there.
+/// When a parameter exists.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::simulator) struct Times {
     comes: Duration,
@@ -27,7 +27,7 @@ pub(in crate::simulator) struct Times {
 }
 
 impl Times {
-    /// It comes, and it goes if it does, and all of it again after a period.
+    /// Created at `comes`, deleted at `goes`, and repeated after `period`.
     pub(super) fn new(
         comes: Duration,
         goes: Option<Duration>,
@@ -46,12 +46,12 @@ impl Times {
         Ok(Self { comes, goes, period })
     }
 
-    /// Whether it never comes nor goes.
+    /// Whether it always exists.
     pub(in crate::simulator) fn is_always(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Which of its lives it has at a time, from 0; none if it is not there.
+    /// How many times it was created before at a time; `None` if it does not exist then.
     pub(in crate::simulator) fn life(&self, now: Duration) -> Option<u128> {
         let (now, period) = (now.as_nanos(), self.period.map(|period| period.as_nanos()));
         let life = period.and_then(|period| now.checked_div(period)).unwrap_or(0);
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(lives(times(0, Some(3), None).unwrap()), [a, a, a, no, no, no, no, no, no]);
         assert_eq!(lives(times(2, Some(5), None).unwrap()), [no, no, a, a, a, no, no, no, no]);
         assert_eq!(lives(times(1, Some(2), Some(4)).unwrap()), [no, a, no, no, no, b, no, no, no]);
-        // There to the end of the period, and gone at the beginning of the next.
+        // It exists until the end of the period and is deleted at the beginning of the next.
         assert_eq!(lives(times(1, None, Some(4)).unwrap()), [no, a, a, a, no, b, b, b, no]);
         assert_eq!(lives(times(0, Some(2), Some(3)).unwrap()), [a, a, no, b, b, no, c, c, no]);
     }

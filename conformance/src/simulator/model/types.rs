@@ -1,4 +1,4 @@
-//! Types of values, and the bytes of a value that is written in TOML.
+//! Types of values, and conversion of TOML values to bytes.
 
 use ads_cnc::{CncStr, VariableType};
 use toml::Value;
@@ -10,7 +10,7 @@ pub(super) struct NamedType {
     pub(super) scalar: ScalarType,
 }
 
-/// How a value is made bytes.
+/// How a value is encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ScalarType {
     Boolean,
@@ -18,12 +18,12 @@ pub(super) enum ScalarType {
     Signed(usize),
     Real32,
     Real64,
-    /// Of as many bytes as are declared, a NUL among them.
+    /// Of the declared length, including a NUL.
     String,
 }
 
 impl ScalarType {
-    /// Bytes of one value; none for a STRING.
+    /// Size of one value in bytes; `None` for a STRING.
     pub(super) const fn size(self) -> Option<usize> {
         match self {
             Self::Boolean => Some(1),
@@ -39,7 +39,7 @@ const fn named(name: &'static str, scalar: ScalarType) -> NamedType {
     NamedType { name, scalar }
 }
 
-/// Of variables (VAR-5).
+/// Types of variables (VAR-5).
 pub(super) const VARIABLE: &[NamedType] = &[
     named("BOOLEAN", ScalarType::Boolean),
     named("SGN08", ScalarType::Signed(1)),
@@ -52,7 +52,7 @@ pub(super) const VARIABLE: &[NamedType] = &[
     named("STRING", ScalarType::String),
 ];
 
-/// Of elements (SDA-7).
+/// Types of elements (SDA-7).
 pub(super) const ELEMENT: &[NamedType] = &[
     named("BOOLEAN", ScalarType::Boolean),
     named("SGN08", ScalarType::Signed(1)),
@@ -66,7 +66,7 @@ pub(super) const ELEMENT: &[NamedType] = &[
     named("STRING", ScalarType::String),
 ];
 
-/// Of COM objects (GEN-5).
+/// Types of COM objects (GEN-5).
 pub(super) const OBJECT: &[NamedType] = &[
     named("BOOL", ScalarType::Boolean),
     named("BYTE", ScalarType::Unsigned(1)),
@@ -95,7 +95,7 @@ pub(super) fn code(name: &str) -> VariableType {
     codes.into_iter().find(|code| code.name() == Some(name)).unwrap_or(VariableType::STRING)
 }
 
-/// The bytes of one value of a type, or of an array of this many, of `size` bytes each.
+/// Encodes one value of a type, or an array with this number of values, of `size` bytes each.
 pub(super) fn bytes(
     scalar: ScalarType,
     size: usize,
@@ -115,7 +115,7 @@ pub(super) fn bytes(
     Ok(bytes)
 }
 
-/// Rows of an array of more dimensions may be arrays of their own.
+/// Flattens a nested array of several dimensions.
 fn flatten<'a>(value: &'a Value, into: &mut Vec<&'a Value>) {
     match value {
         Value::Array(values) => values.iter().for_each(|value| flatten(value, into)),
@@ -155,7 +155,7 @@ const fn unsigned_max(size: usize) -> i64 {
         1 => 0xFF,
         2 => 0xFFFF,
         4 => 0xFFFF_FFFF,
-        // What TOML has.
+        // The maximum of TOML.
         _ => i64::MAX,
     }
 }
@@ -167,13 +167,13 @@ fn integer(number: i64, min: i64, max: i64, size: usize) -> Result<Vec<u8>, Stri
     Ok(number.to_le_bytes().into_iter().take(size).collect())
 }
 
-/// Rounded to the nearest, as every parser of numbers does.
+/// Parsed by Rust, which rounds to the nearest.
 fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
     let text = number.to_string();
     text.parse().map_err(|_| format!("{text} is no number"))
 }
 
-/// CP1252, NULs after it. What follows a NUL is kept.
+/// Encodes CP1252, padded with NULs. Bytes after a NUL in the text are kept.
 fn string(text: &str, size: usize) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     for (place, part) in text.split('\0').enumerate() {

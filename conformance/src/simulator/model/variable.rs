@@ -9,22 +9,23 @@ use ads_cnc::{CncString, ExtendedDescription, Handle, U32List, VariableAccess, V
 use super::item::Initial;
 use crate::simulator::to_len;
 
-/// A variable, or that of every axis.
+/// A variable, or the V.A variable of every axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::simulator) struct Variable {
-    /// With its kind in front; without the axis's name after.
+    /// The name with its kind, without the axis's name.
     pub(in crate::simulator) name: CncString,
-    /// None by name only. Of axes, place 0's: each place's is 0x10000 further.
+    /// `None` if accessible by name only. For V.A it is that of place 0; each further place adds
+    /// 0x10000.
     pub(in crate::simulator) handle: Option<Handle>,
     pub(in crate::simulator) var_type: VariableType,
     pub(in crate::simulator) access: VariableAccess,
-    /// Elements in each dimension; none for an elementary variable.
+    /// Number of elements in each dimension; empty for an elementary variable.
     pub(in crate::simulator) dimensions: Vec<u32>,
     /// All elements, the last index running fastest.
     pub(in crate::simulator) initial: Initial,
-    /// What only V.E has.
+    /// V.E only.
     pub(in crate::simulator) extended: Option<ExtendedDescription>,
-    /// The variable of the Service Interface that it is.
+    /// The variable of the Service Interface, if it is one.
     pub(in crate::simulator) service: Option<ServiceVariable>,
 }
 
@@ -33,8 +34,8 @@ impl Variable {
         self.access == VariableAccess::READ_WRITE
     }
 
-    /// Where in the value: all of it without indices, one element with one index for each
-    /// dimension. None for another number of indices, and for an index out of bounds.
+    /// The byte range in the value: all of it without indices, one element with one index for each
+    /// dimension. `None` for another number of indices, or an index out of bounds.
     pub(in crate::simulator) fn part(&self, indices: U32List<'_>) -> Option<Range<usize>> {
         if indices.is_empty() {
             return Some(0..self.initial.size);
@@ -55,7 +56,7 @@ impl Variable {
         Some(start..start.checked_add(size)?)
     }
 
-    /// Whether indices select one STRING, which may be written shorter than it is declared.
+    /// Whether indices select a single STRING, which may be written shorter than declared.
     pub(in crate::simulator) fn is_text(&self, indices: U32List<'_>) -> bool {
         self.var_type == VariableType::STRING && indices.len() == self.dimensions.len()
     }
@@ -69,23 +70,23 @@ pub(in crate::simulator) struct Variables {
 }
 
 impl Variables {
-    /// The variable with just this name.
+    /// The variable with exactly this name.
     pub(in crate::simulator) fn named(&self, name: &[u8]) -> Option<usize> {
         self.by_name.get(name).copied()
     }
 }
 
-/// The variable of a handle.
+/// The variable of a handle, as an index in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum At {
     /// A variable of the channel.
     Own(usize),
-    /// The variable of whatever axis is at a place of the channel, from 0 (VAR-10).
+    /// The variable of the axis at a place of the channel, from 0 (VAR-10).
     Place { place: usize, variable: usize },
 }
 
-/// The handle of an axis variable at a place, from 1, of a channel: printed is 0x0102001B, of the
-/// second place of channel 1.
+/// The handle of an axis variable at a place (from 1) of a channel. Printed example: 0x0102001B at
+/// the second place of channel 1.
 pub(in crate::simulator) fn handle_at(of_axis: Handle, channel: u8, place: u8) -> Handle {
     let channel = u32::from(channel).saturating_sub(1);
     Handle(of_axis.0 | u32::from(place) << 16 | channel << 8)

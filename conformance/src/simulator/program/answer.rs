@@ -1,20 +1,19 @@
-//! What came of a request.
+//! The answers to requests of a script.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
 use ads_cnc::CncString;
 
-/// What came of a request of a [`Script`](super::Script).
+/// The answer to a request of a [`Script`](super::Script).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServiceAnswer {
-    /// Which it was of all that were made, from 1.
+    /// Number of the request among all that were sent, from 1.
     pub number: u64,
-    /// Its place in the script, from 0.
+    /// Index of the request in the script.
     pub request: usize,
-    /// When the program went on.
+    /// When the program continued.
     pub at: Duration,
-    /// How it ended.
     pub outcome: ServiceOutcome,
 }
 
@@ -25,11 +24,11 @@ pub enum ServiceOutcome {
         state: u32,
         text: CncString,
     },
-    /// There was none within the longest wait.
+    /// No answer within the maximum wait.
     TimedOut,
 }
 
-/// The latest answers, and how many there were.
+/// The latest answers, and the number of all.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     pub(super) kept: VecDeque<ServiceAnswer>,
@@ -38,7 +37,7 @@ pub(super) struct Answers {
 }
 
 impl Answers {
-    /// How many are kept.
+    /// Number of stored answers.
     pub(super) const KEPT: usize = 64;
 
     pub(super) fn push(&mut self, request: usize, at: Duration, outcome: ServiceOutcome) {

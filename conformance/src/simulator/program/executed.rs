@@ -1,6 +1,6 @@
-//! What was run.
+//! The executed lines of a program.
 
-/// The lines that a program has run, in their order: all of them as numbers, the latest as text.
+/// The executed lines of a program: counts and digest of all, text of the latest.
 ///
 /// ```
 /// use std::time::Duration;
@@ -22,10 +22,11 @@ pub struct Executed {
     lines: u64,
     bytes: u64,
     digest: u64,
-    /// The latest lines, whole.
+    /// The latest lines, complete.
     kept: Vec<u8>,
     kept_lines: u64,
-    /// The bytes of the latest lines that are kept at least; twice as many and a line at most.
+    /// Minimum number of stored bytes of the latest lines; at most twice as many plus a line are
+    /// stored.
     room: usize,
 }
 
@@ -34,27 +35,27 @@ impl Executed {
         Self { lines: 0, bytes: 0, digest: BASIS, kept: Vec::new(), kept_lines: 0, room }
     }
 
-    /// How many lines.
+    /// Number of lines.
     pub fn line_count(&self) -> u64 {
         self.lines
     }
 
-    /// How many bytes, line ends included.
+    /// Number of bytes, including line ends.
     pub fn byte_count(&self) -> u64 {
         self.bytes
     }
 
-    /// [`digest`] of all bytes, line ends included.
+    /// The [`digest`] of all bytes, including line ends.
     pub fn digest(&self) -> u64 {
         self.digest
     }
 
-    /// The latest lines, as they came: each with its line end.
+    /// The latest lines, each with its line end.
     pub fn recent(&self) -> &[u8] {
         &self.kept
     }
 
-    /// Number of the first line that is kept, from 1; one past the last if none is.
+    /// Number of the first stored line, from 1; one past the last if none is stored.
     pub fn first_recent(&self) -> u64 {
         self.lines.saturating_sub(self.kept_lines).saturating_add(1)
     }
@@ -75,7 +76,7 @@ impl Executed {
         self.kept_lines = self.kept_lines.saturating_add(1);
     }
 
-    /// Keeps what there is room for.
+    /// Drops lines beyond the limit.
     fn forget(&mut self) {
         let mut surplus = 0_usize;
         while self.kept.len().saturating_sub(surplus) > self.room {
@@ -88,14 +89,14 @@ impl Executed {
     }
 }
 
-/// The lines of bytes that came through the streaming interface, with their ends.
+/// Splits bytes from the streaming interface into lines, with their ends.
 pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split_inclusive(|&byte| byte == b'\n')
 }
 
 const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
 
-/// FNV-1a, 64 bits: not against malice.
+/// FNV-1a, 64 bits; not cryptographic.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::digest;

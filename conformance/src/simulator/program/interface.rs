@@ -5,8 +5,8 @@ use std::fmt;
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, LineError, check_line_ends};
 
-/// The interface through which a CNC gets its stream: what was written and not read yet, at most
-/// 4094 bytes.
+/// The streaming interface of a CNC: a buffer of at most 4094 bytes that were written and not read
+/// yet.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1, 4.1 and 4.2 (STM-3, STM-5, STM-6, STM-11, STM-12,
 /// STM-15).
@@ -45,7 +45,7 @@ impl StreamingInterface {
     ///
     /// [`Ack::Rejected`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Busy`],
     /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is
-    /// assumed). What the bytes are does not matter here.
+    /// assumed). The bytes are not checked here.
     pub fn write(&mut self, data: &[u8]) -> Ack {
         if data.is_empty() || data.len() > STREAM_PACKET_MAX {
             return Ack::Rejected;
@@ -59,19 +59,19 @@ impl StreamingInterface {
         Ack::Accepted
     }
 
-    /// Takes out everything at once, in the order of the writes; where one ended does not show
-    /// (STM-12). Nothing if nothing is there: motion stops until more is written (STM-16).
+    /// Takes all buffered bytes, in the order of the writes, whose boundaries are lost (STM-12).
+    /// Empty if the buffer is: motion stops until more is written (STM-16).
     ///
     /// # Errors
-    /// The first line, counted in what was there, that does not end in CR LF: CNC error 21476
-    /// (STM-5). The interface is empty all the same (assumed).
+    /// The first line, counted in the buffer, that does not end in CR LF: CNC error 21476 (STM-5).
+    /// The buffer is emptied all the same (assumed).
     pub fn read(&mut self) -> Result<&[u8], LineError> {
         let bytes = self.bytes.get(..self.len).unwrap_or_default();
         self.len = 0;
         check_line_ends(bytes).map(|()| bytes)
     }
 
-    /// What an NC reset does: nothing is left (STM-11).
+    /// NC reset: empties the buffer (STM-11).
     pub const fn reset(&mut self) {
         self.len = 0;
     }
@@ -80,7 +80,7 @@ impl StreamingInterface {
         self.len
     }
 
-    /// Whether nothing is held. After a program end, the next program has to wait for this
+    /// Whether the buffer is empty. After a program end, the next program has to wait for this
     /// (STM-17).
     pub const fn is_empty(&self) -> bool {
         self.len == 0

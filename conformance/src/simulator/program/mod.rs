@@ -1,13 +1,15 @@
-//! NC programs: what runs in a channel, as far as streams and services see it.
+//! NC programs: the part of their execution that is visible to data streaming and services.
 //!
-//! - [`StreamingProgram`]: the streaming program. It gets its lines through the streaming interface
-//!   and runs them at a settable pace.
-//! - [`Script`]: a program that asks services through the Service Interface, over and over.
-//! - [`StreamingInterface`], [`service`]: the interfaces themselves, and one request of a program.
+//! - [`StreamingProgram`]: the streaming program. It receives its lines through the streaming
+//!   interface and executes them at a configured pace.
+//! - [`Script`]: a program that repeatedly sends requests to services through the Service
+//!   Interface.
+//! - [`StreamingInterface`], [`service`]: the interfaces themselves, and a single request of a
+//!   program.
 //!
-//! Both are without thread, clock and socket. Whoever has one tells it the time, which is since
-//! any start and never goes back, before each access; it makes up for what has passed. How often
-//! that is done changes nothing but how soon it shows.
+//! The programs use no thread, clock or socket. Before each access the caller passes the time since
+//! any fixed point, which must never decrease, and the program executes all steps that are due. The
+//! result does not depend on how often that is done.
 //!
 //! ```
 //! use std::time::Duration;

@@ -1,9 +1,9 @@
-//! How fast lines are run.
+//! The speed of execution.
 
 use std::num::NonZeroU32;
 use std::time::Duration;
 
-/// How fast a decoder runs the lines of a stream. No manual says how fast a CNC is.
+/// The speed at which a decoder executes the lines of a stream. The manuals do not specify it.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::Pace;
@@ -13,34 +13,35 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// As fast as it can: a line takes no time.
+    /// As fast as possible: a line takes no time.
     Fast,
-    /// Lines a second.
+    /// Lines per second.
     Lines(NonZeroU32),
-    /// Bytes a second, line ends included.
+    /// Bytes per second, including line ends.
     Bytes(NonZeroU32),
-    /// Not at all: nothing is read, nothing is run.
+    /// Stopped: no line is read or executed.
     Hold,
 }
 
 impl Pace {
-    /// Lines a second; none for 0.
+    /// Lines per second; `None` for 0.
     pub fn lines_per_second(lines: u32) -> Option<Self> {
         NonZeroU32::new(lines).map(Self::Lines)
     }
 
-    /// Bytes a second; none for 0.
+    /// Bytes per second; `None` for 0.
     pub fn bytes_per_second(bytes: u32) -> Option<Self> {
         NonZeroU32::new(bytes).map(Self::Bytes)
     }
 }
 
-/// What is no [`Pace`].
+/// A text is not a [`Pace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a number of lines a second from 1 on, `4000 bytes/s`, `fast` or `hold`")]
 pub struct ParsePaceError;
 
-/// A number of lines with or without `lines/s`, one of bytes with `bytes/s`, `fast` or `hold`.
+/// Parses a number of lines with or without `lines/s`, a number of bytes with `bytes/s`, `fast` or
+/// `hold`.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::Pace;
@@ -55,7 +56,7 @@ impl std::str::FromStr for Pace {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let (number, unit) = text.split_once(' ').unwrap_or((text, "lines/s"));
-        // The number's own parser takes a sign too.
+        // The parser of numbers accepts a sign too.
         let number = Some(number).filter(|number| !number.starts_with('+'));
         let number = number.and_then(|number| number.parse().ok());
         let pace = match (text, unit) {
@@ -80,21 +81,22 @@ impl std::fmt::Display for Pace {
     }
 }
 
-/// When a line is done. Counts from a start, so that no rounding adds up.
+/// Calculates when a line has been executed. Counts from a start, so that rounding errors do not
+/// add up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LineClock {
     since: Duration,
-    /// Lines or bytes since then.
+    /// Lines or bytes executed since the start.
     units: u64,
 }
 
 impl LineClock {
-    /// Begins with a line now.
+    /// Starts with a line now.
     pub(super) fn begin(now: Duration) -> Self {
         Self { since: now, units: 0 }
     }
 
-    /// Passes a line if it is done by now.
+    /// Counts a line if it has been executed by now.
     pub(super) fn pass(&mut self, pace: Pace, line: &[u8], now: Duration) -> bool {
         let (rate, cost) = match pace {
             Pace::Fast => return true,

@@ -1,4 +1,4 @@
-//! What NC programs, and what gives them their lines, could do in more than one way.
+//! Behaviour of NC programs and the streaming interface that defects and variants change.
 
 use std::fmt;
 
@@ -7,43 +7,43 @@ use ads_cnc::streaming::{Ack, Checker, LINE_END_ERROR, LineError};
 use super::interface::StreamingInterface;
 use super::segment::ProgramSegment;
 
-/// How NC programs go about.
+/// The behaviour of NC programs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Policy {
-    /// A new streaming interface.
+    /// Creates a streaming interface.
     pub(crate) buffer: fn() -> Box<dyn Buffer>,
-    /// Checks lines that were read at once.
+    /// Checks lines that were read together.
     pub(crate) segment: fn(&mut Checker, &[u8]) -> ProgramSegment,
-    /// What starts the streaming program besides a start.
+    /// Events that start the streaming program, besides an explicit start.
     pub(crate) starts: &'static [ProgramEvent],
-    /// What ends it besides a program end.
+    /// Events that end it, besides a program end.
     pub(crate) ends: &'static [ProgramEvent],
-    /// What empties the interface.
+    /// Events that empty the streaming interface.
     pub(crate) clears: &'static [ProgramEvent],
-    /// Number of the error of a line without CR LF.
+    /// Error number of a line without CR LF.
     pub(crate) line_end_error: u32,
-    /// Whether a script writes the request state before anything else, too.
+    /// Whether a script also writes REQUEST_STATE before all other variables.
     pub(crate) state_first: bool,
-    /// Whether a script reads the response state before the response.
+    /// Whether a script waits for RESPONSE_STATE before it reads RESPONSE.
     pub(crate) awaits_response: bool,
-    /// Whether a script gives up after its longest wait.
+    /// Whether a script gives up after its maximum wait.
     pub(crate) times_out: bool,
 }
 
-/// What happens to a streaming program.
+/// An event of a streaming program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ProgramEvent {
-    /// The channel is set up.
+    /// The channel is configured.
     PowerOn,
     Start,
     Reset,
     End,
-    /// All lines were run.
+    /// All lines were executed.
     Dry,
 }
 
 impl Policy {
-    /// As the manuals have it.
+    /// The behaviour that the manuals document.
     pub(crate) const DEFAULT: Self = Self {
         buffer: || Box::new(StreamingInterface::new()),
         segment: ProgramSegment::new,
@@ -57,12 +57,12 @@ impl Policy {
     };
 }
 
-/// A streaming interface: what was written and not read yet.
+/// A streaming interface: it buffers written data until it is read.
 pub(crate) trait Buffer: fmt::Debug + Send {
-    /// Takes all of a write or nothing of it.
+    /// Accepts all bytes of a write, or none.
     fn write(&mut self, data: &[u8]) -> Ack;
 
-    /// Takes lines out.
+    /// Takes lines from the buffer.
     ///
     /// # Errors
     /// A line without CR LF.

@@ -1,4 +1,4 @@
-//! The NC program that asks services.
+//! The NC program that sends requests to services.
 
 use std::time::Duration;
 
@@ -10,16 +10,16 @@ use super::answer::{Answers, ServiceAnswer, ServiceOutcome};
 use super::policy::Policy;
 use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServiceWait};
 
-/// What an NC program asks services, and how often.
+/// The requests of an NC program to services, and their repetition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScriptConfig {
-    /// The requests, in their order; a program without any has nothing to do.
+    /// The requests in their order; may be empty.
     pub requests: Vec<ServiceRequest>,
-    /// How often all of them are made.
+    /// How often the list is repeated.
     pub repeat: Repeat,
-    /// How long the program waits between two requests.
+    /// The time between two requests.
     pub pause: Duration,
-    /// How long it takes for each variable that it writes or reads; a microsecond at least.
+    /// The time for each write or read of a variable; at least a microsecond.
     pub cycle: Duration,
 }
 
@@ -27,7 +27,7 @@ pub struct ScriptConfig {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServiceRequest {
     pub uuid: ServiceId,
-    /// What it is asked.
+    /// The text of the request.
     pub text: CncString,
     /// The request state; not 0.
     pub state: u32,
@@ -43,21 +43,21 @@ pub enum Wait {
     Loop,
     /// By the cycle SysServiceWait with these parameters (SVC-8).
     Cycle {
-        /// @P1: the response state that means: keep waiting.
+        /// @P1: the response state for which the cycle keeps waiting.
         p1: Option<u32>,
-        /// @P2: the longest wait in milliseconds.
+        /// @P2: the maximum wait in milliseconds.
         p2: Option<u32>,
-        /// @P3: ID of the timer; needed with @P2.
+        /// @P3: ID of the timer; required with @P2.
         p3: Option<u32>,
     },
 }
 
-/// How often the requests of a script are made.
+/// How often the list of requests is repeated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
-    /// Over and over.
+    /// Without end.
     Endless,
-    /// All of them, this often.
+    /// This number of times.
     Times(u32),
 }
 
@@ -85,11 +85,11 @@ impl ScriptConfig {
     }
 }
 
-/// Why a script cannot be run.
+/// Why a script is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("request {} of the script: {error}", request.saturating_add(1))]
 pub struct ScriptError {
-    /// The place of the request, from 0.
+    /// Index of the request.
     pub request: usize,
     pub error: CallError,
 }
@@ -97,25 +97,25 @@ pub struct ScriptError {
 /// The state of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScriptState {
-    /// It writes this request, by its place from 0.
+    /// It writes this request, by index.
     Asking(usize),
     /// It waits for the response to this request, or reads it.
     Waiting(usize),
-    /// It has the answer, and waits before the next request.
+    /// It has the response, and waits before the next request.
     Pausing,
-    /// It has made all its requests.
+    /// It has sent all requests.
     Finished,
 }
 
-/// An NC program that asks services through the Service Interface of its channel.
+/// An NC program that sends requests to services through the Service Interface of its channel.
 ///
-/// It does a step a cycle, so that the service sees what lies between: first UUID is written, then
-/// REQUEST, then REQUEST_STATE; then RESPONSE_STATE is read each cycle until there is a response,
-/// and then RESPONSE.
+/// It executes one step per cycle, so that a service sees the intermediate states: it writes UUID,
+/// REQUEST and REQUEST_STATE, reads RESPONSE_STATE each cycle until there is a response, and then
+/// reads RESPONSE.
 ///
-/// It has to be [advanced](Self::advance) before each access of others to the interface: then all
-/// goes as if it had run all the time. After a long time, though, a script that had a great deal to
-/// do meanwhile lets the rest of it go.
+/// It has to be [advanced](Self::advance) before each access of others to the interface; then the
+/// result is the same as if it ran continuously. The number of steps executed at a time is limited:
+/// after a long time the remaining ones are dropped.
 ///
 /// ```
 /// use std::time::Duration;
@@ -155,15 +155,15 @@ pub enum ScriptState {
 /// Manual: `service-en` and `service-de` 1.03, section 2; `service-en`, section 3.
 #[derive(Clone, Debug)]
 pub struct Script {
-    /// Each before its first step.
+    /// Each in its initial state.
     requests: Vec<ServiceCall>,
     pause: Duration,
     cycle: Duration,
     repeat: Repeat,
     passes: u32,
-    /// The present request, by its place; none if all were made.
+    /// The current request with its index; `None` after the last.
     present: Option<(usize, ServiceCall)>,
-    /// When the next step is done; at once before the first.
+    /// When the next step is due; `None` before the first, which is due at once.
     due: Option<Duration>,
     pausing: bool,
     answers: Answers,
@@ -171,10 +171,11 @@ pub struct Script {
 }
 
 impl Script {
-    /// How many answers are kept.
+    /// Number of stored answers.
     pub const ANSWERS_KEPT: usize = Answers::KEPT;
 
-    /// How many steps are made up for at a time. Looking for a response in vain is not counted.
+    /// Maximum number of overdue steps executed at a time. Polls without a response are not
+    /// counted.
     const STEPS: u32 = 100_000;
 
     /// A program that begins when it is first [advanced](Self::advance).
@@ -203,19 +204,19 @@ impl Script {
         Ok(script)
     }
 
-    /// The same by another policy.
+    /// Replaces the policy.
     pub(crate) fn with_policy(self, policy: Policy) -> Self {
         Self { policy, ..self }
     }
 
-    /// Begins with the first request again, as after an NC reset and a start. The answers stay.
+    /// Restarts with the first request, as after an NC reset and a start. The answers are kept.
     pub fn restart(&mut self) {
         (self.passes, self.due, self.pausing) = (0, None, false);
         let any = self.repeat != Repeat::Times(0);
         self.present = self.requests.first().filter(|_| any).map(|call| (0, call.clone()));
     }
 
-    /// Makes up for the time that has passed.
+    /// Executes the steps that are due.
     pub fn advance(&mut self, now: Duration, interface: &mut ServiceInterface) {
         for _ in 0..Self::STEPS {
             let due = *self.due.get_or_insert(now);
@@ -224,7 +225,8 @@ impl Script {
             }
             self.step(due, interface);
             if let Some(CallStep::Wait { until }) = self.next_step() {
-                // Nobody writes until now: it would look in vain, until its time is over.
+                // RESPONSE_STATE does not change before `now`, so polls until then are skipped, up
+                // to the timeout.
                 let next = until.filter(|until| *until <= now);
                 let next = next.unwrap_or(now.saturating_add(NANOSECOND));
                 self.due = Some(self.cycle_at(due, next));
@@ -233,14 +235,14 @@ impl Script {
         self.due = self.due.map(|due| due.max(now));
     }
 
-    /// Does one step now, whether it is time or not.
+    /// Executes one step now, whether it is due or not.
     pub fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
         self.pausing = false;
         self.due = Some(now.saturating_add(self.cycle));
         let Some((at, call)) = &mut self.present else { return };
         call.poll();
         let time = if self.policy.times_out { now } else { Duration::ZERO };
-        // The interface takes what a call writes and has what it reads; else it is tried again.
+        // The values of a call always fit the interface; otherwise the step would be repeated.
         match call.step() {
             CallStep::Write(variable, value) => {
                 let first = self.policy.state_first && variable == Uuid;
@@ -271,12 +273,12 @@ impl Script {
         self.go_on(at, now);
     }
 
-    /// What the program does next; nothing if it has made all its requests.
+    /// The next step; `None` after the last request.
     pub fn next_step(&self) -> Option<CallStep<'_>> {
         self.present.as_ref().map(|(_, call)| call.step())
     }
 
-    /// Its state as of the last time it was advanced.
+    /// Its state at the last `advance`.
     pub fn state(&self) -> ScriptState {
         match (&self.present, self.next_step()) {
             (Some(_), _) if self.pausing => ScriptState::Pausing,
@@ -291,17 +293,17 @@ impl Script {
         self.answers.kept.iter()
     }
 
-    /// How many answers there were, those that timed out among them.
+    /// Number of all answers, including timeouts.
     pub fn answer_count(&self) -> u64 {
         self.answers.count
     }
 
-    /// How many requests got no answer in time.
+    /// Number of requests that timed out.
     pub fn timed_out(&self) -> u64 {
         self.answers.timed_out
     }
 
-    /// Takes the request after this one.
+    /// Continues with the request after this one.
     fn go_on(&mut self, at: usize, now: Duration) {
         let mut next = at.saturating_add(1);
         if next >= self.requests.len() {
@@ -314,7 +316,7 @@ impl Script {
         self.due = Some(now.saturating_add(self.pause.max(self.cycle)));
     }
 
-    /// The first of the cycles after `due` that is not before `time`.
+    /// The first cycle after `due` that is not before `time`.
     fn cycle_at(&self, due: Duration, time: Duration) -> Duration {
         let cycle = self.cycle.as_nanos();
         let cycles = time.saturating_sub(due).as_nanos().div_ceil(cycle).max(1);

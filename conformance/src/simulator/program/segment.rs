@@ -1,10 +1,10 @@
-//! What a decoder has read at once and runs line by line.
+//! Lines that a decoder has read together and executes one by one.
 
 use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, ProgramEnd};
 
 use super::executed::lines;
 
-/// Lines that were read together, and where they stop being run.
+/// Lines that were read together, and the line where execution stops.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ProgramSegment {
     lines: Vec<u8>,
@@ -16,13 +16,13 @@ pub(crate) struct ProgramSegment {
 
 #[derive(Clone, Copy, Debug)]
 enum SegmentEnd {
-    /// After its line: what else was read with it is not run.
+    /// After this line: the lines after it are not executed.
     End { end: ProgramEnd, line: u32 },
     /// In place of its line.
     Fault(Diagnostic),
 }
 
-/// What comes next in a segment.
+/// The next event of a segment.
 pub(super) enum Next<'a> {
     Line(&'a [u8]),
     End(ProgramEnd),
@@ -31,13 +31,13 @@ pub(super) enum Next<'a> {
 }
 
 impl ProgramSegment {
-    /// Lines that this checker has not seen yet.
+    /// Lines that follow those the checker has seen.
     pub(crate) fn new(checker: &mut Checker, read: &[u8]) -> Self {
         let number = checker.lines().saturating_add(1);
         Self::with_findings(read, number, checker.check(read))
     }
 
-    /// Lines from this number on, and what was found in them in their order.
+    /// Lines from this number on, with their findings in order.
     pub(crate) fn with_findings(
         read: &[u8],
         number: u32,
@@ -46,7 +46,7 @@ impl ProgramSegment {
         let (mut end, mut fault) = (None, None);
         for found in found {
             match found {
-                // Not run.
+                // Lines after a program end are not executed.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
                     fault = Some(SegmentEnd::Fault(finding));
@@ -73,7 +73,7 @@ impl ProgramSegment {
         }
     }
 
-    /// The line that comes next was run.
+    /// The next line has been executed.
     pub(super) fn pass(&mut self) {
         if let Next::Line(line) = self.next() {
             self.at = self.at.saturating_add(line.len());

@@ -11,18 +11,18 @@ pub enum State {
     Stopped,
     /// It has lines to run.
     Running,
-    /// It has run all there was. Motion stops until more is written (STM-16).
+    /// It has executed all lines. Motion stops until more is written (STM-16).
     Dry,
-    /// The program came to its end, and streaming mode with it (STM-10).
+    /// The program has ended, and with it streaming mode (STM-10).
     Ended(ProgramEnd),
-    /// Streaming mode was aborted by an error (STM-5, STM-8). Nothing goes on before an NC reset.
+    /// An error has aborted streaming mode (STM-5, STM-8). Only an NC reset ends this state.
     Aborted(Message),
 }
 
 /// An error that the CNC reports: `streaming.nc:4:5: error 21476: …`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Number of the error; none for loops and jumps back, whose numbers are not documented.
+    /// Error number; `None` for loops and backward jumps, whose numbers are not documented.
     pub number: Option<u32>,
     pub file: String,
     /// The line since the start of the program, from 1.
@@ -33,7 +33,7 @@ pub struct Message {
 }
 
 impl Message {
-    /// A line without CR LF in what was read after this many lines.
+    /// The message for a line without CR LF, read after this number of lines.
     pub(super) fn of_line_end(file: &str, number: u32, before: u32, error: &LineError) -> Self {
         Self {
             number: Some(number),
@@ -66,15 +66,15 @@ impl fmt::Display for Message {
     }
 }
 
-/// Why a streaming program does not start.
+/// Why a streaming program cannot be started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {
-    /// Without a name there is no streaming (STM-13).
+    /// Streaming is disabled without a name (STM-13).
     #[error("P-CHAN-00158 streaming_prog_file is empty: name of the streaming program expected")]
     NoName,
     #[error("the streaming program is running")]
     Running,
-    /// It was aborted; an NC reset has to come first (assumed).
+    /// It was aborted; an NC reset is required first (assumed).
     #[error("the streaming program was aborted: NC reset expected")]
     Aborted,
 }

@@ -11,22 +11,21 @@ use super::policy::{Buffer, Policy, ProgramEvent};
 use super::segment::{Next, ProgramSegment};
 use super::state::{Message, StartError, State};
 
-/// How a channel is set up for streaming.
+/// The streaming configuration of a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProgramConfig {
-    /// Name of the streaming program, P-CHAN-00158 `streaming_prog_file`. If it is empty, there
-    /// is no streaming (STM-13): that is a CNC's default, and not the one here.
+    /// Name of the streaming program, P-CHAN-00158 `streaming_prog_file`. Empty disables streaming
+    /// (STM-13), which is the default of a CNC, but not here.
     pub name: String,
-    /// Whether the program is started.
+    /// When the program is started.
     pub start: Start,
-    /// How fast lines are run; 1000 lines/s by default (assumed).
+    /// Speed of execution; 1000 lines/s by default (assumed).
     pub pace: Pace,
-    /// How many bytes of the lines that were run can be read back at least; 1 MiB by
-    /// default.
+    /// Minimum number of bytes of executed lines that can be read back; 1 MiB by default.
     pub kept: usize,
 }
 
-/// When a streaming program is started (STM-14). Nothing that starts one is documented for ADS.
+/// When a streaming program is started (STM-14). No ADS function that starts one is documented.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
     /// By [`StreamingProgram::start`].
@@ -34,12 +33,12 @@ pub enum Start {
     /// At the beginning, once.
     #[default]
     Once,
-    /// At the beginning, and again when it has come to its end.
+    /// At the beginning, and again after each end.
     Again,
 }
 
 impl Default for ProgramConfig {
-    /// Set up and started.
+    /// Started at the beginning and after each end.
     fn default() -> Self {
         let pace = Pace::lines_per_second(1000).unwrap_or(Pace::Fast);
         Self { name: "streaming.nc".to_owned(), start: Start::Once, pace, kept: 1 << 20 }
@@ -86,17 +85,17 @@ pub struct StreamingProgram {
 #[derive(Debug)]
 enum ProgramPhase {
     Started(ProgramSegment),
-    /// As the state says.
+    /// Streaming mode is not active, for the reason in the state.
     Over(State),
 }
 
 impl StreamingProgram {
-    /// A channel that was switched on.
+    /// A channel at power-on.
     pub fn new(config: ProgramConfig) -> Self {
         Self::with_policy(config, Policy::DEFAULT)
     }
 
-    /// A channel that was switched on, by another policy.
+    /// A channel at power-on, with another policy.
     pub(crate) fn with_policy(config: ProgramConfig, policy: Policy) -> Self {
         let mut program = Self {
             policy,
@@ -116,7 +115,7 @@ impl StreamingProgram {
         program
     }
 
-    /// Writes to `mc_program_stream_w`; [`result`] is what ADS answers.
+    /// Writes to `mc_program_stream_w`; [`result`] converts the acknowledgement to an ADS error.
     pub fn write(&mut self, data: &[u8], now: Duration) -> Ack {
         self.advance(now);
         let was_dry = self.is_dry();
@@ -132,7 +131,7 @@ impl StreamingProgram {
         ack
     }
 
-    /// Makes up for the time that has passed.
+    /// Executes lines up to this time.
     pub fn advance(&mut self, now: Duration) {
         self.now = self.now.max(now);
         self.run();
@@ -160,8 +159,8 @@ impl StreamingProgram {
         Ok(())
     }
 
-    /// NC reset: ends streaming mode and empties the interface (STM-11). What was run by then can
-    /// still be read back.
+    /// NC reset: ends streaming mode and empties the interface (STM-11). The record of executed
+    /// lines is kept.
     pub fn reset(&mut self, now: Duration) {
         self.advance(now);
         self.clear_at(ProgramEvent::Reset);
@@ -179,7 +178,7 @@ impl StreamingProgram {
         }
     }
 
-    /// Changes how fast lines are run from now on; the line that is being run begins anew.
+    /// Changes the speed of execution; the current line starts again.
     pub fn set_pace(&mut self, pace: Pace, now: Duration) {
         self.advance(now);
         self.config.pace = pace;
@@ -187,7 +186,7 @@ impl StreamingProgram {
         self.run();
     }
 
-    /// Its state as of the last access.
+    /// Its state at the last access.
     pub fn state(&self) -> State {
         match &self.phase {
             ProgramPhase::Over(state) => state.clone(),
@@ -201,28 +200,28 @@ impl StreamingProgram {
         self.interface.len() == 0 && matches!(segment.next(), Next::Nothing)
     }
 
-    /// What was run, as of the last access, over all starts and resets.
+    /// The lines executed up to the last access, including those before starts and resets.
     pub fn executed(&self) -> &Executed {
         &self.executed
     }
 
-    /// Forgets what was run.
+    /// Clears the record of executed lines.
     pub fn forget_executed(&mut self) {
         self.executed = Executed::new(self.config.kept);
     }
 
-    /// Bytes that the interface holds, as of the last access.
+    /// Number of bytes in the streaming interface at the last access.
     pub fn buffered(&self) -> usize {
         self.interface.len()
     }
 
-    /// How often a write was refused for now: as often as warning
-    /// [11012](ads_cnc::streaming::BUSY_WARNING) was issued (STM-6).
+    /// Number of writes rejected as busy, each of which issues warning
+    /// [11012](ads_cnc::streaming::BUSY_WARNING) (STM-6).
     pub fn refusals(&self) -> u64 {
         self.refusals
     }
 
-    /// How it is set up.
+    /// Its configuration.
     pub fn config(&self) -> &ProgramConfig {
         &self.config
     }
@@ -277,7 +276,8 @@ impl StreamingProgram {
     }
 }
 
-/// What ADS answers to a write: 0, 0x706 for now, 0x705 for good (STM-6; the numbers are assumed).
+/// The ADS error for a write: 0 for accepted, 0x706 for busy, 0x705 for rejected (STM-6; the
+/// numbers are assumed).
 ///
 /// ```
 /// use ads_cnc::streaming::Ack;

@@ -47,13 +47,13 @@ fn a_response_goes_back_where_the_request_came_from() {
 
 #[test]
 fn errors_are_answers_too() {
-    // The error number, and the length 0 where there would be data.
+    // The error number, and the length 0 in place of data.
     let refused = |error: u8| vec![error, 7, 0, 0, 0, 0, 0, 0];
     assert_eq!(ask(Command::READ_WRITE, 553, COUNT).1, refused(2));
     assert_eq!(ask(Command::READ_WRITE, 552, &COUNT[..19]).1, refused(5));
     assert_eq!(ask(Command::READ, 552, &COUNT[..12]).1, refused(1));
     assert_eq!(ask(Command::READ, 552, &[]).1, refused(5));
-    // An object that may be written, and one that may not.
+    // A writable object, and a read-only one.
     let write = b"\x01\x01\x12\0\x01\0\0\0\x01\0\0\0\x01";
     assert_eq!(ask(Command::WRITE, 553, write).1, [0, 0, 0, 0]);
     let write = b"\x01\x01\x12\0\x03\0\0\0\x01\0\0\0\x01";
@@ -61,7 +61,7 @@ fn errors_are_answers_too() {
     for command in [0, 5, 7, 8, 10, 0xFFFF] {
         assert_eq!(ask(Command(command), 552, &[]).1, [1, 7, 0, 0], "{command}");
     }
-    // Its reply has a handle.
+    // A reply with a notification handle.
     assert_eq!(ask(Command::ADD_NOTIFICATION, 552, &[0; 40]).1, refused(1));
 }
 

@@ -1,4 +1,5 @@
-//! One connection: frames in, in any pieces; answers out, as many at a time as have been asked for.
+//! A connection: receives frames in any pieces, sends replies, several at a time if several
+//! requests have arrived.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -9,16 +10,16 @@ use ads_cnc::ads::{AmsNetId, FrameRef};
 use super::ServerOptions;
 use crate::simulator::{DATA_MAX, FRAME_MAX, Responder};
 
-/// Room for the longest frame and what comes with it.
+/// Buffer size: the longest frame and some bytes after it.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
 
-/// Answers that are gathered before they leave; one more may be added to them.
+/// Replies are sent once they exceed this size; the last one may be longer.
 const GATHERED_MAX: usize = 32 * 1024;
 
-/// The most bytes that a connection holds of what it receives and of what it is about to send.
+/// Maximum number of bytes buffered by a connection.
 pub(super) const HELD_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 
-/// The bytes of a connection, without it: what was received and is not answered yet.
+/// The buffer of a connection: received bytes that are not answered yet.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::{Cnc, NET_ID, Received};
@@ -52,9 +53,8 @@ impl Default for Received {
 }
 
 impl Received {
-    /// Nothing yet.
     pub fn new() -> Self {
-        // Pages nobody writes to take no memory.
+        // The system allocates pages of zeros when they are first written to.
         Self {
             bytes: vec![0; RECEIVED_MAX],
             buffered: 0,
@@ -62,26 +62,26 @@ impl Received {
         }
     }
 
-    /// Where the next bytes go; never empty.
+    /// The buffer for the next bytes; never empty.
     pub fn room(&mut self) -> &mut [u8] {
         self.bytes.get_mut(self.buffered..).unwrap_or_default()
     }
 
-    /// Bytes of a frame whose rest is awaited.
+    /// Number of bytes of an incomplete frame.
     pub const fn buffered(&self) -> usize {
         self.buffered
     }
 
-    /// The most bytes that were ever held, answers included.
+    /// Maximum number of bytes that were ever buffered, replies included.
     pub fn capacity(&self) -> usize {
         self.bytes.capacity().saturating_add(self.answers.capacity())
     }
 
-    /// Answers all frames that are whole after `count` more bytes, in their order and several at a
+    /// Answers all frames that are complete after `count` more bytes, in order and several at a
     /// time; returns the bytes of these frames.
     ///
     /// # Errors
-    /// A frame that does not hold together: what follows it cannot be found. And those of `send`.
+    /// An invalid frame, because the beginning of the next one is unknown, and those of `send`.
     pub fn take(
         &mut self,
         count: usize,
@@ -106,7 +106,7 @@ impl Received {
                 self.answers.clear();
             }
         };
-        // Whoever asked before it came apart has the answers.
+        // Requests before the invalid frame are answered.
         if !self.answers.is_empty() {
             send(&self.answers)?;
             self.answers.clear();
@@ -121,8 +121,8 @@ impl Received {
     }
 }
 
-/// Answers frames in their order, however they are cut, until the client closes, says nothing for
-/// too long, or sends one that does not hold together: what follows it cannot be found.
+/// Answers frames in order until the client closes the connection, is silent for too long, or sends
+/// an invalid frame, after which the beginning of the next one is unknown.
 pub(super) fn serve(
     cnc: &dyn Responder,
     options: &ServerOptions,
@@ -156,7 +156,7 @@ pub(super) fn serve(
     }
 }
 
-/// Sends answers, in pieces of the responder's size.
+/// Sends replies in pieces of the responder's size.
 fn send(cnc: &dyn Responder, mut stream: &TcpStream, answers: &[u8]) -> io::Result<()> {
     answers.chunks(cnc.piece()).try_for_each(|piece| stream.write_all(piece))
 }
@@ -167,13 +167,13 @@ fn split(received: &[u8]) -> io::Result<Option<(FrameRef<'_>, usize)>> {
     FrameRef::split(received, DATA_MAX).map_err(malformed)
 }
 
-/// How long a connection may go on without a whole frame.
+/// The time limit for the next complete frame.
 struct Limit<'a> {
     options: &'a ServerOptions,
     awaited: Awaited,
-    /// Since when that is awaited; of the next frame nobody has to know.
+    /// Start of the limit.
     since: Instant,
-    /// The time that the stream has for a read; not set yet, or no limit.
+    /// The timeout set on the stream; `None` if not set yet.
     set: Option<Option<Duration>>,
 }
 
@@ -182,9 +182,9 @@ struct Limit<'a> {
 enum Awaited {
     /// Its first frame, or the rest of it.
     First,
-    /// Another.
+    /// Another frame.
     Next,
-    /// The rest of one.
+    /// The rest of a frame.
     Rest,
 }
 
@@ -193,7 +193,7 @@ impl<'a> Limit<'a> {
         Self { options, awaited: Awaited::First, since: Instant::now(), set: None }
     }
 
-    /// Frames were whole; a part of another has come with them, or not.
+    /// Complete frames were received; `part`: followed by an incomplete one.
     fn request_received(&mut self, part: bool) {
         self.awaited = Awaited::Next;
         if part {
@@ -201,8 +201,7 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// There is a part of a frame, and not all of it. A byte now and then is no request either: the
-    /// time runs on.
+    /// Bytes of an incomplete frame were received. They do not extend the limit.
     fn received(&mut self) {
         if self.awaited == Awaited::Next {
             self.request_received(true);
@@ -217,10 +216,10 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Has the next read wait no longer than what is left.
+    /// Limits the next read to the remaining time.
     fn set(&mut self, stream: &TcpStream) -> io::Result<()> {
         let mut left = self.time();
-        // One that has just begun has all of it: who asks and asks costs no call of the system.
+        // Without a system call if the previous timeout still applies.
         if self.awaited != Awaited::Next {
             let passed = self.since.elapsed();
             left = left.map(|time| time.saturating_sub(passed));
@@ -229,7 +228,7 @@ impl<'a> Limit<'a> {
             }
         }
         if self.set != Some(left) {
-            // No time at all cannot be set; the shortest can.
+            // A timeout of zero cannot be set.
             stream.set_read_timeout(left.map(|left| left.max(Duration::from_millis(1))))?;
             self.set = Some(left);
         }

@@ -5,7 +5,7 @@ use super::*;
 use crate::gate::NET_ID;
 use crate::simulator::Cnc;
 
-/// How many V.E variables channel 1 has, as it goes over the wire but for the invoke ID.
+/// Request for the number of V.E variables of channel 1.
 const COUNT: &[u8] = &[
     0, 0, 52, 0, 0, 0, // AMS/TCP
     127, 0, 0, 1, 1, 1, 0x28, 2, 127, 0, 0, 1, 1, 2, 1, 0x80, 9, 0, 4, 0, 20, 0, 0, 0, 0, 0, 0, 0,
@@ -61,7 +61,7 @@ fn works(mut stream: &TcpStream) {
     expect(stream, ANSWER);
 }
 
-/// The server closes: an end, or a reset if bytes lay unread.
+/// The server closes the connection: end of stream, or a reset if there were unread bytes.
 fn ends(mut stream: &TcpStream) {
     let mut rest = Vec::new();
     match stream.read_to_end(&mut rest) {
@@ -97,7 +97,7 @@ fn pipelined_requests_are_answered_in_their_order() {
     expect(&stream, &ids().flat_map(|id| with_id(ANSWER, id)).collect::<Vec<_>>());
 }
 
-/// However the network has put them together, what comes after a request takes no answer away.
+/// An invalid frame in the same segment does not prevent the replies to the requests before it.
 #[test]
 fn what_was_asked_before_a_malformed_frame_is_answered() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -122,7 +122,7 @@ fn a_malformed_frame_ends_its_own_connection_only() {
         frame[at] = byte;
         frame
     };
-    // reserved, length under a header, length over the limit, lengths that disagree
+    // Reserved bytes, length shorter than a header, length over the limit, inconsistent lengths.
     for frame in [changed(0, 1), changed(2, 31), changed(5, 1), changed(26, 19)] {
         let mut stream = client(&server);
         works(&stream);
@@ -167,7 +167,7 @@ fn one_connection_too_many_is_closed() {
     let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| client(&server)).collect();
     clients.iter().for_each(works);
     ends(&client(&server));
-    // A place is free once a client has gone.
+    // A client that has closed makes room for another.
     clients.pop();
     let deadline = Instant::now() + Duration::from_secs(5);
     loop {
@@ -205,12 +205,12 @@ fn a_frame_of_the_longest_length_is_taken_and_one_longer_is_not() {
         frame
     };
     let mut stream = client(&server);
-    // More than one at a time, cut anywhere.
+    // Several frames at a time, split anywhere.
     let longest = [frame(0x1_0000), frame(0x1_0000), COUNT.to_vec()].concat();
     for piece in longest.chunks(50_000) {
         stream.write_all(piece).unwrap();
     }
-    // A write length that is not that of the data is a request of the wrong size.
+    // A write length that differs from that of the data is an error of the request's size.
     let mut refused = ANSWER[..46].to_vec();
     (refused[2], refused[26], refused[42]) = (40, 8, 0);
     refused[38..40].copy_from_slice(&[5, 7]);
@@ -234,7 +234,7 @@ fn other_commands_are_answered_between() {
         (frame[2], frame[22], frame[26]) = (32 + len, command, len);
         [&frame, data].concat()
     };
-    // ReadState, WriteControl, Read without its header, and the count
+    // ReadState, WriteControl, Read without its header, and the count.
     stream.write_all(&[command(4), command(5), command(2), COUNT.to_vec()].concat()).unwrap();
     let state = answer(4, &[0, 0, 0, 0, 5, 0, 0, 0]);
     let control = answer(5, &[1, 7, 0, 0]);
@@ -260,7 +260,7 @@ fn a_byte_now_and_then_is_no_request() {
     });
     assert!(gone);
     ends(&slow);
-    // Who asks is not idle, however long the connection lasts.
+    // A client that sends requests is not idle, however long the connection lasts.
     let busy = client(&server);
     while begun.elapsed() < Duration::from_millis(4000) {
         works(&busy);
@@ -272,7 +272,8 @@ fn hasty(millis: u64) -> ServerOptions {
     ServerOptions { frame: Some(Duration::from_millis(millis)), ..ServerOptions::default() }
 }
 
-/// The other limit is ten minutes: the test would fail on its own, after five seconds.
+/// The idle limit is ten minutes, so only the limit for the first frame can end the connection in
+/// time.
 #[test]
 fn connections_without_a_first_request_lock_nobody_out() {
     let server = serving(hasty(500));
@@ -289,10 +290,10 @@ fn a_frame_without_its_end_ends_its_connection() {
     let server = serving(hasty(1000));
     let mut half = client(&server);
     works(&half);
-    // The next may take its time to begin, but not to end.
+    // The next frame may begin later, but must then be completed in time.
     thread::sleep(Duration::from_millis(1200));
     half.write_all(&COUNT[..50]).unwrap();
-    // A part that comes along with a whole frame is one too.
+    // The same for the beginning of a frame that follows a complete one.
     let mut next = client(&server);
     next.write_all(&[COUNT, &COUNT[..1]].concat()).unwrap();
     expect(&next, ANSWER);
@@ -300,7 +301,7 @@ fn a_frame_without_its_end_ends_its_connection() {
     ends(&next);
 }
 
-/// Each byte gives no more time: the limit is for all of the frame.
+/// Further bytes do not extend the limit of a frame.
 #[test]
 fn a_frame_in_drops_ends_its_connection() {
     let server = serving(hasty(1000));
@@ -314,7 +315,7 @@ fn a_frame_in_drops_ends_its_connection() {
     ends(&slow);
 }
 
-/// Once it has asked, a connection may be silent for as long as it may be idle.
+/// After its first request a connection may be silent up to the idle limit.
 #[test]
 fn who_has_asked_may_be_silent() {
     let server = serving(hasty(1000));

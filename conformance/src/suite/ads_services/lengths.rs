@@ -1,4 +1,4 @@
-//! How long replies are, and that it does not matter how frames are cut.
+//! Lengths of replies, and splitting of frames.
 
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{
@@ -12,7 +12,7 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall, ask_if_claimed, name_of};
 use crate::wire_service::clause;
 
-/// TCP may cut a frame anywhere: its length says where it ends.
+/// TCP may split a frame anywhere: its length determines its end.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 2] =
@@ -32,10 +32,10 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     probe.finish("nothing to be asked is claimed")
 }
 
-/// Whether a reply's length follows from what is documented, or a text ends where it ends.
+/// Whether the length of a reply is documented, or given by a text.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Extent {
-    /// By this requirement.
+    /// Fixed by this requirement.
     Fixed(&'static str),
     Open,
 }
@@ -78,7 +78,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
     let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
         let call = call.with(|call| call.read_length = read_length);
-        // The gate may let no other lengths pass.
+        // The gate may reject other lengths.
         if probe.target.client.check(&call.call()).is_err() {
             return Ok(None);
         }
@@ -86,14 +86,14 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         Ok(Some(exchange.success().map(<[u8]>::len)))
     };
     let what = request.function().spec().name;
-    // Of a text that ends with the reply the CNC may want room for a NUL.
+    // For a text at the end of a reply the CNC may require room for a NUL.
     if let Extent::Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
         let expected = || format!("{there} bytes of {what}, as many as are asked for");
         probe.check([rule, own], found == Some(whole.len()), expected, || format!("{found:?}"));
     }
-    // What it gives instead of an error, if it gives anything, fits.
+    // A success with a shorter read length must not have more data.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
         let fits = found.is_none_or(|len| len < whole.len());
         let expected = || format!("fewer than {there} bytes of {what}");
@@ -103,13 +103,13 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     if !probe.target.client.gate().lets_malformed_pass() {
         return Ok(());
     }
-    // Nothing is behind what there is.
+    // No data follows the reply.
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = || format!("{there} bytes of {what}, or an error");
         probe.check([rule, own], fits, expected, || format!("{found:?}"));
     }
-    // Where much room is taken, a byte less of it makes no difference.
+    // If a large read length is accepted, one byte less makes no difference.
     let much = there.saturating_add(0x1_0000);
     if own != "VAR-14"
         && let Some(Some(len)) = answer(probe, much)?

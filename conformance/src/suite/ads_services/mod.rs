@@ -1,5 +1,5 @@
-//! Cases of the services themselves: each takes and gives what its numbers say, and what is asked
-//! by one agrees with what is asked by another.
+//! Cases of the three services: addresses, lengths and error numbers, and agreement between
+//! services.
 
 mod lengths;
 mod numbers;
@@ -39,10 +39,10 @@ pub(super) const CASES: &[CaseRow] = &[
         "What a Write is acknowledged for is there by another service, and nothing else is"),
 ];
 
-/// The most of a kind that is looked at.
+/// Maximum number of items of a list that are tried.
 const SOME: u32 = 8;
 
-/// The answer to a request, whose service has to give one.
+/// The data of a request that must be answered.
 fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
     rule: &'static str,
@@ -63,7 +63,7 @@ fn number(data: &[u8]) -> u32 {
     ObjectCount::decode(data).map_or(0, |count| count.0)
 }
 
-/// Descriptors: one at each offset, unlike the others, and the same among several.
+/// Descriptors: one at each offset, all different, and the same as in a range.
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: &str = "ADS-1";
     for list in probe.lists()? {
@@ -100,7 +100,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Variables: one at each index, and by its handle what it is by its name.
+/// Variables: one at each index, with the same value by handle and by name.
 fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: &str = "ADS-3";
     let mut steady = Steady::default();
@@ -118,7 +118,7 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
                 let other = !all.contains(&one);
                 let found = || format!("the same again at index {index} of {name}");
                 probe.check(RULE, other, "another variable at each index", found);
-                // That those of axes are used there is assumed.
+                // That handles of axis variables are used there is assumed.
                 if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
                     same_by_handle(probe, &mut steady, channel, &one)?;
                 }
@@ -145,7 +145,7 @@ fn same_by_handle(
     steady.same(probe, "ADS-3", &variable.name.text, by_name, by_handle)
 }
 
-/// Numbers that a Read gives, and what is there by a ReadWrite.
+/// Compares numbers from a Read with the items from a ReadWrite.
 fn services_agree(probe: &mut Probe<'_>) -> Step {
     let rules = ["ADS-1", "ADS-3"];
     let mut steady = Steady::default();
@@ -159,8 +159,8 @@ fn services_agree(probe: &mut Probe<'_>) -> Step {
     probe.finish("nothing is asked by both services")
 }
 
-/// How many parameters a Read says that there are, and which names a ReadWrite has. A program may
-/// make or delete one meanwhile.
+/// Compares the number of parameters from a Read with the names from a ReadWrite. A program may
+/// create or delete one meanwhile.
 fn names_agree(
     probe: &mut Probe<'_>,
     steady: &mut Steady,
@@ -196,7 +196,7 @@ fn names_agree(
     Ok(())
 }
 
-/// Where a ReadWrite says that the elements of an instance are, a Read finds them.
+/// A Read finds the elements at the address that a ReadWrite returns.
 fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step {
     let functions = [Function::FindInstance, Function::ReadElementLength];
     if functions.iter().any(|one| probe.claims(*one) != Claim::Yes) {

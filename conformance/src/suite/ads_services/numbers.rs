@@ -1,4 +1,4 @@
-//! Error numbers, byte by byte.
+//! The byte order of error numbers.
 
 use ads_cnc::Kind;
 use ads_cnc::address::IndexOffset;
@@ -8,8 +8,7 @@ use ads_cnc::operation::{CountObjects, CountVariables, Request, WriteByName};
 use crate::judge::{Checks as _, Step};
 use crate::suite::kit::{Probe, RawCall};
 
-/// Which number it is nobody says, so any other is right too: but not the same one with its bytes
-/// in reverse order.
+/// Any error number is permitted, but two replies must not have the same one in reverse byte order.
 pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let channel = probe.channel()?;
@@ -20,7 +19,7 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
     ];
     for request in requests {
         let good = RawCall::new(request)?;
-        // No object, variable or function is there.
+        // A request for an object, variable or function that does not exist.
         let bad = match request {
             Request::WriteByName(_) => good,
             _ => good.with(|call| call.index_offset = IndexOffset::new(0xFFFF)),
@@ -42,7 +41,7 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The error of either header.
+/// The error of the AMS header or of the service.
 fn number(probe: &mut Probe<'_>, call: &RawCall) -> Step<Option<AdsError>> {
     let exchange = probe.call(call)?;
     let errors = exchange.answer().map(|answer| [answer.ams_error, answer.result]);

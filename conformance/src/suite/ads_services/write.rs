@@ -1,4 +1,4 @@
-//! A Write, and what the other services read where it wrote.
+//! A Write, and reads of the other services at the same address.
 
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
@@ -7,12 +7,12 @@ use crate::judge::{Checks as _, Rule, Step, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service};
 
-/// So many of each kind are tried.
+/// Number of values of each kind that are tried.
 const SOME: usize = 3;
 
 const RULE: &str = "ADS-2";
 
-/// What is written at one address is there by another service, and nowhere else.
+/// A value written at an address is read by another service, and at no other address.
 pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
@@ -42,7 +42,7 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     for object in objects.iter().filter(|one| one.is_writable() && !one.is_text()) {
         let address = &object.address;
         let name = object.name.to_string();
-        // At a place without an axis nothing is written: its content is blank.
+        // A place without an axis has no content to write.
         let of_axis = address.content().is_some_and(|(_, offset)| offset.get() >= 0x1000);
         let filled = match address.read() {
             Ok(read) if !probe.is_blank(object) && probe.may(read)? => {
@@ -85,7 +85,7 @@ fn write_beside(
         },
     )?;
     let after = look(probe)?;
-    // One that moves of itself says nothing.
+    // A value that changes by itself proves nothing.
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
         && after.as_ref() == Some(before)
     {

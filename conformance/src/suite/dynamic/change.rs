@@ -1,4 +1,4 @@
-//! Dynamic parameters that an NC program makes and deletes.
+//! Dynamic parameters that an NC program creates and deletes.
 
 use ads_cnc::Decode as _;
 use ads_cnc::address::Channel;
@@ -12,13 +12,13 @@ use crate::judge::{Checks as _, Step};
 use crate::simulator::Cnc;
 use crate::suite::kit::Probe;
 
-/// More than a byte has numbers.
+/// More than fit into a byte.
 const MANY: u32 = 300;
 
 pub(super) fn come_and_go(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     for kind in DynamicKind::ALL {
-        // Where there is none, nothing has to be put back.
+        // Without parameters none have to be restored.
         let mut none = None;
         for channel in probe.channels()?.into_iter().rev() {
             if none.is_none() && number(probe, channel, kind)? == 0 {
@@ -35,15 +35,15 @@ pub(super) fn come_and_go(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Of a place in a list of parameters: its name and its value.
+/// Name and value of the parameter at a place of the list.
 fn one(kind: DynamicKind, place: u32) -> (String, f64) {
     let mut name = format!("{}{place}", prefix(kind));
-    // Each tenth is as long as a name may be, its NUL counted.
+    // Each tenth has the maximum length, including the NUL.
     if place.is_multiple_of(10) {
         let digits = name.len();
         name = format!("{name}{}", "x".repeat(95_usize.saturating_sub(digits)));
     }
-    // Of any size, and with more digits than are usually shown.
+    // Of any magnitude, and with more digits than are usually shown.
     let value = match place % 4 {
         0 => f64::from(place) * 1e-300,
         1 => f64::from(place) / 3.0,
@@ -62,7 +62,7 @@ fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind)
     let mut all: Vec<(String, f64)> = (1..=MANY).map(|place| one(kind, place)).collect();
     set(cnc, channel, kind, &all)?;
     listed(probe, channel, kind, &all)?;
-    // The first is deleted: those behind it move up.
+    // The first is deleted: the indices of the others decrease.
     let gone = all.remove(0);
     set(cnc, channel, kind, &all)?;
     listed(probe, channel, kind, &all)?;
@@ -70,13 +70,13 @@ fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind)
     let by_name = |name| DynamicValueByName::new(channel, kind, name);
     let what = format!("{gone}, which is deleted");
     probe.refuses("DYN-3", &what, by_name(&gone)?, by_name(&there)?)?;
-    // And one comes in front.
+    // One is inserted at the front.
     all.insert(0, (format!("{}7654", prefix(kind)), -7.5));
     set(cnc, channel, kind, &all)?;
     listed(probe, channel, kind, &all)
 }
 
-/// Holds what is told against what was set: at the ends, and where a byte has no more numbers.
+/// Compares the list with the parameters that were set: at the ends, and around 255.
 fn listed(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -96,7 +96,7 @@ fn listed(
         let found = || format!("{told:?} at index {index} of {count}");
         let same = told == *name;
         probe.check(["DYN-2", "DYN-5"], same, || format!("{name:?}"), found);
-        // A refusal leaves nothing behind.
+        // A rejected request has no effect.
         let beyond = DynamicNameByIndex::new(channel, kind, count.saturating_add(1));
         probe.try_ask(beyond?)?;
         let again = probe.try_ask(by_index)?.unwrap_or_default();

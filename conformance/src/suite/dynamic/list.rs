@@ -25,11 +25,11 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
             let count = DynamicCount::decode(&data);
             let found = || format!("{} bytes for {}", data.len(), prefix(kind));
             probe.check(rules, count.is_ok(), "a number of 4 bytes", found);
-            // A number in the wrong order of bytes is the first to leave all limits.
+            // A number in the wrong byte order usually exceeds every limit.
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
             probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
-        // Other functions of the decoder are in its group too.
+        // Other functions of the decoder have the same group.
         if probe.claims(Function::CountVariables) == Claim::Yes {
             for (_, kind) in KINDS {
                 let kind = CountVariables::new(channel, kind);
@@ -41,7 +41,7 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// What came of asking for the name of an index.
+/// The reply to a request for the name of an index.
 struct NameReply {
     index: u32,
     data: Option<Vec<u8>>,
@@ -61,13 +61,13 @@ fn ask_name(
     Ok(NameReply { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
-/// The names of a kind, read while nobody makes or deletes a parameter.
+/// The names of a kind, read while no parameter is created or deleted.
 struct ParameterList {
     count: u32,
-    /// Of each index, up to the first that is refused.
+    /// By index, up to the first that is rejected.
     names: Vec<NameReply>,
     beyond: NameReply,
-    /// An index that has another name if it is asked for in another order.
+    /// An index whose name depends on the order of requests.
     unsteady: Option<NameReply>,
 }
 
@@ -83,7 +83,7 @@ impl ParameterList {
     }
 }
 
-/// How often a list that does not stand is read again.
+/// How often a list that changes is read again.
 const TRIES: usize = 5;
 
 fn names_ascending(
@@ -122,7 +122,7 @@ fn same(one: &[NameReply], other: &[NameReply]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.data == other.data)
 }
 
-/// The list of a kind; none if it never stood.
+/// The list of a kind; `None` if it changed in every attempt.
 fn steady_list(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -133,7 +133,7 @@ fn steady_list(
         let count = |probe: &mut Probe<'_>| number(probe, channel, kind).map(Some);
         let list = between(probe, count, |probe, &count| listed(probe, channel, kind, count))?;
         let Some(list) = list.flatten() else { continue };
-        // What is wrong has to be so once more.
+        // A fault must be reproducible.
         if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
             return Ok(Some(list));
         }
@@ -142,7 +142,7 @@ fn steady_list(
     Ok(None)
 }
 
-/// The list of a kind with `count` parameters; none if its names changed meanwhile.
+/// The list of a kind with `count` parameters; `None` if its names changed meanwhile.
 fn listed(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -191,7 +191,7 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
     for reply in names {
         probe.set_evidence(reply.evidence.clone());
         let expected = || format!("a name of index {} of {count} of {}", reply.index, prefix(kind));
-        // The number may be wrong as well as the range; of the first, the function too.
+        // The number or the range may be wrong; for the first index, the function too.
         let rules: &[&str] = match reply.index {
             1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
             _ => &["DYN-1", "DYN-5", "SDA-12"],
@@ -220,7 +220,7 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
         let expected = || format!("the name of index {}, whatever was asked before", other.index);
         probe.check("DYN-2", false, expected, found);
     }
-    // Whoever has one more than it says to have tells its name.
+    // A CNC with one parameter more than its count returns its name.
     probe.set_evidence(beyond.evidence.clone());
     let data = beyond.data.as_deref().unwrap_or_default();
     let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
@@ -235,7 +235,7 @@ fn is_of(kind: DynamicKind, name: &str) -> bool {
     name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty())
 }
 
-/// Indices that are too many, those too of which some bits are one that is not.
+/// Indices beyond the count, including some with the lower bits of a valid one.
 fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     let mut all = probe.beyond(count.saturating_add(1));
     if all.len() > 1 {
@@ -245,7 +245,7 @@ fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     all
 }
 
-/// Sends a request for what is not there while there are so many.
+/// Sends a request for a missing index while the count is unchanged.
 fn refused_of(
     probe: &mut Probe<'_>,
     count: u32,

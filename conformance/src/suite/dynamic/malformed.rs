@@ -1,4 +1,4 @@
-//! Requests about dynamic parameters that no client should send.
+//! Malformed requests about dynamic parameters.
 
 use ads_cnc::TextRef;
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
@@ -33,7 +33,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
             let good = RawCall::new(request)?;
-            // Names of one byte too many and of more, which begin with one that is there.
+            // Names that are one or more bytes too long and begin with an existing one.
             let room = DYNAMIC_NAME_MAX.saturating_sub(known.as_bytes().len());
             for more in [1, 2, 160] {
                 let rest = vec![b'x'; room.saturating_add(more)];
@@ -54,7 +54,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// How a name ends nobody says.
+/// The terminator of a name is not specified.
 pub(super) fn forms(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, _| {
         let known = first(probe, channel, kind)?;

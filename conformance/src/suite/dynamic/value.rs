@@ -14,18 +14,18 @@ use crate::judge::{Step, Stop, assumed};
 use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};
 use crate::text::hex::spaced;
 
-/// Names from this length on are judged by how long a name may be, too.
+/// Longer names are judged by the requirement on the length of names too.
 const LONG: usize = 20;
 
 pub(super) fn values(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
-        // Backwards: what an index means does not depend on what was asked before.
+        // In reverse order: the meaning of an index must not depend on earlier requests.
         for index in (1..=count).rev() {
             let by_index = DynamicNameByIndex::new(channel, kind, index)?;
             steadily(probe, &[by_index.into()], |probe, answers| {
                 let name = answers.first().and_then(|data| DynamicName::decode(data).ok());
                 let name = name.map(|name| name.name.text);
-                // One that leaves no room for its NUL cannot be asked for.
+                // A name without room for its NUL cannot be requested.
                 match name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX) {
                     Some(name) => value(probe, channel, kind, index, &name),
                     None => Ok(Vec::new()),
@@ -47,7 +47,7 @@ fn value(
     let by_name = Request::from(DynamicValueByName { channel, kind, name: text });
     let by_index = DynamicValueByIndex::new(channel, kind, index)?;
     let named = probe.send(by_name)?;
-    // As it is told it has to be found.
+    // The returned name must be found.
     let rules: &[&str] = match name.as_bytes().len() {
         LONG.. => &["DYN-3", "DYN-2", "DYN-6"],
         _ => &["DYN-3", "DYN-2"],
@@ -65,7 +65,7 @@ fn value(
     }
     let indexed = probe.send(by_index)?;
     real(probe, "DYN-4", &indexed);
-    // A value that moves is held against nothing.
+    // A value that changes by itself is not compared.
     let named_again = probe.try_ask(by_name)?;
     let still = named.success().filter(|named| named_again.as_deref() == Some(named));
     if let (Some(named), Some(indexed)) = (still, indexed.success()) {
@@ -82,7 +82,7 @@ fn value(
     Ok(checks)
 }
 
-/// Names near one that is there: longer, shorter, with another end.
+/// Names similar to an existing one: longer, shorter, with another end.
 fn near(kind: DynamicKind, known: &str) -> Vec<String> {
     let mut shorter = known.to_owned();
     let last = shorter.pop();
@@ -107,7 +107,7 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
         for unknown in unknown {
             let is_there = names.iter().any(|(_, name)| name.to_string() == unknown);
             let Ok(bad) = DynamicValueByName::new(channel, kind, &unknown) else { continue };
-            // One with no room for its end is another case's.
+            // Another case tries names without room for their NUL.
             if is_there || !is_sendable(&bad.into()) {
                 continue;
             }
@@ -132,7 +132,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Each function by the channel's rank, beside the same by its number.
+/// Each function by the channel's rank and by its number.
 pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
     for (rank, channel) in probe.ranks()? {
         for kind in DynamicKind::ALL {

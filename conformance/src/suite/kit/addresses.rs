@@ -1,4 +1,4 @@
-//! Where what a CNC holds is, by everything that is said of addresses.
+//! The addresses of the simulated CNC's contents, according to the manuals.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable,
@@ -10,15 +10,15 @@ use crate::objects::{Object, ValueAddress};
 use crate::simulator::{Holder, StoredContent};
 use crate::suite::kit::{Instance, Probe};
 
-/// What a target says itself of where things are, where no manual does.
+/// Facts about addresses from the target, where the manuals state none.
 pub(crate) struct Addresses {
-    /// Of the channels, in the order of their ranks.
+    /// The channel numbers, in the order of their ranks.
     channels: Vec<u32>,
     objects: Vec<Object>,
     instances: Vec<Instance>,
 }
 
-/// An address of a content, and by what rules it is one.
+/// An address of a content, and the rules that state it.
 pub(crate) type JudgedAddress = (ValueAddress, Vec<Rule>);
 
 fn rules(ids: &[&'static str]) -> Vec<Rule> {
@@ -54,7 +54,7 @@ impl Addresses {
         })
     }
 
-    /// Each address of a content that a manual prints or the target says.
+    /// Each address of a content that a manual prints or the target returns.
     pub(crate) fn of(&self, held: &StoredContent) -> Step<Vec<JudgedAddress>> {
         use Addressing::{Index, Logical};
         let at = |stride, axis: u8| -> Step<IndexOffset> {
@@ -70,7 +70,7 @@ impl Addresses {
                     (of(Logical, 0)?, rules(&["COM-5", "COM-4", "ADR-3"])),
                     (of(Index, 0)?, rules(&["ADR-12"])),
                 ];
-                // Channel 1 drives it.
+                // Channel 1 has the platform's objects.
                 if self.channels.first() == Some(&1) {
                     all.push((of(Logical, 1)?, rules(&["COM-4", "ADR-3"])));
                 }
@@ -92,7 +92,7 @@ impl Addresses {
                 let strides = [AxisStride::X10000, AxisStride::X1000];
                 let offsets = strides.map(|stride| at(stride, place));
                 let group = com(Logical, ComTable::Channel, channel);
-                // Both strides are printed: the descriptor tells which it is.
+                // Both strides are printed: the descriptor decides.
                 let described = |offset: &IndexOffset| {
                     let here = |one: &&Object| one.address.content() == Some((group, *offset));
                     self.objects.iter().find(here).is_some_and(|one| one.name == held.name)
@@ -144,7 +144,7 @@ impl Addresses {
         }
     }
 
-    /// The element that a content is, if it is one, at its first address.
+    /// The first address of a content that is an element.
     pub(crate) fn element(&self, held: &StoredContent) -> Step<Option<ElementAddress>> {
         let first = self.of(held)?.into_iter().next();
         Ok(first.and_then(|(place, _)| match place {
@@ -157,7 +157,7 @@ impl Addresses {
         &self.objects
     }
 
-    /// By the number of a channel and by its rank; nothing of one that is not claimed.
+    /// By the number of a channel and by its rank; none for a channel that is not claimed.
     fn by_number_and_rank(
         &self,
         channel: u8,
@@ -174,7 +174,7 @@ impl Addresses {
         ])
     }
 
-    /// How many elements the target says that there are where this one is.
+    /// The number of elements of the content's instance according to the target.
     pub(crate) fn count(&self, held: &StoredContent) -> Option<u32> {
         let found = match held.holder {
             Holder::OfChannel { class, channel } => self.instance(class, channel, 0),
@@ -186,7 +186,7 @@ impl Addresses {
         found.map(|one| one.count)
     }
 
-    /// Where the target says that an instance begins.
+    /// The offset of the first element of an instance according to the target.
     fn first(&self, class: Class, channel: u8, axis: u8) -> Option<IndexOffset> {
         self.instance(class, channel, axis).map(|one| one.first.index_offset())
     }
@@ -201,7 +201,7 @@ fn offset_of(first: IndexOffset, held: &StoredContent) -> Step<IndexOffset> {
     Ok(IndexOffset::new(first.get().saturating_add(held.element)))
 }
 
-/// The same bytes in another order.
+/// Whether the bytes are the same in another order.
 pub(crate) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
     let sorted = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();

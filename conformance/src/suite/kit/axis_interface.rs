@@ -1,5 +1,4 @@
-//! Where variables are on the axis interface: at which places a name answers, and by which a variable
-//! is reached.
+//! Variables on the axis interface: the places at which a name has a handle, and their addresses.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
@@ -9,18 +8,18 @@ use crate::judge::Step;
 use crate::objects::ValueAddress;
 use crate::suite::kit::Probe;
 
-/// The most places of a channel that are looked at.
+/// Maximum number of places of a channel that are tried.
 pub(crate) const PLACES_MAX: u32 = 64;
-/// The most places without an axis in between: such a place need not answer.
+/// Maximum number of consecutive places without an axis: such a place need not answer.
 const GAP_MAX: u32 = 4;
 
-/// A place at which a name answers.
+/// A place with a handle for a name.
 pub(crate) struct AxisHandle {
     pub(crate) axis: ChannelAxis,
     pub(crate) handle: Handle,
 }
 
-/// All places of a channel at which a name answers with a handle.
+/// All places of a channel with a handle for a name.
 pub(crate) fn answering_places(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -45,7 +44,7 @@ pub(crate) fn answering_places(
     Ok(all)
 }
 
-/// The place at which a variable of an axis has the handle that it is described with.
+/// The address of an axis variable at the place to which its described handle belongs.
 pub(crate) fn axis_address(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -59,7 +58,7 @@ pub(crate) fn axis_address(
     Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
 }
 
-/// The axis variables of a channel as described, with their names on the axis interface.
+/// The described axis variables of a channel, with their names on the axis interface.
 pub(crate) fn axis_variables(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -83,7 +82,7 @@ pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncStri
     names
 }
 
-/// The name on the axis interface of a variable that some axis has.
+/// A name on the axis interface of a variable that an axis has.
 pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
     variables.iter().find_map(|variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;

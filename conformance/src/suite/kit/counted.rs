@@ -1,4 +1,4 @@
-//! The lists that a CNC counts, and the request for an item by its number.
+//! The lists with a number of items, and the request for an item.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind};
@@ -12,7 +12,7 @@ use ads_cnc::{Kind, ObjectCount, VariableCount};
 use crate::judge::Step;
 use crate::suite::kit::{Instance, Probe};
 
-/// Something that is counted, and can be asked for by its number from 1.
+/// A list whose items are requested by their number from 1.
 #[derive(Clone, Debug)]
 pub(crate) enum Counted {
     Objects(ObjectList),
@@ -37,7 +37,7 @@ impl std::fmt::Display for Counted {
 }
 
 impl Counted {
-    /// How many there are, as the target says.
+    /// The number of items according to the target.
     pub(crate) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
         Ok(match self {
             Self::Objects(list) => {
@@ -58,7 +58,7 @@ impl Counted {
         })
     }
 
-    /// Whether there is one with this number.
+    /// Whether the target has an item with this number.
     pub(crate) fn has(&self, probe: &mut Probe<'_>, number: u32) -> Step<bool> {
         let request: Option<Request<'_>> = match self {
             Self::Objects(list) => ReadDescriptors::new(*list, number, 1).ok().map(Into::into),

@@ -1,4 +1,4 @@
-//! Dynamic parameters that are among the variables, too.
+//! Dynamic parameters that are also variables.
 
 use ads_cnc::CncString;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
@@ -10,7 +10,7 @@ use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 use crate::suite::kit::Probe;
 
-/// The names of V.P, V.L and V.S that there are at the moment.
+/// The names of V.P, V.L and V.S that exist at the moment.
 fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     let channel = probe.channel()?;
     let mut all = Vec::new();
@@ -19,7 +19,7 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
         for index in 1..=count.map_or(0, |count| count.0.min(64)) {
             let request = DynamicNameByIndex::new(channel, kind, index)?;
             let name = probe.try_read::<DynamicName>(request)?.map(|name| name.name.text);
-            // One that leaves no room for its NUL cannot be asked for.
+            // A name without room for its NUL cannot be requested.
             let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
             all.extend(name.map(|name| (kind, name)));
         }
@@ -27,7 +27,7 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
-/// The V.P, V.L and V.S that are among the variables too, by edition and version.
+/// The V.P, V.L and V.S that are also variables, by edition and version.
 pub(crate) fn dynamic_among_variables(
     probe: &mut Probe<'_>,
 ) -> Step<Vec<(DynamicKind, CncString)>> {

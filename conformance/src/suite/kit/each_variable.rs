@@ -1,4 +1,4 @@
-//! What variables there are to judge.
+//! Iterates over variables.
 
 use ads_cnc::Description;
 use ads_cnc::address::Channel;
@@ -6,7 +6,7 @@ use ads_cnc::address::Channel;
 use crate::judge::{Step, applicable};
 use crate::suite::kit::{Probe, element_size};
 
-/// Every variable of every channel.
+/// Calls a function for every variable of every channel.
 pub(crate) fn each_variable(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
@@ -19,7 +19,7 @@ pub(crate) fn each_variable(
     Ok(())
 }
 
-/// Every array.
+/// Calls a function for every array.
 pub(crate) fn each_array(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,

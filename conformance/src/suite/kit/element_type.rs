@@ -1,9 +1,9 @@
-//! The types of elements, by their names.
+//! The types of elements, by name.
 
 use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::suite::kit::Probe;
 
-/// The bytes of a type, and whether the manuals say them or only help pages do. The tables of
+/// The size of a type, and whether a manual prints it or only online help does. The tables of
 /// dynamic parameters print those of UNS32 and REAL64, an example that of BOOLEAN.
 fn size_of(type_name: &str) -> Option<(u32, bool)> {
     Some(match type_name {
@@ -17,8 +17,8 @@ fn size_of(type_name: &str) -> Option<(u32, bool)> {
     })
 }
 
-/// How a name that is none of the manual's is judged: one that is made as they are, of another
-/// width, goes on where their list ends; one that names such a thing otherwise does not.
+/// The rule for a name that is not in the manual's list: a name of the same pattern with another
+/// width may continue the list; another name for a listed type breaks it.
 fn rule_of(type_name: &str) -> Rule {
     let digits = ["UNS", "SGN", "REAL"].into_iter().find_map(|one| type_name.strip_prefix(one));
     let is_alike = digits.is_some_and(|digits| {
@@ -27,7 +27,7 @@ fn rule_of(type_name: &str) -> Rule {
     if is_alike || type_name == "STRING" { assumed("SDA-7") } else { "SDA-7".into() }
 }
 
-/// Judges the type and the length of an element, which have to go together.
+/// Checks that type and length of an element match.
 pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u32, at: &str) {
     let known = size_of(type_name);
     let found = || format!("{type_name:?} of {at}");
@@ -39,7 +39,7 @@ pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u3
         return;
     };
     let expected = || format!("the {size} bytes of {type_name}");
-    // A value of its type has that many bytes, or the type is another.
+    // Either the type or the length is wrong.
     let [of_name, of_length] = if is_printed {
         ["SDA-7", "SDA-8"].map(Rule::from)
     } else {

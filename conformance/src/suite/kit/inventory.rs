@@ -1,4 +1,4 @@
-//! What a target has, listed once: objects of the COM task, instances of SDA and GEO.
+//! The lists of a target, read once: objects of the COM task, instances of SDA and GEO.
 
 mod variables;
 
@@ -19,9 +19,9 @@ use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
 use crate::profile::Claim;
 use crate::suite::kit::{Instance, Probe};
 
-/// The most objects of a list that are looked at, and elements of an instance.
+/// Maximum number of objects of a list, and of elements of an instance, that are read.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
-/// The most axes and spindles that are looked for.
+/// Maximum number of axes and spindles that are requested.
 pub(crate) const INSTANCES_MAX: u32 = 255;
 
 /// Classes with an instance for each channel, and one for each axis of it.
@@ -93,7 +93,7 @@ impl Probe<'_> {
         empty.filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
     }
 
-    /// The length of an element, as it says itself.
+    /// The length of an element, from its attribute.
     pub(crate) fn length_of(&mut self, element: ElementAddress) -> Step<Option<u32>> {
         let length: Option<ElementLength> = self.try_read(ReadElementLength::new(element))?;
         Ok(length.map(ElementLength::get))
@@ -156,13 +156,13 @@ impl Probe<'_> {
     ) -> Step<bool> {
         let Some(address) = self.address_of(class, channel, axis)? else { return Ok(false) };
         let Ok(Some(first)) = address.first_element() else { return Ok(false) };
-        // A target that gives one address for every axis would have no last one.
+        // A target that returns the same address for every axis would never end the list.
         if all.iter().any(|known| known.class == class && known.first == first) {
             return Ok(false);
         }
         let reported = self.count_elements(first)?.unwrap_or_default();
         let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
-        // One element fewer than the number has a name: the number counts element 0.
+        // If one element fewer than the number has a name, the number includes element 0.
         let is_itself = reported > 0
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);

@@ -1,4 +1,4 @@
-//! How the elements of an array lie in the bytes of the whole.
+//! The layout of the elements of an array.
 
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::{CncString, Description, VariableType};
@@ -6,37 +6,37 @@ use ads_cnc_vectors::Level;
 
 use crate::judge::{Rule, Step, assumed};
 
-/// How many elements an array has; of what is none, one.
+/// The number of elements of an array; 1 for another variable.
 pub(crate) fn element_count(dimensions: &[u32]) -> u32 {
     dimensions.iter().fold(1, |all, &n| all.saturating_mul(n))
 }
 
-/// Bytes of one element; a text of an array has its share of the whole.
+/// Size of one element in bytes; a text of an array has an equal share of the whole.
 pub(crate) fn element_size(variable: &Description) -> Option<usize> {
     let share =
         variable.size.checked_div(element_count(&variable.dimensions)).filter(|size| *size > 0);
     usize::try_from(variable.var_type.element_size().or(share)?).ok()
 }
 
-/// The most elements at the start of an array that are read one by one.
+/// Maximum number of elements at the start of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
 
-/// Those, what an index of one byte cannot tell from them, and the last.
+/// The first elements, those that a one-byte index would confuse with them, and the last.
 fn is_tried(number: usize, count: usize) -> bool {
     number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
 }
 
-/// The places of an array that are tried, and which element of the whole each is.
+/// The indices of the elements that are tried, each with its position in the whole.
 pub(crate) fn places_tried(
     dimensions: &[u32],
 ) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
     let count = usize::try_from(element_count(dimensions)).unwrap_or(usize::MAX);
-    // A value has 2048 elements at most.
+    // A value has at most 2048 elements.
     let all = places(dimensions).take(2048).enumerate();
     all.filter(move |(number, _)| is_tried(*number, count))
 }
 
-/// Places in an array, in row-major order: the last index runs fastest.
+/// Indices of an array in row-major order: the last index runs fastest.
 fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     let mut next = Some(vec![0; dimensions.len()]);
     std::iter::from_fn(move || {
@@ -56,8 +56,8 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     })
 }
 
-/// The order in more dimensions is assumed, and how texts lie in an array; that of one dimension
-/// of numbers is printed.
+/// The order of several dimensions, and of texts in an array, is assumed; that of numbers in one
+/// dimension is printed.
 pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
     if variable.dimensions.len() > 1 || texts { assumed("VAR-21") } else { "VAR-14".into() }
@@ -68,7 +68,7 @@ pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
     move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
 }
 
-/// More than one pair of brackets is assumed, and how texts lie in an array.
+/// More than one pair of brackets, and texts in an array, are assumed.
 pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed("VAR-20"),
@@ -76,7 +76,7 @@ pub(crate) fn brackets(variable: &Description) -> Rule {
     }
 }
 
-/// A variable's name with indices behind it; none if that is too long to be asked for.
+/// A variable's name with indices; `None` if that is too long for a request.
 pub(crate) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
     place.iter().for_each(|index| name.push_str(&format!("[{index}]")));

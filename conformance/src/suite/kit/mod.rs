@@ -1,5 +1,4 @@
-//! The tools of the cases: they ask a target, judge its answers, list what it has, and restore what
-//! was written.
+//! The tools of the cases: requests, checks, lists, and writes that are restored.
 
 mod addresses;
 mod axis_interface;

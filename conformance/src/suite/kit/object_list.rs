@@ -14,7 +14,7 @@ pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32>
     Ok(number.min(OBJECTS_MAX))
 }
 
-/// As [`object_count`], where it is not this case that judges it.
+/// Like [`object_count`], without a check: other cases judge the number.
 pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let exchange = probe.send(CountObjects::new(list))?;
     let data = exchange.success().unwrap_or_default();
@@ -25,7 +25,7 @@ pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Ste
     }
 }
 
-/// Asks for descriptors and takes at most as many as were asked for.
+/// Requests descriptors and accepts at most the requested number.
 pub(crate) fn read_descriptors(
     probe: &mut Probe<'_>,
     rule: &'static str,
@@ -37,7 +37,7 @@ pub(crate) fn read_descriptors(
     probe.read(rule, request)
 }
 
-/// Every descriptor by a read of its own: that several come together is judged elsewhere.
+/// Reads every descriptor with a request of its own: other cases judge ranges.
 pub(crate) fn descriptors_one_by_one(
     probe: &mut Probe<'_>,
     rule: &'static str,

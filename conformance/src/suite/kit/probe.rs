@@ -1,4 +1,11 @@
-//! What a case works with: it asks the target and judges the answers.
+//! The access of a case to the target: requests and checks.
+
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
 
 mod handle;
 mod refused;
@@ -23,10 +30,10 @@ use crate::profile::Claim;
 use crate::simulator::Cnc;
 use crate::suite::kit::{RawCall, TargetState};
 
-/// Requests in a row without an answer after which no more are sent.
+/// Consecutive requests without a reply after which no more are sent.
 const SILENCES_MAX: usize = 8;
 
-/// Requests of one case after which it ends: a target may say to have no end of anything.
+/// Maximum number of requests of a case, because a target may return endless lists.
 const REQUESTS_MAX: usize = 50_000;
 
 /// A case's access to the target.
@@ -36,9 +43,9 @@ pub struct Probe<'s> {
     record: Record,
     last: Option<Evidence>,
     requests: usize,
-    /// Whether it was kept from asking, as the run is to end.
+    /// Whether the case was stopped because the run is being interrupted.
     pub(crate) interrupted: bool,
-    /// Why something that the file names is not written.
+    /// Why a value in the file was not written.
     doubt: Option<String>,
     /// Whether the target has something to try the case on.
     has_subject: bool,
@@ -59,7 +66,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Asks for nothing more after this.
+    /// Sets a deadline after which no more requests are sent.
     pub(crate) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
         Self { deadline, ..self }
     }
@@ -74,13 +81,13 @@ impl<'s> Probe<'s> {
         numbers.iter().map(|&number| Ok(Channel::new(number)?)).collect()
     }
 
-    /// The first channel.
+    /// The first claimed channel.
     pub fn channel(&self) -> Step<Channel> {
         let first = self.channels()?.into_iter().next();
         first.or_not_applicable("the target claims no channel")
     }
 
-    /// Whether a request may be sent; of a write by handle the device confirms the handle first.
+    /// Whether a request may be sent; for a write by handle the handle is confirmed first.
     pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
@@ -96,7 +103,7 @@ impl<'s> Probe<'s> {
         Ok(checked.is_ok())
     }
 
-    /// How the case ends: one that could not write what the file names did not run to its end.
+    /// The result of the case: inconclusive if the gate rejected a write that the file names.
     pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.doubt.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
@@ -116,7 +123,7 @@ impl<'s> Probe<'s> {
         applicable(self.has_subject || self.record.checks > 0, why)
     }
 
-    /// The CNC itself, to do to it from within what nobody can ask for.
+    /// The simulated CNC, to change it directly.
     pub(crate) fn cnc(&self) -> Step<Arc<Cnc>> {
         self.target.cnc.clone().or_not_applicable("the CNC is not in this process")
     }
@@ -131,8 +138,7 @@ impl<'s> Probe<'s> {
         self.check(rules, true, "", "");
     }
 
-    /// As `check`, where the data of the reply is known to the byte: the evidence
-    /// shows both.
+    /// Like `check`, for a reply whose data is known completely: the evidence shows both.
     pub fn check_reply(
         &mut self,
         rules: impl Rules,
@@ -151,7 +157,7 @@ impl<'s> Probe<'s> {
         kept
     }
 
-    /// As `check`, and the case ends if it fails.
+    /// Like `check`, but a failure ends the case.
     pub fn require(
         &mut self,
         rules: impl Rules,
@@ -162,7 +168,7 @@ impl<'s> Probe<'s> {
         if self.check(rules, kept, expected, found) { Ok(()) } else { Err(Stop::Judged) }
     }
 
-    /// Takes over what other cases have found.
+    /// Adds checks from a separate record.
     pub(crate) fn take_over(&mut self, record: Record) {
         self.record.append(record);
     }
@@ -179,7 +185,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Sends a call and keeps it as the evidence of the checks that follow.
+    /// Sends a call; the exchange is the evidence of the following checks.
     pub(crate) fn call(&mut self, request: &RawCall) -> Step<Exchange> {
         self.target()?;
         let call = request.call();
@@ -203,7 +209,7 @@ impl<'s> Probe<'s> {
         Ok(exchange)
     }
 
-    /// Whether there is a target left.
+    /// Ends the case if the target is gone.
     pub(crate) fn target(&mut self) -> Step {
         if interrupt::is_requested() {
             self.interrupted = true;
@@ -221,7 +227,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// What came of a request.
+    /// Records the result of a request.
     pub(crate) fn record_exchange(
         &mut self,
         fault: Option<&ExchangeError>,
@@ -266,7 +272,7 @@ impl<'s> Probe<'s> {
         let request = request.into();
         let exchange = self.send(request)?;
         let mut rules: Vec<Rule> = rules.rules().collect();
-        // What is claimed by its name must work, whatever is documented of it.
+        // A function that is claimed by name must work, even if it is only assumed.
         if self.target.profile.names(request.function()) {
             rules.iter_mut().for_each(|rule| rule.level = Some(Level::Must));
         }
@@ -275,12 +281,12 @@ impl<'s> Probe<'s> {
         Ok(data.unwrap_or_default().to_vec())
     }
 
-    /// Sends an operation and returns the data if it is answered; that it need not be.
+    /// Sends an operation that need not be answered, and returns the data of a success.
     pub fn try_ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<Vec<u8>>> {
         Ok(self.send(request)?.success().map(<[u8]>::to_vec))
     }
 
-    /// As [`try_ask`](Self::try_ask), and None too if the data is not the stream `T`.
+    /// Like [`try_ask`](Self::try_ask), but also `None` if the data is not the stream `T`.
     pub fn try_read<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<T>>
     where
         T: for<'b> Decode<'b>,
@@ -288,7 +294,7 @@ impl<'s> Probe<'s> {
         Ok(self.send(request)?.success().and_then(|data| T::decode(data).ok()))
     }
 
-    /// As [`ask`](Self::ask), and the data must be the stream `T`.
+    /// Like [`ask`](Self::ask), and the data must be the stream `T`.
     pub fn read<'a, T>(&mut self, rule: impl Into<Rule>, request: impl Into<Request<'a>>) -> Step<T>
     where
         T: for<'b> Decode<'b>,
@@ -307,7 +313,7 @@ impl<'s> Probe<'s> {
         self.last.clone()
     }
 
-    /// Puts this evidence under the checks that follow.
+    /// Sets the evidence of the following checks.
     pub(crate) fn set_evidence(&mut self, evidence: Option<Evidence>) {
         self.last = evidence;
     }

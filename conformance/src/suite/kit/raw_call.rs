@@ -1,4 +1,11 @@
-//! Requests as they go over the wire, to be changed before they are sent.
+//! Owned requests, to be changed before they are sent.
+
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::string_slice, clippy::unreachable),
+    deny(clippy::unwrap_used)
+)]
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -28,7 +35,7 @@ impl RawCall {
         Ok(Self { port, service, index_group, index_offset, read_length, data })
     }
 
-    /// The same but for a change.
+    /// A changed copy.
     pub(crate) fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
         let mut changed = self.clone();
         change(&mut changed);
@@ -41,7 +48,7 @@ impl RawCall {
     }
 }
 
-/// A request, or one that was changed.
+/// A request, or a changed one.
 pub(crate) trait IntoRawCall<'a> {
     fn into_raw_call(self) -> Step<RawCall>;
 }

@@ -1,4 +1,4 @@
-//! Which channels have the Service Interface.
+//! Finds the channels with the Service Interface.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::ReadByName;
@@ -9,8 +9,8 @@ use crate::judge::{Step, Stop};
 use crate::profile::{Claim, Section};
 use crate::suite::kit::Probe;
 
-/// The channels that have the interface: all, if it is claimed; else those that describe it, or
-/// answer.
+/// The channels with the interface: all, if it is claimed; otherwise those that describe or answer
+/// its variables.
 pub(crate) fn service_channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.target.profile;
     let lacks = |why| Err(Stop::not_applicable(why));

@@ -1,4 +1,4 @@
-//! Comparing while the machine moves: only what stood still meanwhile is judged.
+//! Comparisons while the machine moves: only steady values are judged.
 
 use std::fmt::Display;
 
@@ -8,14 +8,14 @@ use ads_cnc_vectors::Hex;
 use crate::judge::{Checks as _, Describe, Evidence, Rule, Rules, Step, Stop};
 use crate::suite::kit::Probe;
 
-/// How often a value that does not stand still is read again.
+/// How often a value that changes is read again.
 const TRIES: usize = 3;
 
 /// The result of comparing a value, read before and after, with another reading in between.
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
-    /// The reading between them got no answer.
+    /// The reading between them got no reply.
     NoAnswer,
     Same,
     /// In the last attempt both readings of the value were equal, and the reading between them
@@ -50,7 +50,7 @@ pub(crate) fn compare<B: PartialEq, R>(
     Ok(last)
 }
 
-/// Two ways to the same value, to be judged by many such pairs.
+/// Compares pairs of ways to read the same value.
 #[derive(Debug, Default)]
 pub(crate) struct Steady {
     judged: bool,
@@ -58,7 +58,7 @@ pub(crate) struct Steady {
 }
 
 impl Steady {
-    /// Judges what `other` reads by what `one` reads before and after it.
+    /// Compares the value that `other` reads with the one that `one` reads before and after it.
     pub(crate) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -68,7 +68,7 @@ impl Steady {
         other: impl Into<Request<'b>>,
     ) -> Step {
         let (one, other) = (one.into(), other.into());
-        // Whether that is answered at all is judged elsewhere.
+        // Another case judges whether it is answered.
         let compared = compare(
             probe,
             |probe| probe.try_ask(one),
@@ -82,7 +82,7 @@ impl Steady {
         Ok(())
     }
 
-    /// Judges what came of a comparison; `differs` says what differs.
+    /// Judges the result of a comparison; `differs` describes a difference.
     pub(crate) fn judge<B, R>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -107,7 +107,7 @@ impl Steady {
         }
     }
 
-    /// Nothing was judged if nothing stood still.
+    /// Not applicable if no value was steady.
     pub(crate) fn finish(self) -> Step {
         match (self.judged, self.moved) {
             (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
@@ -116,7 +116,8 @@ impl Steady {
     }
 }
 
-/// What `act` finds between two equal readings of a guard; None if the guard moved, or was not read.
+/// The result of `act` between two equal readings of a guard; `None` if the guard changed or could
+/// not be read.
 pub(crate) fn between<G: PartialEq, T>(
     probe: &mut Probe<'_>,
     guard: impl Fn(&mut Probe<'_>) -> Step<Option<G>>,
@@ -127,12 +128,12 @@ pub(crate) fn between<G: PartialEq, T>(
     Ok((guard(probe)?.as_ref() == Some(&before)).then_some(found))
 }
 
-/// How often something is tried while parameters come and go.
+/// Number of attempts while parameters are created and deleted.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// In how many of them it has to fail, and in none be right.
+/// Number of failed attempts for a failure, without any that passed.
 const FAILURES: usize = 3;
 
-/// One check that is not recorded yet.
+/// A check before it is recorded.
 pub(crate) struct PendingCheck {
     rules: Vec<Rule>,
     kept: bool,
@@ -142,7 +143,7 @@ pub(crate) struct PendingCheck {
 }
 
 impl PendingCheck {
-    /// With the last call as its evidence.
+    /// With the last call as evidence.
     pub(crate) fn new(
         probe: &Probe<'_>,
         rules: impl Rules,
@@ -163,9 +164,9 @@ impl PendingCheck {
     }
 }
 
-/// Judges what `act` finds, if the guards answer the same before and after it; it gets their
-/// answers. A failed check is repeated and has to fail every time. If the answers of the guards always
-/// differ, nothing is judged.
+/// Judges the result of `act` if the guards return the same before and after it; `act` gets their
+/// data. A failed check must fail again in repeated attempts. If the guards change in every
+/// attempt, no check is recorded.
 pub(crate) fn steadily(
     probe: &mut Probe<'_>,
     guards: &[Request<'_>],

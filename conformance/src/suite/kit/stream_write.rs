@@ -1,4 +1,4 @@
-//! What came of a write to a stream.
+//! The result of a write to a program stream.
 
 use std::fmt;
 use std::time::Duration;
@@ -11,14 +11,14 @@ use ads_cnc::streaming::Ack;
 use crate::judge::{Describe, Step};
 use crate::suite::kit::{Probe, RawCall, with_reply};
 
-/// The most bytes that the interface of a stream holds.
+/// Maximum number of bytes in the buffer of a program stream.
 pub(crate) const HELD_MAX: usize = 4094;
 
-/// How a write was answered. Which error number means that it is refused for now, and which that it
-/// is for good, is documented nowhere: what they are taken for is assumed.
+/// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented: their
+/// meaning is assumed.
 #[derive(Debug)]
 pub(crate) struct StreamWrite {
-    /// The error of either header; none if the write was taken.
+    /// The error of the AMS header or of the service; `None` if the write was accepted.
     error: Option<AdsError>,
     answered: bool,
     shown: String,
@@ -29,12 +29,12 @@ impl StreamWrite {
         self.answered && self.error.is_none()
     }
 
-    /// By an error: silence refuses nothing.
+    /// Whether the write was rejected with an error; a missing reply is not a rejection.
     pub(crate) const fn is_refused(&self) -> bool {
         self.answered && self.error.is_some()
     }
 
-    /// What the error number is taken for.
+    /// The assumed meaning of the error number.
     pub(crate) fn assumed(&self) -> Ack {
         match self.error {
             Some(error) => Ack::from_result(error),
@@ -56,11 +56,11 @@ impl fmt::Display for StreamWrite {
     }
 }
 
-/// How often what is refused is written again, where it has to be taken in the end.
+/// How often a rejected write is repeated that must be accepted in the end.
 const TRIES: usize = 8;
 
-/// As [`send`], and again while it is refused: when a CNC is unable to accept new data is said
-/// nowhere, so that room for them need not be all it takes. In silence nothing is repeated.
+/// Like [`send`], repeated while the write is rejected: the manuals do not state when a CNC cannot
+/// accept data, so a free buffer need not be enough. A write without a reply is not repeated.
 pub(crate) fn send_until_taken(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -77,7 +77,7 @@ pub(crate) fn send_until_taken(
     Ok(sent)
 }
 
-/// Sends bytes to the stream as they are, whether a client may or not.
+/// Sends bytes to the stream, valid or not.
 pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
     let exchange = with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;

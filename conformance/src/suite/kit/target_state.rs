@@ -19,7 +19,7 @@ use crate::suite::kit::{Changes, Instance};
 pub struct TargetState {
     /// The connection.
     pub client: Client,
-    /// What the target claims.
+    /// The claims of the target.
     pub profile: Profile,
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
@@ -33,31 +33,31 @@ pub struct TargetState {
     pub frames: usize,
     /// Services that were answered.
     pub(in crate::suite) answered: Vec<Service>,
-    /// Requests in a row that were not.
+    /// Consecutive requests without a reply.
     pub(in crate::suite) silences: usize,
-    /// Why nothing more is to be had of the target.
+    /// Why no more requests are sent.
     pub(in crate::suite) gone: Option<String>,
-    /// What frames themselves broke.
+    /// Violations of the frames' headers.
     pub(in crate::suite) broken: Record,
-    /// After which only cases that write come to their end.
+    /// The deadline; a case that writes is completed after it.
     pub(in crate::suite) deadline: Option<Deadline>,
-    /// What came of requests that had to be refused.
+    /// The replies to requests that must be rejected.
     pub(in crate::suite) refusals: Refusals,
-    /// Values that are not as they were.
+    /// Values that are changed at the moment.
     pub(in crate::suite) changes: Changes,
 }
 
-/// How a target refuses.
+/// How a target rejects requests.
 #[derive(Debug, Default)]
 pub(in crate::suite) struct Refusals {
-    /// By an error number, in whichever header.
+    /// Number of error numbers, in the AMS header or in the service.
     pub(in crate::suite) by_number: usize,
-    /// By a success without data.
+    /// Checks of successes without data.
     pub(in crate::suite) by_nothing: Record,
 }
 
 impl TargetState {
-    /// The state at the start, over a connection.
+    /// The initial state for a connection.
     pub fn new(client: Client, profile: Profile) -> Self {
         Self {
             client,
@@ -77,25 +77,25 @@ impl TargetState {
         }
     }
 
-    /// With a list of what is changed that others look at too.
+    /// Shares the list of changed values with other threads.
     #[must_use]
     pub fn with_changes(self, changes: Changes) -> Self {
         Self { changes, ..self }
     }
 
-    /// What is not as it was.
+    /// The values that are changed at the moment.
     pub const fn changes(&self) -> &Changes {
         &self.changes
     }
 
-    /// With a moment after which nothing more is asked for.
+    /// Sets a deadline after which no more requests are sent.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
     }
 
-    /// With the CNC that is asked, as it is in this process: some cases do to it from within what
-    /// a machine or an NC program does.
+    /// Sets the simulated CNC of this process: some cases change it directly, as a machine or an NC
+    /// program does.
     #[must_use]
     pub fn with_cnc(self, cnc: Arc<Cnc>) -> Self {
         Self { cnc: Some(cnc), ..self }

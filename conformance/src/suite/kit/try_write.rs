@@ -19,13 +19,13 @@ use crate::values::until_nul;
 /// Why a case that writes is not applicable.
 pub(crate) const NOTHING_WRITABLE: &str = "nothing of it may be written";
 
-/// Whether a request has a form on the wire: a long value beside a long name has none.
+/// Whether a request can be encoded: a long value after a long name cannot.
 pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
-/// The nearest other value: one bit of the first byte. A text gets another first character; one of
-/// a single byte has no room for that and its NUL.
+/// A different value that is as close as possible: one bit of the first byte is changed. A text
+/// gets another first character; a text of a single byte has no room for one.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -38,29 +38,29 @@ pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
             (false, byte) => byte ^ 1,
         };
     }
-    // What was empty ends behind its one character.
+    // An empty text gets one character and a NUL.
     if is_text && value.first() == Some(&0) {
         other.iter_mut().skip(1).for_each(|byte| *byte = 0);
     }
     other
 }
 
-/// Texts are the same up to their first NUL.
+/// Whether values are equal; texts are compared up to their first NUL.
 pub(crate) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
     one == other || is_text && until_nul(one) == until_nul(other)
 }
 
-/// What a write is judged by, and what it is about.
+/// The rules of a write, and the name of its value.
 pub(crate) struct WriteCheck<'t> {
     pub(crate) what: &'t str,
     pub(crate) rules: &'t [Rule],
     pub(crate) is_text: bool,
-    /// By which the handle of a variable was asked for.
+    /// The name by which the handle of the variable was requested.
     pub(crate) name: Option<&'t CncString>,
 }
 
 impl Probe<'_> {
-    /// What is there now; an answer is judged elsewhere.
+    /// The current value; other cases judge whether it is answered.
     pub(crate) fn value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
         match address.read() {
             Ok(read) => self.try_ask(read),
@@ -68,19 +68,18 @@ impl Probe<'_> {
         }
     }
 
-    /// The present value, if it is not empty: an empty value could not be restored.
+    /// The current value, if it is not empty: an empty value could not be restored.
     pub(crate) fn filled_value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
         Ok(self.value_at(address)?.filter(|value| !value.is_empty()))
     }
 
-    /// Whether a value changes by itself between two reads. A read without an answer does not show
-    /// that.
+    /// Whether a value changes by itself between two reads. False without a reply.
     pub(crate) fn moves(&mut self, address: &ValueAddress, is_text: bool) -> Step<bool> {
         let values = self.value_at(address)?.zip(self.value_at(address)?);
         Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
     }
 
-    /// Whether a value is as it was. A read without an answer does not show that.
+    /// Whether a value is the old one. False without a reply.
     pub(crate) fn is_as_before(
         &mut self,
         address: &ValueAddress,
@@ -90,7 +89,7 @@ impl Probe<'_> {
         Ok(self.value_at(address)?.is_some_and(|now| same(&now, was, is_text)))
     }
 
-    /// Whether this place may be written, and is not to be left alone.
+    /// Whether the gate and the profile permit a write at this address.
     pub(crate) fn may_write(&mut self, address: &ValueAddress, name: &str) -> Step<bool> {
         let left = self.target.profile.leaves(name);
         match address.write(&[]) {
@@ -99,7 +98,7 @@ impl Probe<'_> {
         }
     }
 
-    /// Writes a value that must be taken.
+    /// Writes a value that must be accepted.
     pub(crate) fn write_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -118,8 +117,8 @@ impl Probe<'_> {
         Ok(kept)
     }
 
-    /// Writes another value, reads it back and puts the old one back, whatever came of it. While
-    /// the other is there, `then` looks at it; it gets the old and the new.
+    /// Writes another value, reads it back and restores the old one in any case. Before that,
+    /// `then` is called with the old and the new value.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -134,7 +133,7 @@ impl Probe<'_> {
             return Ok(());
         }
         let other = changed_value(&before, write_check.is_text);
-        // What it holds it takes first: nothing is changed by that.
+        // The current value is written first, which changes nothing.
         if !self.write_checked(write_check, address, &before)? {
             return Ok(());
         }
@@ -160,7 +159,7 @@ impl Probe<'_> {
         }
         let after = self.value_at(address)?.unwrap_or_default();
         let kept = same(&after, other, write_check.is_text);
-        // What moves by itself tells nothing of a write.
+        // A value that changes by itself proves nothing.
         if !kept && self.moves(address, write_check.is_text)? {
             return Ok(());
         }
@@ -169,7 +168,7 @@ impl Probe<'_> {
         then(self, before, other)
     }
 
-    /// Whether the old value is there again, or one that moves by itself.
+    /// Whether the old value was restored, or changes by itself.
     fn restore_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -177,7 +176,7 @@ impl Probe<'_> {
         before: &[u8],
     ) -> Step<bool> {
         let taken = self.write_checked(write_check, address, before)?;
-        // A read without an answer shows nothing.
+        // Without a reply the value is unknown.
         let Some(after) = self.value_at(address)? else { return Ok(false) };
         let kept = same(&after, before, write_check.is_text);
         if !kept && self.moves(address, write_check.is_text)? {
@@ -188,8 +187,8 @@ impl Probe<'_> {
         Ok(kept)
     }
 
-    /// Writes to what must refuse it the value that is there already; `sibling`, if there is one,
-    /// takes what it holds.
+    /// Writes the current value of a read-only address, which must be rejected; `sibling` is an
+    /// address that must accept its own value.
     pub(crate) fn write_refused(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -206,7 +205,7 @@ impl Probe<'_> {
             };
             let exchange = self.send(write)?;
             if exchange.success().is_none() {
-                // Whether writable things take a value is judged by those cases.
+                // Another case judges whether writable addresses accept a value.
                 let why = format!("nothing to hold it against is written: {}", exchange.result());
                 return Err(Stop::Inconclusive(why));
             }

@@ -1,4 +1,4 @@
-//! Values that cases change: each is restored and read back, whatever ends the case.
+//! Values that cases change: each is restored and read back, however the case ends.
 
 #![cfg_attr(
     not(test),
@@ -23,20 +23,20 @@ use crate::text::Moment;
 /// How often a value is written back.
 const WRITES_MAX: u32 = 5;
 
-/// Before the second time; twice as long before each that follows.
+/// Pause before the second attempt; doubled for each that follows.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// The most requests that restoring a value takes, but for the lists of objects that are read again on
-/// another connection.
+/// Maximum number of requests to restore a value, apart from lists of objects that are read again
+/// on a new connection.
 const REQUESTS_MAX: u32 = 60;
 
-/// The pauses between restoring writes together, which are made twice.
+/// The sum of the pauses between restoring writes, for both rounds.
 const PAUSES: Duration = Duration::from_secs(8);
 
 impl Probe<'_> {
-    /// Runs what changes the value at a place, and restores it, whatever comes of that. `restore`
-    /// does so as a part of the case and says whether the value is as it was; if it is not, it is
-    /// written back again.
+    /// Runs a function that changes a value, and restores it in any case. `restore` does so as a
+    /// part of the case and returns whether the value is the original one; if not, it is written
+    /// back again.
     pub(crate) fn changing(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -78,12 +78,12 @@ impl Probe<'_> {
         changed.and(restored).and(restored_all)
     }
 
-    /// Rejects a change, and any further request of a case that has changed a value, when the file that
-    /// permits it expires before the value could be restored.
+    /// Rejects a change, and any further request of a case that has changed a value, if the file
+    /// that permits it expires before the value could be restored.
     pub(crate) fn check_time_to_restore(&self) -> Step {
         let client = &self.target.client;
         let target = client.target();
-        // Each request may wait for a connection and for an answer.
+        // Each request may have to wait for a connection and for a reply.
         let request = target.timeout.saturating_mul(2).saturating_add(target.pace);
         let time = request.saturating_mul(REQUESTS_MAX).saturating_add(PAUSES);
         let end = Moment::now().after(time);
@@ -93,8 +93,8 @@ impl Probe<'_> {
         })
     }
 
-    /// Restores all that is changed, the last change first; also if the run is interrupted and if
-    /// nothing more is asked of the target otherwise.
+    /// Restores all changed values, the last change first, even if the run is interrupted or no
+    /// more requests are sent otherwise.
     pub(crate) fn restore_all(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.target.changes.last() {
@@ -103,10 +103,10 @@ impl Probe<'_> {
         all
     }
 
-    /// Tries again what could not be restored.
+    /// Tries again to restore the remaining values.
     pub(crate) fn restore_rest(&mut self) {
         self.target.changes.all().iter_mut().for_each(|change| change.given_up = false);
-        // What is left is shown.
+        // The remaining ones are reported.
         let _left = self.restore_all();
     }
 
@@ -117,16 +117,16 @@ impl Probe<'_> {
             if times > 1 {
                 let pause = PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8));
                 self.target.client.wait(pause);
-                // Its handle may lead to nothing any more, or not be confirmed again.
+                // The handle may be invalid by now, or no longer be confirmed.
                 if let Some(by_name) = change.by_name.take() {
                     change.address = by_name;
                 }
             }
-            // A write whose answer was lost may have been done.
+            // A write without a reply may have been executed.
             let now = self.present_value(&change);
             changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
-            // A value that changes by itself will not be as it was. Two reads show that.
+            // A value that changes by itself never equals the original one. Two reads show that.
             let moves = !is_same && written && now.is_some() && {
                 let values = now.as_ref().zip(self.present_value(&change));
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
@@ -150,7 +150,7 @@ impl Probe<'_> {
         exchange.success().map(<[u8]>::to_vec)
     }
 
-    /// Whether it was taken.
+    /// Writes the original value; returns whether the write was accepted.
     fn write_back(&mut self, change: &mut Change) -> bool {
         let send = |probe: &mut Self, change: &Change| {
             change.address.write(&change.was).ok().and_then(|write| probe.send_anyway(write))
@@ -158,7 +158,7 @@ impl Probe<'_> {
         let mut sent = send(self, change);
         if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::Refused(_))))
         {
-            // On another connection the gate knows of no handle and of no list of objects.
+            // On a new connection the gate has observed no handle and no list of objects.
             self.request_again(change);
             sent = send(self, change);
         }
@@ -169,7 +169,7 @@ impl Probe<'_> {
         sent.is_some_and(|sent| sent.success().is_some())
     }
 
-    /// Asks for what tells the gate that the place is what a file names.
+    /// Sends the queries by which the gate confirms the name of the address.
     fn request_again(&mut self, change: &mut Change) {
         match (&change.address, change.name.clone()) {
             (ValueAddress::Handle { channel, .. }, Some(name)) => {
@@ -197,7 +197,7 @@ impl Probe<'_> {
         }
     }
 
-    /// Sends a request, whatever ends the case or the run otherwise.
+    /// Sends a request even after the end of the case or the run.
     fn send_anyway<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
         let request = RawCall::new(request).ok()?;
         self.target.frames = self.target.frames.saturating_add(1);

@@ -1,4 +1,4 @@
-//! What may be written, and whether it is taken.
+//! Writable values, and whether writes to them are accepted.
 
 use ads_cnc::address::{Channel, ElementAddress};
 use ads_cnc::operation::{
@@ -13,12 +13,12 @@ use crate::judge::{Rule, Step, Stop, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, is_sendable, name_of};
 
-/// What writing a variable of the Service Interface leads to has cases of its own.
+/// Other cases write the variables of the Service Interface, because of their side effects.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
     ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
 }
 
-/// Every variable of this access of every channel.
+/// Calls a function for every variable with this access in every channel.
 pub(crate) fn each_of_access(
     probe: &mut Probe<'_>,
     access: VariableAccess,
@@ -43,7 +43,7 @@ pub(crate) fn write_check<'t>(
     WriteCheck { what, rules, is_text, name: Some(&variable.name.text) }
 }
 
-/// The handle of a name, asked for by it: a file that names it allows the handle then.
+/// The handle of a name, requested by name: that confirms it for a file that names the variable.
 pub(crate) fn handle_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -53,7 +53,7 @@ pub(crate) fn handle_of(
     Ok(handle.unwrap_or(variable.handle))
 }
 
-/// A variable with the value it has, to hold a refusal against.
+/// A writable variable with its current value, to compare a rejected write with.
 pub(crate) struct WritableNumber {
     pub(crate) channel: Channel,
     pub(crate) variable: Description,
@@ -78,8 +78,8 @@ impl WritableNumber {
     }
 }
 
-/// Numbers that may be written, the first of each type; those that read as they are described, as
-/// anything else is judged elsewhere.
+/// Writable numbers, the first of each type, whose value can be read with the described size; other
+/// cases judge the others.
 pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
     let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
@@ -143,7 +143,7 @@ pub(crate) struct WritableElement {
     pub(crate) is_text: bool,
 }
 
-/// Elements that may be written, by what their flags say of that.
+/// Elements whose write flags have this value.
 pub(crate) fn elements_with_flag(
     probe: &mut Probe<'_>,
     is_writable: bool,
@@ -185,7 +185,7 @@ fn named(
     Ok(Some(WritableElement { instance, element, address, what, is_text }))
 }
 
-/// Whether a value is taken.
+/// Whether a write is accepted.
 pub(crate) fn write_value(
     probe: &mut Probe<'_>,
     address: &ValueAddress,

@@ -1,6 +1,7 @@
-//! The golden sequences of data streaming and of the Service Interface: each has one player, which is
-//! the client or the service, and leaves the CNC's part to an actor. The suite's actor is a CNC over
-//! the wire, whose own part happens from within; tests have actors without a wire.
+//! The golden sequences of data streaming and of the Service Interface. Each kind has a player,
+//! which acts as the client or the service, and an actor for the CNC. The suite's actor is a CNC
+//! over the wire, whose own part is done directly in the simulated CNC; tests have actors without a
+//! wire.
 
 mod outcome;
 mod service;
@@ -16,10 +17,10 @@ use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 use crate::judge::{Body, Case, CaseSubject, Checks as _, Needs, Step, Stop};
 use crate::suite::kit::Probe;
 
-/// What a client or a service does, which the suite itself is here.
+/// Requirements of a client or a service, which is the suite itself here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
 
-/// One case for each sequence that says something of the CNC.
+/// One case for each sequence with a requirement of the CNC.
 pub(super) fn cases() -> Vec<Case> {
     let all = sequences().iter();
     let steps = all.filter(|one| matches!(one.given, Given::Streaming(_) | Given::Service(_)));
@@ -55,7 +56,7 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
-    // Of the simulated CNC assumed requirements are judged too.
+    // For the simulated CNC assumed requirements are judged too.
     let cited = sequence.cited().into_iter().map(|one| one.id.as_str());
     let cited: Vec<&str> = cited.filter(|id| !NOT_THE_TARGETS.contains(id)).collect();
     probe.check(&cited, kept, expected, found);

@@ -1,5 +1,4 @@
-//! The steps of a sequence of the Service Interface: those of the NC program, of services and of other
-//! clients.
+//! The steps of a sequence of the Service Interface, by NC program, services and other clients.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -14,17 +13,17 @@ use crate::simulator::program::{
     Repeat, Script, ScriptConfig, ServiceOutcome, ServiceRequest, Wait,
 };
 
-/// The interfaces of a CNC's channels, by number, and the program that asks.
+/// The interfaces of a CNC's channels, by number, and the NC program.
 pub trait ServiceActor {
     type Program: Asking;
 
-    /// The program with one request.
+    /// An NC program with one request.
     fn ask(&self, request: ServiceRequest) -> Result<Self::Program, CallError>;
 
-    /// The value of a variable: of a text without what fills it up.
+    /// The value of a variable; a text without its padding.
     fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>>;
 
-    /// Writes a value. If it is rejected, the class of its fault.
+    /// Writes a value. Returns the class of the fault if it is rejected.
     fn write(
         &mut self,
         channel: u32,
@@ -32,19 +31,19 @@ pub trait ServiceActor {
         value: &[u8],
     ) -> Done<Option<&'static str>>;
 
-    /// Does something to an interface from within.
+    /// Changes an interface directly.
     fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()>;
 }
 
-/// A program that asks.
+/// An NC program that sends a request.
 pub trait Asking {
-    /// Does one step.
+    /// Executes one step.
     fn step(&mut self, now: Duration, interface: &mut ServiceInterface);
 
-    /// What it does next.
+    /// The next step.
     fn next_step(&self) -> Option<CallStep<'_>>;
 
-    /// What came of its request.
+    /// The outcome of its request.
     fn outcome(&self) -> Option<ServiceOutcome>;
 }
 
@@ -62,7 +61,7 @@ impl Asking for Script {
     }
 }
 
-/// Goes through the steps up to the first at fault.
+/// Plays the steps up to the first fault.
 pub fn play<'c>(actor: &mut impl ServiceActor, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
@@ -143,7 +142,7 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
         }
     }
 
-    /// The program does one step.
+    /// Executes one step of the program.
     fn program_step(&mut self, step: &ServiceStep) -> Done<&A::Program> {
         let program = self.program.as_mut().ok_or_else(|| lacks("program"))?;
         let now = self.now;
@@ -151,13 +150,13 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
         Ok(program)
     }
 
-    /// What came of the request, once the program has looked.
+    /// The outcome of the request, after the program has polled.
     fn outcome(&mut self, step: &ServiceStep) -> Done<Option<ServiceOutcome>> {
         self.program_step(step)?;
         Ok(self.program_step(step)?.outcome())
     }
 
-    /// What the service wants next, once it has read what it wants to read.
+    /// The next action of the service, after it has read all variables it needs.
     fn wants(&mut self, step: &ServiceStep) -> Done<Wants> {
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
         host.poll();
@@ -228,7 +227,7 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
     }
 }
 
-/// What a service does next, apart from reading.
+/// The next action of a service, other than reading.
 #[derive(Debug, PartialEq)]
 enum Wants {
     Nothing,
@@ -260,7 +259,7 @@ fn request(step: &ServiceStep) -> Done<Result<ServiceRequest, CallError>> {
     })
 }
 
-/// A script of one request.
+/// A script with one request.
 pub fn script(request: ServiceRequest) -> Result<Script, CallError> {
     let config = ScriptConfig {
         requests: vec![request],
@@ -271,7 +270,7 @@ pub fn script(request: ServiceRequest) -> Result<Script, CallError> {
     Script::new(config).map_err(|error| error.error)
 }
 
-/// The example's service, which the manuals have in C: `atof`, `sqrt` and `%f`.
+/// The service of the manual's example, there in C: `atof`, `sqrt` and `%f`.
 pub fn square_root(request: &str) -> (String, u32) {
     let digits = request.trim_start();
     let x = (0..=digits.len()).rev().find_map(|len| digits.get(..len)?.parse().ok());
@@ -300,7 +299,7 @@ fn number(value: &Option<String>) -> Done<u32> {
     number.ok_or_else(|| lacks("number"))
 }
 
-/// What sequences call an error.
+/// The class of an error in sequences.
 pub fn fault_class(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::Truncated => "truncated",

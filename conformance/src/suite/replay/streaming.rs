@@ -8,7 +8,7 @@ use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, 
 use super::outcome::{Done, Fault, differs, lacks};
 use crate::simulator::program::{Message, Pace, State, StreamingProgram};
 
-/// A CNC that a program is streamed to.
+/// A CNC with a streaming program.
 pub trait StreamActor {
     /// Starts the streaming program.
     fn start(&mut self, now: Duration) -> Done<()>;
@@ -16,13 +16,13 @@ pub trait StreamActor {
     /// Resets the channel.
     fn reset(&mut self, now: Duration) -> Done<()>;
 
-    /// Bytes in the buffer.
+    /// Number of bytes in the buffer.
     fn held(&mut self) -> Done<usize>;
 
     /// Writes the packet of a step.
     ///
     /// # Errors
-    /// An answer that is neither the stated one nor that of a full buffer.
+    /// A reply that is neither the stated one nor that of a full buffer.
     fn write(
         &mut self,
         data: &[u8],
@@ -35,7 +35,7 @@ pub trait StreamActor {
     fn take(&mut self, step: &StreamStep, now: Duration) -> Done<Option<&'static str>>;
 }
 
-/// Goes through the steps up to the first at fault.
+/// Plays the steps up to the first fault.
 pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> Done<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
@@ -95,7 +95,7 @@ fn write(
     })
 }
 
-/// Lets the decoder run for no time at all, in which it reads and runs what is there.
+/// Lets the decoder read the buffer and execute the lines in zero time.
 pub fn take(
     program: &mut StreamingProgram,
     step: &StreamStep,

@@ -1,4 +1,4 @@
-//! The actor of the suite: the CNC of this process, over the wire.
+//! The actor of the suite: the simulated CNC of this process, over the wire.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -89,7 +89,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
         let request = WriteByName::new(channel, variable.name(), value)?;
         let exchange = with_reply(self.probe.send(request)?)?;
         let taken = exchange.success().is_some();
-        // Which of the faults it is, an error number does not tell: the bytes do.
+        // The error number does not show the class of the fault, so it is derived from the bytes.
         let error = || ServiceInterface::new().write(variable, value).err();
         let fault = || error().map_or("outcome", |error| fault_class(error.kind()));
         Ok((!taken).then(fault))
@@ -123,7 +123,7 @@ struct StreamPlayer<'s, 'p> {
     probe: &'s mut Probe<'p>,
     cnc: Arc<Cnc>,
     channel: Channel,
-    /// What the sequence is about.
+    /// The requirements of the sequence.
     rules: &'s [&'static Requirement],
 }
 
@@ -136,7 +136,7 @@ impl StreamPlayer<'_, '_> {
         Ok(self.cnc.set_program(self.channel.number(), config)?)
     }
 
-    /// Judges what the error number of a refusal says.
+    /// Judges the error number of a rejected write.
     fn number(&mut self, rule: &'static str, ack: Ack, sent: &StreamWrite) {
         if self.rules.iter().any(|one| one.id == rule) {
             let expected = || format!("{ack:?} by its number");
@@ -145,7 +145,7 @@ impl StreamPlayer<'_, '_> {
     }
 }
 
-/// Time does not pass: the program is on hold.
+/// Time does not advance: the program is on hold.
 impl StreamActor for StreamPlayer<'_, '_> {
     fn start(&mut self, _: Duration) -> Done<()> {
         match self.with(|one| one.start(Duration::ZERO))? {
@@ -162,8 +162,8 @@ impl StreamActor for StreamPlayer<'_, '_> {
         self.with(|program| program.buffered())
     }
 
-    /// Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what
-    /// was stated says: that its number tells is assumed.
+    /// Whether a write is accepted is certain. Whether a rejection means "busy" or "rejected" is
+    /// taken from the sequence: that the error number shows it is assumed.
     fn write(
         &mut self,
         data: &[u8],

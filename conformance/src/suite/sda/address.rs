@@ -1,4 +1,4 @@
-//! Where instances are.
+//! Addresses of instances.
 
 use std::collections::HashSet;
 
@@ -36,7 +36,7 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{}, which another instance has too", found());
         probe.check("SDA-1", own, "a place of its own", found);
     }
-    // Whoever says one place of several instances is not asked further: that behind the last.
+    // If several instances have the same address, the one after the last is not requested.
     for one in probe.instances()? {
         let beyond = probe.address_of(one.class, one.channel, one.axis.saturating_add(1))?;
         let Some(beyond) = beyond.filter(|address| *address != ObjectAddress::NONE) else {
@@ -46,7 +46,7 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{beyond:?} for the axis behind {one} too");
         probe.check("SDA-1", own, "a place of its own", found);
     }
-    // In another order, each is where it was.
+    // In another order every instance has the same address.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;
         let first = ObjectAddress::from(one.first);
@@ -60,7 +60,7 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The offset of an instance: printed for the decoder and, otherwise, for one axis of the HLD.
+/// The offset of an instance: printed for the decoder and for one axis of the HLD.
 fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress) {
     let offset = first.index_offset();
     let of = |stride| IndexOffset::for_axis(stride, axis, 0).ok();
@@ -81,7 +81,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
             let by_index = element_by_rank(first, rank);
-            // That objects are asked for by rank too is not said of this function.
+            // That channels can be given by rank in this function is not stated.
             let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
             let found = exchange.success().and_then(|data| ObjectAddress::decode(data).ok());
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);
@@ -98,7 +98,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target names no instance")
 }
 
-/// A question of another length, and a read length that does not hold the answer.
+/// A request of another length, and a read length shorter than the reply.
 pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     for class in OF_PLACES.into_iter().chain([Class::Hld]) {

@@ -1,4 +1,4 @@
-//! Places without an axis.
+//! Axis places without an axis.
 
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The content of an element; nothing of what is none.
+/// The content of an element; `None` if it has none.
 fn content(probe: &mut Probe<'_>, element: ElementAddress) -> Step<Option<Vec<u8>>> {
     let Some(length) = probe.length_of(element)? else { return Ok(None) };
     match ReadElement::new(element, length) {
@@ -48,7 +48,7 @@ fn is_blank(bytes: &[u8]) -> bool {
 }
 
 fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
-    // How many elements there are is content, too.
+    // The number of elements is a content, too.
     probe.ask("SDA-11", CountElements::new(one.first)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
@@ -67,7 +67,8 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
         };
         let content = probe.ask("SDA-11", read)?;
         let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
-        // What zeros are for one axis, others are for another: blank is what no axis has.
+        // A content that equals that of an axis must not be one at an empty place, unless it is
+        // zero.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
         probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", found);
         probe.check(assumed("SDA-11"), is_blank(&content), "zeros", found);
@@ -91,11 +92,11 @@ fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
     Ok(())
 }
 
-/// What the suite knows of the default model: the first places of these channels have the axes 4
-/// and 5, the others of them none.
+/// In the default model the first places of these channels have the axes 4 and 5, the others no
+/// axis.
 const CHANNELS: [(u8, u32); 2] = [(2, 4), (6, 5)];
 
-/// The element with this number among those of a place; nothing if it is a function's.
+/// The element with this number at a place; `None` if its offset is a function.
 type ClassElement = (Class, u32);
 
 pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
@@ -113,7 +114,8 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     if before.is_empty() && objects.is_empty() {
         return Err(none());
     }
-    // The axis of the other channel comes here: an element that follows is the axis's number.
+    // The other channel's axis moves here: an element that changes to its number is the axis
+    // number.
     cnc.exchange_axis(one, 1, theirs)?;
     let moved = (at(probe, one, theirs), numbers_of(probe, one, theirs));
     let blank = blank_at(probe, other.into(), 1, &before);
@@ -154,7 +156,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// In the order in which they do not get into each other's way.
+/// In an order without conflicts.
 fn exchange_back(cnc: &Arc<Cnc>) -> Step {
     for (channel, axis) in CHANNELS {
         cnc.exchange_axis(channel, 1, axis)?;
@@ -162,7 +164,7 @@ fn exchange_back(cnc: &Arc<Cnc>) -> Step {
     Ok(())
 }
 
-/// The elements at a place whose contents are such.
+/// The elements at a place whose contents satisfy a condition.
 fn elements_with(
     probe: &mut Probe<'_>,
     channel: u32,
@@ -183,7 +185,7 @@ fn elements_with(
     Ok(all)
 }
 
-/// What these elements are at a place.
+/// The contents of these elements at a place.
 fn blank_at(
     probe: &mut Probe<'_>,
     channel: u32,

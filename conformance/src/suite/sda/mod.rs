@@ -1,4 +1,4 @@
-//! Cases of SDA and GEO: which instances there are, and where.
+//! Cases of SDA and GEO: instances and their addresses.
 
 mod address;
 mod empty_places;

@@ -1,4 +1,4 @@
-//! Which instances there are, and which there cannot be.
+//! Instances that must exist, and instances that cannot exist.
 
 use ads_cnc::Decode as _;
 use ads_cnc::address::{Class, ElementAddress, IndexOffset};
@@ -9,8 +9,8 @@ use ads_cnc_vectors::Hex;
 use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
 
-/// Asks for what has to be there. Another task may serve a class: who refuses to say is not judged
-/// but for the decoder, which SDA has.
+/// Requests an instance that must exist. Another task may serve the class: a rejection is judged
+/// only for the decoder, which SDA serves.
 fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
@@ -31,7 +31,7 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let same = (group.class, u32::from(group.instance)) == (class, channel);
         let expected = || format!("the {} ({channel}, {axis}) in a group of its own", class);
         probe.check("SDA-1", same, expected, found);
-        // What is there is read there, its number of elements first of all.
+        // An instance has a number of elements.
         let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
@@ -42,12 +42,12 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     Ok(())
 }
 
-/// Whether path preparation has axes the manual says in one place, and not in another.
+/// One section of the manual gives axes to path preparation, another does not.
 fn of_axes(class: Class, id: &'static str) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
-/// Asks for what cannot be there, by the range that these requirements give.
+/// Requests an instance that cannot exist according to the range of these requirements.
 fn is_nowhere(
     probe: &mut Probe<'_>,
     rules: &[&'static str],
@@ -59,7 +59,7 @@ fn is_nowhere(
     let exchange = probe.send(request)?;
     let data = exchange.success();
     let Some(data) = data else {
-        // By an error instead: that the result is 0 is assumed.
+        // Rejected with an error: that the result is (0, 0) instead is assumed.
         let found = exchange.result();
         probe.check(assumed("SDA-2"), false, "the answer (0, 0)", found);
         return Ok(());
@@ -69,7 +69,7 @@ fn is_nowhere(
     let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class);
     let found = || Hex(data.to_vec());
     probe.check("SDA-2", none, expected, found);
-    // An instance is found where there can be none.
+    // An instance was returned that cannot exist.
     let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
     probe.check(rules, !is_found, expected, found);
     Ok(())
@@ -84,7 +84,7 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
             is_there(probe, &rules, class, channel, 0)?;
         }
     }
-    // A place is there whether an axis is or not.
+    // A place exists with or without an axis.
     for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for class in OF_PLACES {
             is_there(probe, &[of_axes(class, "SDA-5")], class, channel, place)?;
@@ -95,7 +95,8 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
         is_there(probe, &rules, Class::PositionController, 0, axis)?;
         is_there(probe, &rules, Class::Hld, 0, axis)?;
         for (rank, &channel) in numbers.iter().enumerate() {
-            // Of the first channel's HLD it is said that it has them, of the others' not.
+            // The manual gives the platform's axes to the HLD of the first channel, not to the
+            // others.
             let rules = if rank == 0 { rules } else { ["SDA-5", "ADR-5"].map(assumed) };
             is_there(probe, &rules, Class::Hld, channel, axis)?;
         }
@@ -123,17 +124,17 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The last axis of a channel in a class; none if the class does not even have the channel.
+/// The last axis of a channel in a class; `None` if the class does not have the channel.
 fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
     let mine = all.iter().filter(|one| (one.class, one.channel) == (class, channel));
     mine.map(|one| one.axis).max()
 }
 
-/// What the target says of one class has to go with what it says of another.
+/// Compares the instances of the classes with each other.
 pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let mut any = false;
-    // One limit stands for the axes of these classes.
+    // The axes of a channel have the same limit in these classes.
     for channel in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
         let lasts = OF_PLACES.map(|class| (class, last_axis(&all, class, channel)));
         let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
@@ -144,7 +145,7 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
             is_there(probe, &[of_axes(class, "SDA-5")], class, channel, axis)?;
         }
     }
-    // And the axes of the platform are as many wherever they are.
+    // The platform has the same number of axes in all classes.
     let lasts =
         [Class::PositionController, Class::Hld].map(|class| (class, last_axis(&all, class, 0)));
     let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
@@ -157,13 +158,13 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no class names an axis")
 }
 
-/// Every class has an end, whatever is configured.
+/// Every class has a last instance, in any configuration.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let has = |class| all.iter().any(|one| one.class == class);
     let channels: Vec<u32> =
         probe.channels()?.into_iter().map(|channel| channel.number().into()).collect();
-    // What has nothing at all may be with another task.
+    // A class without any instance may be served by another task.
     for class in OF_PLACES.into_iter().filter(|class| has(*class)) {
         for &channel in &channels {
             let last = last_axis(&all, class, channel).unwrap_or(INSTANCES_MAX);
@@ -171,7 +172,7 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
                 is_nowhere(probe, &["SDA-5"], class, channel, last.saturating_add(1))?;
             }
         }
-        // Channels start at 1: 0 is the platform, which these classes have not.
+        // Channels start at 1: 0 is the platform, which these classes do not have.
         is_nowhere(probe, &["SDA-5", "GEN-6"], class, 0, 0)?;
         is_nowhere(probe, &["SDA-5", "GEN-6"], class, 0, 1)?;
     }
@@ -194,8 +195,8 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Numbers of which some bits are those of an instance: a group has room for 8 bits of a channel,
-/// an offset for 16 of an axis.
+/// Numbers whose lower bits are those of an instance: a group has 8 bits for a channel, an offset
+/// 16 for an axis.
 pub(super) fn far(probe: &mut Probe<'_>) -> Step {
     for one in probe.instances()? {
         let channels: &[u32] = match one.axis {
@@ -206,7 +207,7 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
             let channel = one.channel.wrapping_add(bit);
             is_nowhere(probe, &["SDA-5"], one.class, channel, one.axis)?;
         }
-        // Nor is anything read there. Of the decoder's axes it is printed where they are.
+        // A read there must fail too. Only the addresses of the decoder's axes are printed.
         if one.class == Class::Decoder && one.axis < 0x100 {
             let group = one.first.class_group();
             for bit in [0x100_0000, 0x8000_0000_u32] {
@@ -217,7 +218,7 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                 probe.refuses(["ADR-7", "SDA-5"], &what, far?, there)?;
             }
         }
-        // The axis of a spindle has no meaning.
+        // The axis of a spindle is not used.
         if one.class != Class::Spindle {
             for bit in [0x1_0000, 0x100_0000, 0x8000_0000] {
                 let axis = one.axis.wrapping_add(bit);

@@ -1,4 +1,4 @@
-//! The five variables by handle as by name, and those of one channel apart from another's.
+//! The five variables by handle and by name, and in different channels.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
@@ -20,7 +20,7 @@ fn handle_of(
     probe.try_read(name)
 }
 
-/// Texts of any length, written one way and read the other.
+/// Texts of any length, written by name and read by handle, and vice versa.
 pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, Response};
     within(probe, |probe, channel, _| {
@@ -48,7 +48,7 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// A service answers in one channel, while a program asks in another.
+/// A service answers in one channel, while a program sends a request in another.
 pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let all = service_channels(probe)?;

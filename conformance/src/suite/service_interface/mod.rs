@@ -1,4 +1,4 @@
-//! Cases of the Service Interface: its variables, and what writing them leads to.
+//! Cases of the Service Interface: its variables, and the effects of writes to them.
 
 mod aliases;
 mod interface;
@@ -97,7 +97,8 @@ fn response(probe: &mut Probe<'_>) -> Step {
                 "the response could not be read, so it could not be restored",
             ));
         }
-        // The response is restored first: the state tells a program that it is there.
+        // The response is restored before the state, which tells a program that there is a
+        // response.
         with_restoring(probe, (channel, ResponseState, &before.1), |probe| {
             with_restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
         })?;
@@ -111,7 +112,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
     probe.finish("no service may be answered for")
 }
 
-/// Does what changes a variable, and restores what was there.
+/// Runs a function that changes a variable, and restores the old value.
 fn with_restoring(
     probe: &mut Probe<'_>,
     (channel, variable, was): (Channel, ServiceVariable, &[u8]),
@@ -128,7 +129,7 @@ fn with_restoring(
     })
 }
 
-/// As a service does, though nobody asked.
+/// Answers like a service, without a request.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let taken = write_variable(probe, channel, Response, b"nobody asked\0")?;
@@ -136,7 +137,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"nobody asked";
     probe.check("SVC-1", same, "the response as written", || Hex(read));
-    // Any number: it is between the program and the service.
+    // Any number: its meaning is agreed between program and service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
         let taken = write_variable(probe, channel, ResponseState, &state)?;
         probe.check("SVC-1", taken, "a response state taken", "an error");
@@ -145,7 +146,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     }
     let read = read_variable(probe, channel, RequestState)?;
     probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
-    // Any write of it does, over ADS too: assumed.
+    // That any write of REQUEST_STATE has this effect, over ADS too, is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
     let read = read_variable(probe, channel, ResponseState)?;
     probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", || Hex(read));
@@ -167,7 +168,7 @@ fn request_states(probe: &mut Probe<'_>) -> Step {
         let expected = "the request until it is answered";
         probe.check(assumed("SVC-4"), read == ONE, expected, || Hex(read));
         write_variable(probe, channel, ResponseState, &ONE)?;
-        // When that is, is assumed; that it is, is not.
+        // When REQUEST_STATE becomes 0 is assumed; that it does is stated.
         let read = read_variable(probe, channel, RequestState)?;
         probe.check(assumed("SVC-4"), read == NONE, "the request is over", || Hex(read));
         write(RequestState, &[2, 0, 0, 0])?;

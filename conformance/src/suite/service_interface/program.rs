@@ -1,4 +1,4 @@
-//! A program that asks, from within, and what it has of it over ADS.
+//! An NC program that sends a request, run directly, and the effects over ADS.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use crate::simulator::program::{Repeat, Script, ScriptConfig, ScriptState, Servi
 use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
-/// Looks at the variables after each step of a program.
+/// Reads the variables after each step of a program.
 pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Uuid};
     within(probe, |probe, channel, cnc| {
@@ -21,7 +21,7 @@ pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
         let asked = config.requests.first().cloned();
         let asked = asked.ok_or_else(|| Stop::Harness("no request".to_owned()))?;
         let mut script = cnc.as_run(Script::new(config)?);
-        // Remains of another request.
+        // Values of an earlier request.
         for (variable, value) in [(Uuid, &b"other\0"[..]), (Request, b"other\0")] {
             let done = cnc.with_service(channel.number(), |one| one.write(variable, value));
             done??;
@@ -44,7 +44,7 @@ pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// How long the program and the service may take over it.
+/// Time limit for program and service.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
@@ -89,7 +89,7 @@ pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
 
 const NEGATIVE: &str = "ERROR: cannot calc square root of negative number -3.000000";
 
-/// A step of the service.
+/// Executes one step of the service.
 fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
     match host.step() {
         HostStep::Read(variable) => {
@@ -107,7 +107,7 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
             host.written();
         }
         HostStep::Serve { request, request_state, .. } => {
-            // With the state there are UUID and request: they were written before it.
+            // UUID and request were written before the state.
             let (request, known) = (request.to_string(), ["3", "-3"]);
             let whole = known.contains(&request.as_str()) && request_state == 1;
             let found = || format!("{request:?}, state {request_state}");

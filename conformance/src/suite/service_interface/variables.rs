@@ -1,4 +1,4 @@
-//! What the five variables hold.
+//! The values of the five variables.
 
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
@@ -31,7 +31,7 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Bytes that are characters, so many from this one on.
+/// Bytes that are characters, `len` of them from `first` on.
 fn characters(first: u8, len: usize) -> Vec<u8> {
     let no_character = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
     let all = (b' '..=0xFF).filter(|byte| *byte != 0x7F && !no_character.contains(byte));
@@ -60,15 +60,15 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// The square root's.
+/// The UUID of the square root service.
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47";
 
-/// What is written to one shows in no other, but for the states, which take each other back.
+/// A write to one variable changes no other, except that the states reset each other.
 pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     within(probe, |probe, channel, _| {
         let mut all: Vec<(ServiceVariable, Vec<u8>)> = Vec::new();
-        // In an order in which none takes back another.
+        // In an order in which no write resets another.
         for (variable, value) in [
             (RequestState, NONE.to_vec()),
             (Uuid, [UUID, b"\0"].concat()),
@@ -87,7 +87,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 probe.check(rule, same, expected, || Hex(read));
             }
         }
-        // Reading takes nothing back, nor does what is written besides.
+        // A read resets no state, nor does a write to another variable.
         for value in [&b"another\0"[..], b"the request\0"] {
             write_variable(probe, channel, Request, value)?;
             write_variable(probe, channel, Uuid, &[UUID, b"\0"].concat())?;
@@ -104,7 +104,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             let same = until_nul(&by_handle) == until_nul(&by_name);
             let expected = || format!("{} of {}", Hex(by_name), variable.name());
             probe.check("SVC-1", same, expected, || Hex(by_handle));
-            // And the other way round.
+            // In the opposite order.
             if variable == Response {
                 let write =
                     WriteByHandle::new(channel, handle, U32List::EMPTY, &b"by handle\0"[..]);

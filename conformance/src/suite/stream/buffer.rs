@@ -1,4 +1,4 @@
-//! The program streams of the simulated CNC: which of the written bytes its buffer takes.
+//! The program streams of the simulated CNC: which writes its buffer accepts.
 
 use std::time::Duration;
 
@@ -11,8 +11,8 @@ use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, ProgramConfig, Start, State, StreamingProgram};
 use crate::suite::kit::{HELD_MAX, Probe, StreamWrite, send, send_until_taken};
 
-/// Sets the streaming program of the first channel up, does something with it, and leaves it as it
-/// was.
+/// Configures the streaming program of the first channel, calls a function, and restores the
+/// configuration.
 pub(super) fn set_up(
     probe: &mut Probe<'_>,
     pace: Pace,
@@ -23,7 +23,7 @@ pub(super) fn set_up(
     set_up_at(probe, channel, pace, start, then)
 }
 
-/// As [`set_up`], of any channel.
+/// Like [`set_up`], for any channel.
 pub(super) fn set_up_at(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -44,7 +44,7 @@ pub(super) fn set_up_at(
     done
 }
 
-/// The program from within.
+/// Direct access to the streaming program.
 pub(super) struct StreamProgram<'c> {
     cnc: &'c Cnc,
     number: u8,
@@ -71,7 +71,7 @@ impl StreamProgram<'_> {
         self.with(|program| program.state())
     }
 
-    /// That it cannot be started, as it was already, is the CNC's doing.
+    /// Starts the program; an error is one of the suite.
     pub(super) fn start(&self, probe: &mut Probe<'_>) -> Step {
         let started = self.with(|program| program.start(Duration::ZERO))?;
         let found = started.as_ref().err().map(ToString::to_string).unwrap_or_default();
@@ -88,7 +88,7 @@ pub(super) fn expect<T: PartialEq + std::fmt::Debug>(
     probe.check(rules, found == expected, || format!("{expected:?}"), || format!("{found:?}"));
 }
 
-/// Sends what has to be taken.
+/// Sends a packet that must be accepted.
 pub(super) fn write_accepted(
     probe: &mut Probe<'_>,
     rules: &[&'static str],
@@ -103,13 +103,13 @@ pub(super) fn write_accepted(
 pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         let most = comment(STREAM_PACKET_MAX);
-        // Whether there is much room or little, and how often it is sent.
+        // With an empty and a non-empty buffer, and repeatedly.
         for held in [0, most.len()] {
             for len in [993, 993, 994, 1024, 1984, 2048, HELD_MAX, 4096] {
                 let sent = send(probe, channel, &comment(len))?;
                 let expected = || format!("{len} bytes refused");
                 probe.check("STM-2", sent.is_refused(), expected, &sent);
-                // That it is told by its number is assumed.
+                // That the error number shows it is assumed.
                 let good = sent.assumed() == Ack::Rejected;
                 probe.check(assumed("STM-2"), good, "refused for good", &sent);
                 expect(probe, &["STM-2"], held, stage.held()?);
@@ -134,7 +134,7 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
             let sent = send(probe, channel, more)?;
             probe.check("STM-3", sent.is_refused(), "no byte more", &sent);
             probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
-            // That it is told by its number is assumed.
+            // That the error number shows it is assumed.
             let now = sent.assumed() == Ack::Busy;
             probe.check(assumed("STM-6"), now, "refused for now, and not for good", &sent);
             expect(probe, &["STM-6"], HELD_MAX, stage.held()?);
@@ -151,7 +151,7 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Packets of one short line, as many as there is room for.
+/// Packets of one short line, as many as fit.
 pub(super) fn many(probe: &mut Probe<'_>) -> Step {
     const LEN: usize = 20;
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
@@ -166,7 +166,7 @@ pub(super) fn many(probe: &mut Probe<'_>) -> Step {
             all.extend(line(number));
         }
         expect(probe, &["STM-3"], all.len(), stage.held()?);
-        // There is room for a shorter one, and then for none of one line.
+        // A shorter packet fits, but then not even one of a single line.
         let left = HELD_MAX.saturating_sub(all.len());
         let last = comment(left);
         let sent = send(probe, channel, &line(count))?;
@@ -182,7 +182,7 @@ pub(super) fn many(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Lines that differ, so that their order shows.
+/// Different lines, to show their order.
 fn numbered(len: usize) -> Vec<u8> {
     let mut lines = Vec::new();
     for number in 1.. {
@@ -196,7 +196,7 @@ fn numbered(len: usize) -> Vec<u8> {
     match left {
         0 => lines,
         1..=3 => {
-            // Blanks in front fill up what is too short for a line.
+            // Padded with blanks if it is too short for a line.
             let mut filled = vec![b' '; left];
             filled.extend(lines);
             filled

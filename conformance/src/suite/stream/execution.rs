@@ -16,7 +16,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
             let (one, two) = (format!("X{number}\r\n"), format!("Y{number}\r\n"));
             write_accepted(probe, &["STM-1"], channel, one.as_bytes())?;
             expect(probe, &["STM-1"], one.as_bytes().to_vec(), stage.executed()?);
-            // Without the bit of logical addressing, channels are counted by their ranks.
+            // Without the bit of logical addressing the group has the channel's rank.
             write_accepted(probe, &["STM-1", "ADR-12"], rank, two.as_bytes())?;
             let both = [one, two].concat().into_bytes();
             expect(probe, &["STM-1", "ADR-12"], both, stage.executed()?);
@@ -26,7 +26,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Every character that ASCII prints, and tabs; comments, as they stop nothing.
+/// Every printable character of ASCII, and tabs, in comments, which do not end streaming.
 pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
     let graphic: String =
         (b' '..=b'~').map(char::from).filter(|c| !"()$#;%".contains(*c)).collect();
@@ -41,7 +41,7 @@ pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
         let all = lines.concat().into_bytes();
         write_accepted(probe, &["STM-4", "STM-7"], channel, &all)?;
         expect(probe, &["STM-4", "STM-7"], all.clone(), stage.executed()?);
-        // And the same, a line in each packet.
+        // The same, with one line per packet.
         for line in &lines {
             write_accepted(probe, &["STM-7"], channel, line.as_bytes())?;
         }
@@ -54,7 +54,7 @@ pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// So slow that nothing is run meanwhile.
+/// Slow enough that no line is executed meanwhile.
 fn slow() -> Step<Pace> {
     Pace::lines_per_second(1).ok_or_else(|| Stop::Harness("a pace of one line a second".into()))
 }
@@ -81,7 +81,7 @@ pub(super) fn behind_end(probe: &mut Probe<'_>) -> Step {
         set_up(probe, slow, Start::Once, |probe, channel, stage| {
             let ending = format!("X1\r\n{end}\r\nX2\r\n");
             write_accepted(probe, &["STM-10"], channel, ending.as_bytes())?;
-            // The end was read, and is not run yet.
+            // The program end was read, but not executed yet.
             expect(probe, &["STM-10"], 0, stage.held()?);
             let next = b"Y1\r\n";
             write_accepted(probe, &["STM-10"], channel, next)?;

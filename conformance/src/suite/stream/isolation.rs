@@ -1,14 +1,14 @@
-//! Room: each channel has its own, and what is refused takes none of it.
+//! Buffers: each channel has its own, and rejected packets take no space.
 
 use super::buffer::{comment, expect, set_up, set_up_at, write_accepted};
 use crate::judge::{Checks as _, Step};
 use crate::simulator::program::{Pace, Start};
 use crate::suite::kit::{HELD_MAX, Probe, send};
 
-/// Packets that fill an interface.
+/// Packets that fill a buffer.
 const FILLING: [usize; 5] = [992, 992, 992, 992, 126];
 
-/// While the interface of one channel is full, those of the others have all their room.
+/// While the buffer of one channel is full, those of the others are empty.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
     let all = probe.channels()?;
     for &full in &all {
@@ -23,7 +23,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
                         write_accepted(probe, &["STM-3"], other, &comment(len))?;
                     }
                     expect(probe, &["STM-3"], HELD_MAX, second.held()?);
-                    // What is run in one makes no room in the other.
+                    // Executing lines in one channel does not empty the buffer of the other.
                     second.pace(Pace::Fast)?;
                     expect(probe, &["STM-12"], (HELD_MAX, 0), (first.held()?, second.held()?));
                     Ok(())
@@ -34,7 +34,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
     probe.finish("there is one channel")
 }
 
-/// Packets of several lines that do not fit, though some of their lines would.
+/// Packets of several lines that do not fit as a whole, though some of their lines would.
 pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
     for room in [4, 40, 500, 988] {
         set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
@@ -64,7 +64,7 @@ pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Lengths at which a number of one byte begins anew, and others beside them.
+/// Lengths around multiples of 256.
 pub(super) fn lengths(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
         let mut all = Vec::new();

@@ -1,4 +1,4 @@
-//! Cases of data streaming. What goes to a device are comments alone: they move nothing.
+//! Cases of data streaming. A device receives comments only, which do not move it.
 
 mod buffer;
 mod execution;
@@ -62,14 +62,14 @@ pub(super) const CASES: &[CaseRow] = &[
         "Branches and jumps forward may span packets"),
 ];
 
-/// Where the object is in the group of a channel.
+/// Index offset of the stream object in the group of a channel.
 const OFFSET: u32 = 0x90;
 
 /// The name of the object.
 const NAME: &str = "mc_program_stream_w";
 
-/// The object is looked for in the lists of channels, by what is stated of it: its name, and where
-/// it is. That it is listed at all is not.
+/// Looks for the object in the lists of channels by name and address. That it is listed is not
+/// required.
 fn object(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let List::Channel(number) = object.list else { continue };
@@ -89,7 +89,7 @@ fn object(probe: &mut Probe<'_>) -> Step {
     probe.finish(&format!("no list names {NAME}"))
 }
 
-/// How long a device may take before it has read what it holds.
+/// How long a device may take to empty its buffer.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The first channel whose stream may be written. On the simulated CNC its program is configured anew, so
@@ -108,10 +108,10 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     Err(Stop::not_applicable("no stream may be written"))
 }
 
-/// Writes until it is taken; how often it was refused before. None if it is not, though there is
-/// room for it.
+/// Writes until the packet is accepted; returns how often it was rejected before, or `None` if it
+/// is not accepted though it fits.
 ///
-/// An error number does not tell for now from for good: that it is taken later does.
+/// Whether a rejection is temporary is shown only by a later success, not by its error number.
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
     let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
     // The speed of the simulated CNC is known.
@@ -179,6 +179,6 @@ fn refused_for_now(probe: &mut Probe<'_>) -> Step {
             return Ok(());
         }
     }
-    // Nothing was refused: that the same is taken later could not be seen.
+    // Without a rejection the repetition could not be tested.
     Ok(())
 }

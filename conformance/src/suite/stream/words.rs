@@ -26,7 +26,7 @@ pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {
             let aborted = matches!(state, State::Aborted(_));
             let found = || format!("{state:?}");
             probe.check("STM-8", aborted, || format!("{word} ends streaming"), found);
-            // And nothing behind it is run.
+            // No line after it is executed.
             let executed = stage.executed()?;
             let behind = executed.windows(2).any(|two| two == b"X3");
             probe.check("STM-8", !behind, "nothing run behind it", "X3 was run");
@@ -58,7 +58,7 @@ pub(super) fn permitted_words(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// What is written, and whether it ends streaming.
+/// A text, and whether it ends streaming.
 fn ends_streaming(probe: &mut Probe<'_>, rules: &[&'static str], text: &str, ends: bool) -> Step {
     set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
         write_accepted(probe, rules, channel, text.as_bytes())?;
@@ -77,7 +77,7 @@ pub(super) fn comments(probe: &mut Probe<'_>) -> Step {
             (format!("X1 ({word}\r\nX2\r\n"), false),
             (format!("X1 ;{word}\r\nX2\r\n"), false),
             (format!("#COMMENT BEGIN\r\n{word}\r\nX9\r\n#COMMENT END\r\nX1\r\n"), false),
-            // Behind the comment, and in the line below.
+            // After the comment, and in the line below.
             (format!("(x) {word}\r\n"), true),
             (format!("(x\r\n{word}\r\n"), true),
             (format!(";x\r\n{word}\r\n"), true),
@@ -87,7 +87,7 @@ pub(super) fn comments(probe: &mut Probe<'_>) -> Step {
             ends_streaming(probe, &["STM-8", "STM-9"], &text, ends)?;
         }
     }
-    // To a label above in the same packet, and to one below.
+    // A jump to a label above in the same packet, and to one below.
     ends_streaming(probe, &["STM-8"], "N10: X1\r\nX2\r\n$GOTO N10\r\n", true)?;
     ends_streaming(probe, &["STM-8"], "$GOTO N10\r\nX2\r\nN10: X1\r\n", false)
 }

@@ -1,4 +1,4 @@
-//! Bytes as hex without spaces, for JSON; spaces are read too.
+//! Bytes as hex without spaces, for JSON; spaces are accepted when parsing.
 
 use crate::text::shorten;
 

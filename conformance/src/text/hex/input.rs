@@ -1,8 +1,8 @@
-//! Hex as people have it.
+//! Parses hex in common notations.
 
 use std::fmt;
 
-/// A place in hex text where no byte is.
+/// An invalid character in hex text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HexError {
     /// The line, from 1.
@@ -28,8 +28,8 @@ impl fmt::Display for HexError {
 
 impl std::error::Error for HexError {}
 
-/// Reads bytes in the order they are written in: two digits each, with or without blanks, line
-/// ends, commas, semicolons, colons or hyphens between them and `0x` before them.
+/// Parses hex: two digits for each byte, optionally with `0x` before them, and with blanks, line
+/// ends, commas, semicolons, colons or hyphens between them.
 ///
 /// ```
 /// use ads_cnc_conformance::explain::parse_hex;
@@ -42,11 +42,11 @@ impl std::error::Error for HexError {}
 /// ```
 ///
 /// # Errors
-/// The first character that is no digit, or a digit without a second.
+/// The first character that is not a digit, or a digit without a second.
 pub fn parse_hex(text: &str) -> Result<Vec<u8>, HexError> {
     let mut bytes = Vec::with_capacity(text.len().checked_div(2).unwrap_or(0));
     let (mut line, mut column) = (1_usize, 0_usize);
-    // The first digit of a byte and its place; whether it begins a word.
+    // The first digit of a byte and its position; whether it begins a word.
     let mut open: Option<(u8, HexError, bool)> = None;
     let mut begins = true;
     for found in text.chars() {

@@ -1,4 +1,4 @@
-//! Requests whose answer depends on others, and the ends of lists.
+//! Requests whose answer depends on earlier ones, and the ends of lists.
 
 use std::time::Duration;
 
@@ -22,13 +22,13 @@ impl Transcript<'_> {
         self.packets();
     }
 
-    /// Writes, and reads it back.
+    /// Writes a content and reads it back.
     fn write_and_read(&mut self, port: u16, group: u32, offset: u32, data: &[u8]) {
         self.write(port, group, offset, data);
         self.read(port, group, offset, 256);
     }
 
-    /// The same by name.
+    /// Writes a variable by name and reads it back.
     fn write_and_read_by_name(&mut self, group: u32, name: &[u8], value: &[u8]) {
         self.write(552, group, 0x4A, &[name, value].concat());
         self.ask(group, 0x48, 4096, name);
@@ -72,7 +72,7 @@ impl Transcript<'_> {
         self.write_and_read(552, 0x12_3301, 0x1_0001, &[0]);
         self.read(552, 0x12_3300, 0x1001, 1);
         self.write_and_read(552, 0x12_1302, 0x2_0002, &[1; 8]);
-        // The axis leaves the place, and comes back.
+        // The axis leaves the channel and returns.
         self.read(552, 0x12_1301, 0x3_0002, 8);
         self.write_and_read(552, 0x12_1301, 0x3_0001, &[0, 0]);
         self.read(552, 0x12_1301, 0x3_0002, 8);
@@ -125,7 +125,7 @@ impl Transcript<'_> {
         self.ask(one, 0x47, 4, &numbers(&[first, 0]));
         self.ask(0x12_2302, 0x46, 4, b"V.E.channel\0");
         self.ask(one, 0x47, 4, &numbers(&[first, 0]));
-        // By handle as by name.
+        // By handle as well as by name.
         self.write_and_read_by_name(one, REQUEST, b"a request of more than twenty characters\0");
         let request = handle(self.ask(one, 0x46, 4, REQUEST));
         self.ask(one, 0x47, 256, &numbers(&[request, 0]));
@@ -149,7 +149,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// As much as there is room for, and with something in another channel.
+    /// Fills the streaming interface, while another channel streams too.
     fn packets(&mut self) {
         let hold =
             ProgramConfig { pace: Pace::Fast, start: Start::ByHand, ..ProgramConfig::default() };

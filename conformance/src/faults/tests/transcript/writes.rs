@@ -1,4 +1,4 @@
-//! What is written to a CNC, and done to it.
+//! Writes, and NC programs.
 
 use std::time::Duration;
 
@@ -86,7 +86,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// Writes that are refused, or shorter than what is there; and names that nobody has.
+    /// Writes that are rejected or too short, and unknown names.
     fn odd_writes(&mut self) {
         for (name, value) in [
             ("V.E.vartest", &[7, 7, 7][..]),
@@ -189,7 +189,7 @@ impl Transcript<'_> {
             &[&[&[b'X'; 700][..], b"\r\n"].concat(), &[b'X'; 700]],
         ];
         for text in texts {
-            // Written one by one, and all before the start.
+            // Written line by line, and all before the start.
             for (pace, start) in [(Pace::Fast, Start::Once), (Pace::Fast, Start::ByHand)] {
                 self.cnc.set_program(1, hold(pace, start)).unwrap();
                 for packet in text {
@@ -213,7 +213,7 @@ impl Transcript<'_> {
         }
         self.write(553, 0x12_0102, 0x90, b"N10 X1\r\n");
         self.record_programs();
-        // More comes while what was read with an end is run.
+        // Data arrives while the previous lines with a program end are executed.
         let slow = Pace::lines_per_second(10).unwrap();
         self.cnc.set_program(1, hold(slow, Start::Once)).unwrap();
         self.write(553, 0x12_0101, 0x90, b"N10 X1\r\nN20 M30\r\n");
@@ -225,7 +225,7 @@ impl Transcript<'_> {
                 .with_program(1, |program| program.start(Duration::from_secs(8)).is_ok())
                 .unwrap();
         }
-        // Full, and emptied.
+        // Filled and emptied.
         self.cnc.set_program(1, hold(Pace::Fast, Start::ByHand)).unwrap();
         let line = [&[b'X'; 498][..], b"\r\n"].concat();
         for _ in 0..20 {
@@ -240,7 +240,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// What programs have run, and their states.
+    /// Executed lines and states of the programs.
     pub(super) fn record_programs(&mut self) {
         for channel in [1, 2] {
             let reply = self.cnc.with_program(channel, |program| {

@@ -1,4 +1,4 @@
-//! Queries of everything that a CNC lists, and of names, indices and addresses near them.
+//! Queries of all listed values, and of names, indices and addresses near them.
 
 use ads_cnc::address::{
     Addressing, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -23,11 +23,11 @@ use ads_cnc::{
 use super::{AXES, CHANNELS, ContentAddress, Dialogue, Variable, brackets, number, parts};
 use crate::values::until_nul;
 
-/// The most entries of a list that are asked for, whatever its number says.
+/// Maximum number of requested entries of a list.
 const LISTED_MAX: u32 = 150;
-/// Numbers whose low byte or low half is a small one.
+/// Numbers whose low byte or low half is a small number.
 const WIDE: [u32; 3] = [0x101, 0x1_0001, u32::MAX];
-/// Names that no model lists: by name only, of the Service Interface, and unknown ones.
+/// Names that no list contains: by name only, of the Service Interface, and unknown ones.
 const NAMES: [&str; 12] = [
     "V.CYC.count",
     "V.CYC.matrix",
@@ -82,7 +82,8 @@ impl Dialogue<'_> {
         }
     }
 
-    /// By name, by the handle of that name and by the described one, whole and in parts.
+    /// Reads by name, by the handle of the name and by the described handle, the whole value and
+    /// parts.
     fn variable(&mut self, variable: &Variable) {
         let Variable { channel, name, handle, dimensions, .. } = variable;
         let text = name.to_string();
@@ -96,7 +97,7 @@ impl Dialogue<'_> {
         let by_name = by_name.and_then(|op| self.ask(op)).and_then(|data| number(&data));
         let handles = [by_name.map(Handle), *handle].into_iter().flatten();
         for (first, handle) in handles.enumerate() {
-            // Both handles are the same as a rule: the parts are then asked for once.
+            // Usually both handles are equal: the parts are read once.
             let parts =
                 if first == 0 || by_name.map(Handle) != Some(handle) { &parts[..] } else { &[] };
             for part in [&[][..]].into_iter().chain(parts.iter().map(Vec::as_slice)) {
@@ -158,7 +159,7 @@ impl Dialogue<'_> {
         }
     }
 
-    /// Names of V.A with and without their axis, and one that is not there.
+    /// Names of V.A with and without an axis, and an unknown one.
     pub(super) fn axis_names(&self, channel: Channel) -> Vec<String> {
         let mine = self.variables.iter().filter(|one| one.channel == channel);
         let full = mine.map(|one| one.name.to_string()).filter(|name| name.starts_with("V.A."));
@@ -288,7 +289,7 @@ impl Dialogue<'_> {
         }
     }
 
-    /// The same of the other task that has the classes.
+    /// The same request to GEO.
     fn of_geo<'a>(&mut self, request: impl Into<Request<'a>>) {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];

@@ -1,5 +1,5 @@
-//! Writes of each writable value, of NC programs and of the Service Interface, each with reads
-//! after it.
+//! Writes of each writable value, of NC programs and of the Service Interface, each followed by
+//! reads.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use ads_cnc::{Handle, U32List};
 use super::{AXES, ContentAddress, Dialogue, Variable, brackets, number, parts};
 
 impl Dialogue<'_> {
-    /// Each writable value: another one, too short and too long ones, and the one before again.
+    /// Writes to each writable value: another value, too short and too long ones, and the original.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {
             if variable.writable {
@@ -97,7 +97,7 @@ impl Dialogue<'_> {
         }
     }
 
-    /// A variable after a write: whole, by name and by handle, and in all other channels.
+    /// Reads a variable after a write: whole, by name and by handle, and in all other channels.
     fn read_back(&mut self, channel: Channel, name: &str, handle: Option<Handle>) {
         let others = [Channel::new(1).ok(), Channel::new(2).ok()].into_iter().flatten();
         for channel in [channel].into_iter().chain(others) {
@@ -110,8 +110,8 @@ impl Dialogue<'_> {
         }
     }
 
-    /// NC text: complete lines, one without its end, too much at once, and more than there is room
-    /// for.
+    /// Writes NC text: complete lines, a line without its end, too many bytes at once, and more
+    /// than fit into the buffer.
     pub(super) fn streams(&mut self) {
         let long = [&[b'X'; 990][..], b"\r\n"].concat();
         let longer = [&[b'X'; 991][..], b"\r\n"].concat();
@@ -137,7 +137,7 @@ impl Dialogue<'_> {
         }
     }
 
-    /// The variables of the Service Interface, in the order of a service and in others.
+    /// Writes the variables of the Service Interface, in the right order and in others.
     pub(super) fn services(&mut self) {
         let writes: [(ServiceVariable, &[u8]); 8] = [
             (ServiceVariable::Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"),
@@ -162,7 +162,7 @@ impl Dialogue<'_> {
     }
 }
 
-/// Values to write where this one is: all bits inverted, each byte another, too short, too long.
+/// Values to write in place of this one: all bits inverted, each byte changed, too short, too long.
 fn others(value: &[u8]) -> Vec<Vec<u8>> {
     let inverted = value.iter().map(|byte| !byte).collect();
     let flipped = value.iter().map(|byte| byte ^ 1).collect();

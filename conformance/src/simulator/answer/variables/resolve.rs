@@ -1,4 +1,4 @@
-//! Which variable a kind and an index, a handle or a name mean, and what it is.
+//! Resolves a kind and an index, a handle or a name to a variable.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::ads::AdsError;
@@ -11,23 +11,23 @@ use crate::edition::Feature;
 use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
 use crate::simulator::to_len;
 
-/// What a name on the channel interface means.
+/// The result of resolving a name on the channel interface.
 pub(super) enum Resolved {
     Variable(At),
     /// A V.P, V.L or V.S, in editions that have them here.
     Parameter,
 }
 
-/// The rejection of a name without a meaning.
+/// The error for an unknown name.
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
 impl AnsweringCnc<'_> {
-    /// Whether edition and version have a function for a kind.
+    /// Checks whether edition and version have a function for a kind.
     pub(super) fn permit(&self, function: Function, kind: Kind<'_>) -> Result<(), AdsError> {
         let answer = self.model.edition.permits(function, kind, self.model.version);
         match (answer.available, function) {
             (true, _) => Ok(()),
-            // It is there, but has no handle.
+            // The variable exists, but has no handle.
             (false, Function::HandleByName) if answer.requirement == "VAR-18" => {
                 Err(AdsError::INVALID_DATA)
             }
@@ -35,14 +35,14 @@ impl AnsweringCnc<'_> {
         }
     }
 
-    /// The variables of a kind in the order of their indices; V.A of axes that are there.
+    /// The variables of a kind in the order of their indices; V.A only of existing axes.
     pub(super) fn of_kind(
         &self,
         channel: usize,
         kind: Kind<'_>,
     ) -> impl Iterator<Item = At> + use<'_> {
         let model = self.model.channels.get(channel);
-        // NULs may pad a kind: its text counts.
+        // A kind may be padded with NULs, so only its text is compared.
         let is = |known: Kind<'_>| kind.text() == known.text();
         let own = match model {
             Some(model) if is(Kind::V_E) => model.external.as_slice(),
@@ -73,8 +73,8 @@ impl AnsweringCnc<'_> {
         at.copied().ok_or(AdsError::INVALID_DATA)
     }
 
-    /// What a name on the channel interface means, and the element that it selects. A function for
-    /// which the CNC is too old is at no offset.
+    /// Resolves a name on the channel interface to a variable and the indices of an element. If the
+    /// CNC is too old for the function, the offset is invalid.
     pub(super) fn named<'n>(
         &self,
         function: Function,
@@ -102,7 +102,7 @@ impl AnsweringCnc<'_> {
         if found { Ok((Resolved::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
     }
 
-    /// The variable in front of the last dot, of the axis whose name is after it.
+    /// Resolves a name with an axis name after the last dot.
     pub(super) fn of_named_axis(
         &self,
         channel: usize,
@@ -121,7 +121,7 @@ impl AnsweringCnc<'_> {
         Some(At::Place { place, variable })
     }
 
-    /// What a name on the axis interface means: of whatever axis is at the place.
+    /// Resolves a name on the axis interface, for the axis at a place.
     pub(super) fn of_axis<'n>(
         &self,
         function: Function,
@@ -150,7 +150,7 @@ impl AnsweringCnc<'_> {
         variable.ok_or(AdsError::INVALID_DATA)
     }
 
-    /// With the axis's name after it, if it is one's.
+    /// The name, with the axis's name appended for an axis variable.
     pub(super) fn name(&self, channel: usize, at: At) -> Result<CncString, AdsError> {
         let variable = self.variable(channel, at)?;
         let At::Place { place, .. } = at else { return Ok(variable.name.clone()) };
@@ -160,7 +160,7 @@ impl AnsweringCnc<'_> {
         path.with_axis(axis.name.as_cnc_str()).map_err(|_| UNKNOWN)
     }
 
-    /// The handle; 0 for what is by name only.
+    /// The handle; 0 for a variable that is accessible by name only.
     pub(super) fn handle(&self, channel: usize, at: At) -> Result<Handle, AdsError> {
         let handle = self.variable(channel, at)?.handle.unwrap_or(Handle(0));
         let number = self.model.channels.get(channel).map_or(0, |channel| channel.number);
@@ -174,7 +174,7 @@ impl AnsweringCnc<'_> {
     }
 }
 
-/// The kind and the name of a V.P, V.L or V.S.
+/// Kind and name of a V.P, V.L or V.S.
 pub(super) fn parameter(name: CncStr<'_>) -> Result<(DynamicKind, CncString), AdsError> {
     let name = CncString::from(name);
     match parameter_kind(&name) {

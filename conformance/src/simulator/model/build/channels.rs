@@ -31,7 +31,7 @@ impl Channels<'_> {
         let (mut taken, mut handles) = (BTreeSet::new(), BTreeSet::new());
         for table in tables {
             let number = self.number(table)?;
-            // Before what follows from the number, handles among it.
+            // Checked before anything is derived from the number, such as handles.
             if channels.contains_key(&number) {
                 let why = format!("channel {number} is there twice");
                 return Err(self.source.error(&table.number.span(), why));
@@ -63,7 +63,7 @@ impl Channels<'_> {
         let places = self.places(table, taken)?;
         let objects = items::objects(source, &table.objects, None)?;
         for (row, &element) in table.objects.iter().zip(&objects.elements) {
-            // The first channel has the platform's at its own group too (COM-4).
+            // The first channel has the platform's objects in its own group too (COM-4).
             if self.platform.at(element).is_some() {
                 let why = format!("an object of the platform is at offset {element:#x}");
                 return Err(source.error(&row.offset.span(), why));
@@ -134,7 +134,7 @@ impl Channels<'_> {
         })
     }
 
-    /// Which axis is at which place.
+    /// The axis at each place.
     fn places(
         &self,
         table: &ChannelTable,

@@ -16,21 +16,21 @@ use crate::simulator::to_len;
 /// The most bytes of a content: what a frame has room for beside a result and a length.
 const CONTENT_MAX: usize = 0xFFF8;
 
-/// Bytes of a STRING whose size is not given (VAR-25).
+/// Size of a STRING without a declared size (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;
 
-/// Offsets from here on are those of axes.
+/// Offsets of objects must be lower: from here on they belong to axes.
 const OFFSET_OF_AXES: u32 = 0x1_0000;
-/// Elements from here on would be those of the next axis.
+/// Element numbers must be lower: from here on they belong to the next axis.
 const HLD_AXIS_STRIDE: usize = 0x1000;
 
-/// A value as it is declared, whatever it is of.
+/// A declared value of an object, element or variable.
 pub(super) struct DeclaredValue<'a> {
     pub(super) source: Source<'a>,
     pub(super) types: &'static [NamedType],
     pub(super) of_type: &'a Spanned<String>,
     pub(super) size: Option<&'a Spanned<u32>>,
-    /// Elements of an array, multiplied.
+    /// Number of elements of an array.
     pub(super) count: Option<usize>,
     pub(super) value: Option<&'a Spanned<Value>>,
     pub(super) values: Option<&'a Spanned<Vec<Value>>>,
@@ -38,7 +38,7 @@ pub(super) struct DeclaredValue<'a> {
 }
 
 impl DeclaredValue<'_> {
-    /// The type's name, and the values at the start.
+    /// The name of the type, and the initial values.
     pub(super) fn read(&self) -> Result<(&'static str, Initial), ModelError> {
         let of_type = self.of_type;
         let error = |why: String| self.source.error(&of_type.span(), why);
@@ -88,7 +88,7 @@ impl DeclaredValue<'_> {
     }
 }
 
-/// What `is` says; `of` is what it may be here.
+/// The meaning that `is` declares; `of` is the permitted one.
 fn meaning(
     source: Source<'_>,
     is: Option<&Spanned<String>>,
@@ -107,7 +107,7 @@ fn meaning(
     }
 }
 
-/// Numbers have to be held by what is to have them.
+/// Checks that a type can hold axis numbers.
 fn holds_numbers(
     source: Source<'_>,
     item: &Item,
@@ -120,7 +120,7 @@ fn holds_numbers(
     Err(source.error(&span.span(), "an axis-number has an integer type of two bytes or more"))
 }
 
-/// Objects of a list; `of` is what an axis-number may be here.
+/// The objects of a list; `of` is the meaning that an axis number may have here.
 pub(super) fn objects(
     source: Source<'_>,
     rows: &[ObjectRow],
@@ -140,7 +140,7 @@ pub(super) fn objects(
             max: CONTENT_MAX,
         }
         .read()?;
-        // The codec knows how long names are.
+        // The codec checks the length of names.
         Descriptor::new(row.name.get_ref(), type_name)
             .map_err(|error| source.error(&row.name.span(), error))?;
         let meaning = meaning(source, row.is.as_ref(), row.writable, of)?;
@@ -178,7 +178,7 @@ pub(super) fn classes(
         (Class::Spindle, &tables.spindle.each, &none),
     ];
     for (class, channel, axis) in parts {
-        // Platform axes have one place only, so that nothing is exchanged there.
+        // A platform axis has a fixed place, so that axes cannot be exchanged there.
         let on_platform = matches!(class, Class::PositionController | Class::Hld);
         let of = Some(if on_platform { "number" } else { "place" });
         let max = if class == Class::Hld { HLD_AXIS_STRIDE } else { 0x1_0000 };
@@ -200,14 +200,14 @@ fn elements(
     let mut elements = Elements::default();
     if let Some(name) = &table.name {
         text(source, name)?;
-        // With room for a number.
+        // The number of the instance must still fit.
         if name.get_ref().chars().count() > 200 {
             return Err(source.error(&name.span(), "an instance's name has at most 200 characters"));
         }
         elements.name.clone_from(name.get_ref());
     }
     for row in &table.elements {
-        if elements.items.len() >= max.saturating_sub(1) {
+        if elements.items.len() >= max - 1 {
             return Err(
                 source.error(&row.name.span(), "an element further would be another axis's")
             );

@@ -1,4 +1,4 @@
-//! The lists of COM objects, with their IDs and where their content is.
+//! The lists of COM objects with their IDs and addresses.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use super::super::item::{Item, Objects};
 use super::super::{ChannelModel, Model, ModelError};
 use crate::simulator::to_u32;
 
-/// Objects of a list: all of them fit into one reply.
+/// Maximum number of objects in a list, so that all fit into one reply.
 pub(super) const OBJECTS_MAX: usize = 780;
 
 /// Makes all lists of a model.
@@ -50,7 +50,7 @@ pub(super) fn fill(
         return Err(source.error(&span, format!("at most {OBJECTS_MAX} objects fit into a list")));
     }
     let axes = (1_u32..).zip(&model.axes).map(|(place, _)| {
-        // With the place in the offset, as the example has it, not the table (E-04).
+        // With the place in the offset, as in the example, not as in the table (E-04).
         let group = content(ComTable::Axis, 0);
         of_axis(&model.platform_axis, group, place, &mut ids)
             .collect::<Result<Descriptors, Error>>()
@@ -59,7 +59,7 @@ pub(super) fn fill(
     Ok(())
 }
 
-/// IDs that nobody asked for, from 1 on.
+/// Assigns the IDs that are not declared, from 1 on.
 struct Ids {
     taken: BTreeSet<u32>,
     next: u32,
@@ -103,7 +103,7 @@ fn descriptor(
         .with_content(group, offset))
 }
 
-/// Objects of a channel or, of channel 0, the platform.
+/// Objects of a channel; for channel 0, of the platform.
 fn own(
     objects: &Objects,
     number: u8,
@@ -120,7 +120,7 @@ fn own(
     Ok(list)
 }
 
-/// Objects of a channel and, after them, of its places.
+/// Objects of a channel, followed by those of its axes.
 fn of_channel(
     channel: &ChannelModel,
     of_places: &Objects,
@@ -148,7 +148,7 @@ fn of_axis(
     })
 }
 
-/// The group of the content of a channel, of the platform (0), or of the platform's axes.
+/// The group of the contents of a channel, of the platform (0), or of the platform's axes.
 fn content(table: ComTable, instance: u8) -> IndexGroup {
     let (addressing, access) = (Addressing::Logical, Access::Element);
     ComGroup { addressing, access, table, instance }.index_group()

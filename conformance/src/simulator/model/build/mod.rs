@@ -1,4 +1,4 @@
-//! From the file to the model: every part is checked where it is read.
+//! Builds the model from the file and checks every part.
 
 mod channels;
 mod items;
@@ -21,7 +21,7 @@ use crate::simulator::to_len;
 
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
     let document: Document = toml::from_str(source.text).map_err(|error| {
-        // What is missing altogether has no place of its own.
+        // An error without a position, such as a missing table.
         source.error(&error.span().unwrap_or_default(), error.message())
     })?;
     let edition = match &document.edition {

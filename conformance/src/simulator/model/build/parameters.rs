@@ -13,7 +13,7 @@ use super::super::item::Objects;
 use super::super::{ModelError, Parameter, Times};
 use super::parse::{text, time};
 
-/// The parameters of a channel that has these objects.
+/// The parameters of a channel with these objects.
 pub(super) fn of_channel(
     source: Source<'_>,
     rows: &[ParameterRow],
@@ -54,7 +54,7 @@ fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
     })
 }
 
-/// The kind of parameter that has this name.
+/// The kind of a parameter's name.
 pub(in crate::simulator) fn kind(name: &CncString) -> Result<DynamicKind, String> {
     if name.as_bytes().len() >= DYNAMIC_NAME_MAX {
         return Err(format!(

@@ -1,4 +1,5 @@
-//! NC programs of a channel: the streaming program, and the one that asks services.
+//! NC programs of a channel: the streaming program, and the program that sends requests to
+//! services.
 
 use std::time::Duration;
 
@@ -14,8 +15,8 @@ use crate::simulator::program::{
 };
 use crate::text::some_time;
 
-/// The streaming program. Without a configured one it restarts after each end, as ADS has no function that
-/// starts it.
+/// The streaming program. Without a configuration it restarts after each end, because no ADS
+/// function starts it.
 pub(super) fn streaming(
     source: Source<'_>,
     table: &StreamingTable,
@@ -49,7 +50,7 @@ fn pace(given: &Value) -> Result<Pace, ParsePaceError> {
     }
 }
 
-/// The program that asks services.
+/// The program that sends requests to services.
 pub(super) fn service(
     source: Source<'_>,
     table: &ServiceTable,
@@ -96,7 +97,7 @@ fn request(source: Source<'_>, row: &RequestRow) -> Result<ServiceRequest, Model
         cycle: Duration::ZERO,
     };
     if let Err(invalid) = Script::new(alone) {
-        // Whichever of them it is about.
+        // The position of the parameter that the error is about.
         let timer = wait.is_some_and(|wait| wait.p2.is_some() && wait.p3.is_none());
         let span = match (&row.state, &row.wait) {
             (Some(state), _) if *state.get_ref() == 0 => state.span(),

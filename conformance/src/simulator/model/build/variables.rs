@@ -20,10 +20,10 @@ use super::items::DeclaredValue;
 use super::parse::text;
 use crate::simulator::{to_len, to_u32};
 
-/// Room for the axis's name after that of its variable.
+/// Maximum length of an axis's name, which follows that of the variable.
 const AXIS_NAME_MAX: usize = 64;
 
-/// A variable and where it is declared.
+/// Builds and checks a variable.
 fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelError> {
     let span = row.name.span();
     let name: CncString = text(source, &row.name)?;
@@ -62,7 +62,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         service: None,
         name,
     };
-    // Name and dimensions have limits of their own, which the codec knows.
+    // The codec checks name and dimensions.
     encodes(&description(&variable)).map_err(|why| source.error(&span, why))?;
     Ok(variable)
 }
@@ -78,7 +78,7 @@ fn description(variable: &Variable) -> DescriptionRef<'_> {
     }
 }
 
-/// What only V.E has; as the example prints it, if nothing is given.
+/// The extended description, V.E only; by default that of the printed example.
 fn extended(
     source: Source<'_>,
     row: &VariableRow,
@@ -112,7 +112,7 @@ fn extended(
     Ok(Some(ExtendedDescription { synchronisation, validity }))
 }
 
-/// V.A, which every axis has.
+/// The variables of V.A, which every axis has.
 pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variables, ModelError> {
     let mut variables = Variables::default();
     for (number, row) in (0_u32..).zip(rows) {
@@ -136,7 +136,7 @@ pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variab
     Ok(variables)
 }
 
-/// V.E, V.G and V.CYC of a channel, and the five of its Service Interface.
+/// V.E, V.G and V.CYC of a channel, and the five variables of its Service Interface.
 pub(super) fn of_channel(
     source: Source<'_>,
     number: u8,
@@ -187,7 +187,7 @@ pub(super) fn of_channel(
     Ok(variables)
 }
 
-/// A handle that no other variable has, unless one is declared with it.
+/// The default handle, unique unless another variable is declared with it.
 fn handle(channel: u8, global: bool, index: u32) -> Handle {
     let kind: u32 = if global { 0x8000_0000 } else { 0x4000_0000 };
     Handle(kind | u32::from(channel) << 22 | index)
@@ -217,7 +217,7 @@ fn add(
     variable: Variable,
 ) -> Result<(), ModelError> {
     let size = variable.initial.size;
-    // As long as it can be read it could not be written, whole.
+    // The whole value must be writable by name, with the name in the same request.
     let most = NAME_VALUE_MAX.saturating_sub(variable.name.as_bytes().len()).min(HANDLE_VALUE_MAX);
     if row.writable && variable.dimensions.is_empty() && size > most {
         let why = format!("{size} bytes of value, at most {most} can be written");

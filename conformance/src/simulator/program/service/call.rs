@@ -1,4 +1,4 @@
-//! The side of the CNC program.
+//! The NC program's side.
 
 use std::fmt;
 use std::time::Duration;
@@ -11,8 +11,8 @@ use super::{NoTimer, SysServiceWait, WaitStep, Waiting, text_value, value_of};
 /// A CNC program's request to a service: it writes UUID, REQUEST and, last, REQUEST_STATE, waits
 /// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
 ///
-/// A step stays the same until the caller says that it is done: what failed can be tried again.
-/// But a REQUEST_STATE written twice asks twice, and takes an answer away that is there (SVC-3).
+/// A step is unchanged until the caller reports it as done, so that a failed one can be repeated.
+/// Exception: writing REQUEST_STATE twice sends the request twice, and discards a response (SVC-3).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -53,7 +53,7 @@ enum CallPhase {
     Done(u32),
 }
 
-/// What a call needs next; shown at [`ServiceCall`].
+/// The next step of a call; example at [`ServiceCall`].
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -73,18 +73,18 @@ pub enum CallStep<'a> {
     Read(ServiceVariable),
     /// Write this value to this variable, then call [`ServiceCall::written`].
     Write(ServiceVariable, &'a [u8]),
-    /// Let some time pass, then call [`ServiceCall::poll`].
+    /// Wait, then call [`ServiceCall::poll`].
     Wait {
-        /// When the longest wait ends, if there is one: no need to poll later than that.
+        /// When the maximum wait ends: polling later than that is not needed.
         until: Option<Duration>,
     },
     /// The service has answered.
     Done { state: u32, response: CncStr<'a> },
-    /// There was no response within the longest wait. The request stays until the next one.
+    /// No response within the maximum wait. The variables keep the request until the next one.
     TimedOut,
 }
 
-/// Why a program cannot ask.
+/// Why a request cannot be sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallError {
     /// The request is too long.
@@ -145,7 +145,7 @@ impl ServiceCall {
         Self::with_state(id, request, 1, wait)
     }
 
-    /// A request with a state of its own, which the service is told.
+    /// A request with another request state.
     ///
     /// # Errors
     /// Those of [`new`](Self::new), [`CallError::State`] for a state of 0.
@@ -168,7 +168,7 @@ impl ServiceCall {
         })
     }
 
-    /// What to do next; the same until it is done.
+    /// The next step; unchanged until it is done.
     pub fn step(&self) -> CallStep<'_> {
         match &self.phase {
             CallPhase::Uuid => CallStep::Write(ServiceVariable::Uuid, &self.uuid),
@@ -177,7 +177,7 @@ impl ServiceCall {
             CallPhase::Waiting(waiting) => match waiting.step() {
                 WaitStep::Read(variable) => CallStep::Read(variable),
                 WaitStep::Wait { until } => CallStep::Wait { until },
-                // With a response it goes on to read that.
+                // With a response the next step is to read it.
                 WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
             },
             CallPhase::Response(_) => CallStep::Read(ServiceVariable::Response),
@@ -186,12 +186,12 @@ impl ServiceCall {
     }
 
     fn response(&self) -> CncStr<'_> {
-        // Checked when it was read.
+        // The text was checked when it was read.
         ServiceVariable::Response.text(&self.response).unwrap_or(CncStr::EMPTY)
     }
 
-    /// The variable was written, and when: the wait begins when the last was. Does nothing if none
-    /// was to be.
+    /// Reports a write, and when it was done: the wait begins after the last one. Ignored if the
+    /// step is not a write.
     pub fn written(&mut self, now: Duration) {
         match self.phase {
             CallPhase::Uuid => self.phase = CallPhase::Request,
@@ -201,11 +201,11 @@ impl ServiceCall {
         }
     }
 
-    /// The value that was read, and when; does nothing if none was to be.
+    /// Reports the value that was read, and when; ignored if the step is not a read.
     ///
     /// # Errors
-    /// A state that does not have exactly four bytes, a response of more than 128 bytes with its NUL; it is to be
-    /// read again.
+    /// A state that does not have exactly four bytes, or a response of more than 128 bytes with its
+    /// NUL; the step is to be repeated.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         match &mut self.phase {
             CallPhase::Waiting(waiting) => {
@@ -223,7 +223,7 @@ impl ServiceCall {
         Ok(())
     }
 
-    /// Ends a [`CallStep::Wait`]: reads again.
+    /// Ends a [`CallStep::Wait`]: the next step is a read.
     pub fn poll(&mut self) {
         if let CallPhase::Waiting(waiting) = &mut self.phase {
             waiting.poll();

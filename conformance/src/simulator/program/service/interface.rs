@@ -1,18 +1,18 @@
-//! The interface itself, as a CNC has it.
+//! The Service Interface in the CNC.
 
 use ads_cnc::Error;
 use ads_cnc::service::ServiceVariable;
 
 use super::text_value;
 
-/// The Service Interface of one channel: what a CNC does with its five variables.
+/// The Service Interface of one channel: the behaviour of its five variables.
 ///
-/// - Whoever writes REQUEST_STATE, to whatever value, sets RESPONSE_STATE to 0 (SVC-3). The
-///   manuals say so of the CNC program; that it holds of other writers and of 0 is assumed.
-/// - When the service has finished, REQUEST_STATE becomes 0 (SVC-4). What tells the interface is
+/// - A write to REQUEST_STATE, of any value, sets RESPONSE_STATE to 0 (SVC-3). The manuals state
+///   that for the NC program; that it applies to other writers and to 0 is assumed.
+/// - When the service has finished, REQUEST_STATE becomes 0 (SVC-4). The event that causes this is
 ///   assumed: see [`Clears`].
-/// - All five are empty or 0 at the start, which is assumed. UUID has 128 bytes like the other
-///   texts, which is assumed too.
+/// - Initially all five are empty or 0, which is assumed. That UUID has 128 bytes like the other
+///   texts is assumed too.
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -41,8 +41,8 @@ pub struct ServiceInterface {
     clears: Clears,
 }
 
-/// When an interface sets REQUEST_STATE to 0 of itself (SVC-4). Nobody documents it; a [`Host`]
-/// works with either.
+/// The event that makes the interface set REQUEST_STATE to 0 (SVC-4). It is not documented; a
+/// [`Host`] works with either.
 ///
 /// [`Host`]: ads_cnc::service::Host
 ///
@@ -58,20 +58,20 @@ pub struct ServiceInterface {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Clears {
-    /// When RESPONSE_STATE is written: with that the service has finished.
+    /// When RESPONSE_STATE is written, which ends the service's answer.
     #[default]
     OnResponseState,
-    /// Not at all: it leaves that to the service.
+    /// Never: the service does it.
     Never,
 }
 
 impl ServiceInterface {
-    /// An interface that nobody has used yet.
+    /// An interface in its initial state.
     pub fn new() -> Self {
         Self::with(Clears::OnResponseState)
     }
 
-    /// An interface that sets REQUEST_STATE to 0 when `clears` says.
+    /// An interface that sets REQUEST_STATE to 0 at this event.
     pub fn with(clears: Clears) -> Self {
         Self {
             uuid: vec![0],
@@ -94,7 +94,7 @@ impl ServiceInterface {
         }
     }
 
-    /// Writes a variable, with what that does to the others.
+    /// Writes a variable, with the effects on the others.
     ///
     /// # Errors
     /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes with its NUL,
@@ -119,7 +119,7 @@ impl ServiceInterface {
         Ok(())
     }
 
-    /// Everything as at the start: the CNC was reset.
+    /// Resets all variables to their initial values, as a reset of the CNC does.
     pub fn reset(&mut self) {
         *self = Self::with(self.clears);
     }

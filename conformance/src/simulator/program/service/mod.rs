@@ -1,4 +1,4 @@
-//! The CNC's side of the Service Interface: the interface in the CNC, and the NC program that asks.
+//! The CNC's side of the Service Interface: the interface, and the NC program that sends requests.
 //!
 //! | | |
 //! |---|---|
@@ -71,7 +71,7 @@ fn value_of(text: CncStr<'_>) -> Vec<u8> {
     text.bytes().chain([0]).collect()
 }
 
-/// The value of a variable, of a value that was written to it.
+/// Checks and normalizes a value that was written to a variable.
 fn text_value(value: &[u8], variable: ServiceVariable) -> Result<Vec<u8>, Error> {
     variable.text(value).map(value_of)
 }

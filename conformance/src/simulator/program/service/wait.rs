@@ -15,9 +15,10 @@ use ads_cnc::service::ServiceVariable;
 /// | @P3 | ID of the timer; must be given with @P2 | [`LongestWait::timer`] |
 ///
 /// A request sets RESPONSE_STATE to 0 (SVC-3). So a @P1 other than 0 ends the wait at once, unless
-/// a service has set that state by then.
+/// a service has already set that state.
 ///
-/// Assumed: all three are UNS32; a @P2 of 0 looks once and gives up; @P3 without @P2 means nothing.
+/// Assumed: all three are UNS32; with a @P2 of 0 the cycle reads once; @P3 without @P2 has no
+/// effect.
 ///
 /// Manual: `service-en`, section 3; `service-de` 1.03 does not have the cycle.
 ///
@@ -36,13 +37,13 @@ use ads_cnc::service::ServiceVariable;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SysServiceWait {
-    /// The response state that means: keep waiting.
+    /// The response state for which the cycle keeps waiting.
     pub keep_waiting: u32,
-    /// How long to wait; for ever if there is none.
+    /// The maximum wait; `None` for no limit.
     pub longest: Option<LongestWait>,
 }
 
-/// The longest wait of the cycle SysServiceWait: its @P2 and @P3; shown at [`SysServiceWait`].
+/// The maximum wait of the cycle SysServiceWait: its @P2 and @P3; example at [`SysServiceWait`].
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::service::SysServiceWait;
@@ -55,7 +56,7 @@ pub struct SysServiceWait {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LongestWait {
     pub time: Duration,
-    /// ID of the timer in the CNC that measures it; the machines here are told the time.
+    /// ID of the timer in the CNC; not used here.
     pub timer: u32,
 }
 
@@ -91,7 +92,7 @@ impl SysServiceWait {
         Ok(Self { keep_waiting: p1.unwrap_or(0), longest })
     }
 
-    /// Begins to wait. `now` is a time that never goes back, from any start.
+    /// Begins to wait. `now` is measured from any fixed point and never decreases.
     pub fn start(self, now: Duration) -> Waiting {
         let deadline = self.longest.map(|longest| now.saturating_add(longest.time));
         Waiting { keep_waiting: self.keep_waiting, deadline, phase: WaitPhase::Read }
@@ -135,7 +136,7 @@ enum WaitPhase {
     TimedOut,
 }
 
-/// What a wait needs next; shown at [`Waiting`].
+/// The next step of a wait; example at [`Waiting`].
 ///
 /// Manual: `service-en`, section 3.
 ///
@@ -154,19 +155,19 @@ enum WaitPhase {
 pub enum WaitStep {
     /// Read this variable and pass its value to [`Waiting::read`].
     Read(ServiceVariable),
-    /// Let some time pass, then call [`Waiting::poll`].
+    /// Wait, then call [`Waiting::poll`].
     Wait {
-        /// When the longest wait ends, if there is one: no need to poll later than that.
+        /// When the maximum wait ends: polling later than that is not needed.
         until: Option<Duration>,
     },
-    /// There is a response, of this state.
+    /// A response with this state.
     Done { state: u32 },
-    /// There was none within the longest wait.
+    /// No response within the maximum wait.
     TimedOut,
 }
 
 impl Waiting {
-    /// What to do next; the same until it is done.
+    /// The next step; unchanged until it is done.
     pub const fn step(&self) -> WaitStep {
         match self.phase {
             WaitPhase::Read => WaitStep::Read(ServiceVariable::ResponseState),
@@ -176,14 +177,14 @@ impl Waiting {
         }
     }
 
-    /// The value that was read, and when; does nothing if none was to be.
+    /// Reports the value that was read, and when; ignored if the step is not a read.
     ///
-    /// The time is over only when a value read by then says to keep waiting: a response that is
-    /// there counts.
+    /// The wait times out only after a read of the value for which the cycle keeps waiting: a
+    /// response that is present counts.
     ///
     /// # Errors
     /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
-    /// for a state that does not have exactly four bytes; read it again.
+    /// for a state that does not have exactly four bytes; the step is to be repeated.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         if let WaitPhase::Read = self.phase {
             let state = ServiceVariable::ResponseState.state(value)?;
@@ -198,7 +199,7 @@ impl Waiting {
         Ok(())
     }
 
-    /// Ends a [`WaitStep::Wait`]: reads again.
+    /// Ends a [`WaitStep::Wait`]: the next step is a read.
     pub fn poll(&mut self) {
         if let WaitPhase::Idle = self.phase {
             self.phase = WaitPhase::Read;

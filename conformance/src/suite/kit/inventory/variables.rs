@@ -9,10 +9,10 @@ use crate::judge::{Step, Stop, applicable};
 use crate::objects::KINDS;
 use crate::suite::kit::Probe;
 
-/// The most variables of a kind that are looked at.
+/// Maximum number of variables of a kind that are read.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
 
-/// The name of a description, as a request carries it.
+/// The name in a description, as in a request.
 pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
 }
@@ -24,8 +24,8 @@ impl Probe<'_> {
         KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
     }
 
-    /// Every description of a channel. A case that judges descriptions reads them itself; here
-    /// one that cannot be read only means that nothing can be built on it.
+    /// All descriptions of a channel. Cases that judge descriptions read them again; here an
+    /// unreadable one is skipped.
     pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -40,7 +40,7 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// Those whose whole value an answer has room for.
+    /// Variables whose whole value fits into a reply.
     pub(crate) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = self.variables(channel)?;
         let fits = |size: u32| usize::try_from(size).is_ok_and(|size| size <= VARIABLE_MAX);
@@ -55,7 +55,7 @@ impl Probe<'_> {
         for index in indices {
             let variable: Description =
                 self.read_unjudged(DescribeByIndex::new(channel, index, kind))?;
-            // One whose name leaves no room for its NUL cannot be asked for by name.
+            // A name without room for its NUL cannot be requested.
             if variable.name.text.as_bytes().len() < TEXT_MAX {
                 all.push(variable);
             }
@@ -63,7 +63,7 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// Reads something that is judged elsewhere.
+    /// Reads a stream that other cases judge.
     fn read_unjudged<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<T>
     where
         T: for<'b> Decode<'b>,

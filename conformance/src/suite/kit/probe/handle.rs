@@ -1,4 +1,4 @@
-//! What the gate has to know of a handle before something is written by it.
+//! Queries that confirm a handle to the gate before a write.
 
 use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
@@ -10,8 +10,8 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
-    /// Asks for what confirms the handle of a write: descriptions of the channel if this connection
-    /// has not seen them, and the handle of the name that they give it to.
+    /// Sends the queries that confirm the handle of a write: descriptions of the channel if they
+    /// were not read on this connection, and the handle by name.
     pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {
@@ -22,7 +22,7 @@ impl Probe<'_> {
             *channel == number && all.iter().any(|variable| variable.handle == op.handle)
         });
         if is_described && !self.target.client.gate().knows_handle(op.channel, op.handle) {
-            // They were read on another connection, maybe of a device that has been restarted since.
+            // They were read on another connection, perhaps before a restart of the device.
             self.target.variables.retain(|(channel, _), _| *channel != number);
             self.variables(op.channel)?;
         }
@@ -31,7 +31,8 @@ impl Probe<'_> {
         {
             self.try_ask(HandleByName { channel: op.channel, name: name.as_cnc_str().into() })?;
         }
-        // The descriptions were read on another connection, and the handle was asked for on this one.
+        // The handle was requested on this connection, but the descriptions were read on another
+        // one.
         if let Some(name) = self.unconfirmed(request)?
             && self.claims(Function::DescribeByName) != Claim::No
         {
@@ -40,7 +41,7 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// The name of a handle that is not yet confirmed.
+    /// The name of a handle that is not confirmed yet.
     fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
         Ok(match self.check_gate(request)? {
             Err(Some(Refusal {
@@ -50,8 +51,7 @@ impl Probe<'_> {
         })
     }
 
-    /// Whether a request could be sent, and why the gate rejects it if that is why not. Nothing is
-    /// sent.
+    /// Whether a request can be sent, and why not if the gate rejects it. Nothing is sent.
     pub(crate) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
         match self.target.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),

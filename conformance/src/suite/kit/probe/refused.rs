@@ -1,4 +1,4 @@
-//! What a target must not answer, beside what it must.
+//! Requests that a target must reject.
 
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Level;
@@ -7,9 +7,11 @@ use crate::judge::{Checks as _, Rule, Rules, Step, Stop, Verdict};
 use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
-    /// Sends a request that must be rejected; `sibling` differs by the fault only and must not be.
+    /// Sends a request that must be rejected; `sibling` is the same request without the fault and
+    /// must be answered.
     ///
-    /// A success without data counts as an error: it returns no value of an object that does not exist.
+    /// A success without data counts as an error: it returns no value of an object that does not
+    /// exist.
     pub(crate) fn refuses<'a, 'b>(
         &mut self,
         rules: impl Rules,
@@ -68,8 +70,7 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Sends a request for what cannot be there, as there is nothing at all: what is there for a
-    /// sibling to differ from nobody knows.
+    /// Sends a request for an item of an empty list, for which no valid sibling exists.
     pub fn refuses_alone<'a>(
         &mut self,
         rules: impl Rules,
@@ -82,8 +83,8 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Numbers from the first that is too many on; of those far beyond only what cannot move is
-    /// asked. Some have the lower bytes of a number that is not: who reads fewer finds it.
+    /// Numbers beyond the last valid one. Far ones cannot become valid meanwhile; some have the
+    /// lower bytes of a valid number, which a CNC that truncates them would accept.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
         if !self.target.client.gate().lets_malformed_pass() {
             return vec![first];
