@@ -17,7 +17,7 @@ use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::{Context, Fields};
 use given::Given;
 
-/// The class of an error under the name vectors give it.
+/// The class of an error, with the name that the vectors use.
 pub fn class(error: &Error) -> &'static str {
     match error.kind() {
         ErrorKind::Truncated => "truncated",

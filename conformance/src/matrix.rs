@@ -32,7 +32,7 @@ pub use sections::to_sections;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct RequirementRow {
-    /// The requirement.
+    /// The requirement that decides it.
     pub id: String,
     /// In a few words.
     pub title: String,

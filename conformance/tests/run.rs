@@ -210,7 +210,7 @@ fn who_is_no_cnc_is_not_judged() {
     assert!(text(&output.stderr).contains("does not speak AMS/TCP"), "{}", text(&output.stderr));
 }
 
-/// A report that cannot be written is no success.
+/// Exit code for a report that cannot be written.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_lost_report_is_no_success() {

@@ -246,7 +246,7 @@ pub(super) struct TopicRecord<'b> {
 }
 
 impl TopicRecord<'_> {
-    /// Something that may have been so or not: it was not captured.
+    /// Records an inconclusive check: the bytes it needs were not captured.
     pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
         if let Some((_, record, _)) = &mut self.topic {
             let (verdict, expected) = (Verdict::Inconclusive, "all of it in the capture");

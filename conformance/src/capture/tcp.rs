@@ -72,7 +72,7 @@ pub(super) struct Half {
     waiting: u32,
     /// Retransmitted segments.
     pub(super) repeated: u64,
-    /// Segments that came too early.
+    /// Segments that were captured before an earlier one.
     pub(super) early: u64,
 }
 

@@ -5,14 +5,14 @@ use std::process::ExitCode;
 
 use crate::judge::Exit;
 
-/// Says what is wrong on stderr; if nobody listens there, that is no more to be helped.
+/// Writes an error to stderr; a failure to do so is ignored.
 pub(super) fn complain(why: impl std::fmt::Display) {
-    // Devices, files and testees are quoted in it.
+    // The text may quote a device, a file or a testee.
     let why = crate::text::escape_lines(&why.to_string());
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
 }
 
-/// Says what is wrong and how the process ends.
+/// Writes an error to stderr and returns the exit code.
 pub(super) fn refuse(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
     complain(why);
     exit.into()

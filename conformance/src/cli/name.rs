@@ -122,7 +122,7 @@ pub(super) fn written(result: io::Result<()>) -> Result<(), Trouble> {
     }
 }
 
-/// A number, decimal or in hex with 0x.
+/// Parses a number, decimal or in hex with 0x.
 pub(super) fn number(text: &str) -> Result<u32, String> {
     let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
     let number = match hex {

@@ -248,12 +248,12 @@ fn list_defects() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The defect with this ID, if one is asked for.
+/// The defect with this ID, if an ID is given.
 pub(super) fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
     let Some(id) = id else { return Ok(None) };
     faults::by_id(id).cloned().map(Some).ok_or_else(|| {
         let all = faults::all();
-        // One of each stream or area is enough to show what IDs look like.
+        // One ID of each stream or area, as examples.
         let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
         some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());
         let (some, all) = (some.join("\n  "), all.len());

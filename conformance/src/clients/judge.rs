@@ -232,7 +232,7 @@ fn judge_reaction(
     let rules = scenario.rules();
     let kept = match reaction {
         ClientReaction::Answer(ActionResult::Unsupported(what)) => {
-            // What it knows is in its hello; this it claimed.
+            // The client listed this action in its hello.
             let found = || format!("unsupported: {what}");
             findings.check(CLIENT, false, last, "what its hello claims", found);
             return Some(Stop::NotApplicable(format!("the client has no {what}")));

@@ -73,10 +73,10 @@ pub(super) fn environment(
 /// Maximum length of a quoted answer.
 const SHOWN: usize = 200;
 
-/// Nothing to say but that it is done.
+/// The result of an action without a value.
 pub(super) const DONE: Value = Value::Bool(true);
 
-/// What comes of an action.
+/// The result of an action in the client's answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ActionResult {

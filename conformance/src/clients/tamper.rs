@@ -74,7 +74,7 @@ pub(super) enum LengthField {
 /// A wrong number for a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum WrongLength {
-    /// One more.
+    /// Increments a counter.
     Longer,
     /// One less.
     Shorter,

@@ -3,23 +3,23 @@
 use ads_cnc::Error;
 use ads_cnc_vectors::Fields;
 
-/// What the codec makes of a stream: its fields, and the bytes it encodes to again.
+/// The decoded fields of a stream, and the bytes of encoding them again.
 #[derive(Debug, PartialEq)]
 pub struct Decoded {
-    /// The fields under their names, without what only counts.
+    /// The fields by name, without counters.
     pub fields: Fields,
-    /// Encoded again.
+    /// The fields encoded again.
     pub bytes: Vec<u8>,
 }
 
-/// Why the codec has no answer.
+/// Why decoding or encoding failed.
 #[derive(Debug)]
 pub enum Refused {
-    /// It refuses the bytes.
+    /// The codec rejects the bytes.
     Error(Error),
-    /// These fields are no value of the stream.
+    /// The fields are not a value of the stream.
     Unfit(String),
-    /// It does not know the stream, or the context lacks what it needs.
+    /// The stream is unknown, or the context is incomplete.
     Unsupported(String),
 }
 

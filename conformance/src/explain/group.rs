@@ -4,7 +4,7 @@ use ads_cnc::address::{
     Access, Addressing, Attribute, Class, ClassGroup, ComGroup, ComTable, Group, IndexGroup,
 };
 
-/// What an index group addresses, in words.
+/// Describes an index group in words.
 ///
 /// ```
 /// use ads_cnc::address::IndexGroup;
@@ -25,7 +25,7 @@ pub fn describe(group: IndexGroup) -> String {
     }
 }
 
-/// After the name of a group that is by index.
+/// Appended for a group with addressing by index.
 const BY_INDEX: &str = "; by index, which moves when a channel is deactivated (ADR-11)";
 
 fn channel(addressing: Addressing, instance: u8) -> String {

@@ -8,31 +8,32 @@ use super::field::{FieldChange, FieldDefect};
 use crate::edition::Edition;
 use crate::text::named;
 
-/// One thing done wrong, or otherwise.
+/// A seeded defect, or a valid variant.
 #[derive(Clone, Debug)]
 pub struct Seed {
-    /// Unlike that of any other.
+    /// Unique ID.
     pub id: String,
-    /// What it breaks: one of them has to fail. None if nothing is wrong with it.
+    /// The requirements that it breaks: at least one of them has to fail. Empty for a valid
+    /// variant.
     pub requirements: Vec<&'static str>,
     pub what: String,
-    /// By whom.
+    /// Codec, CNC or valid variant.
     pub kind: SeedKind,
-    /// The edition it shows in, if it does not in any.
+    /// The only edition in which it is detectable; `None` for both.
     pub edition: Option<Edition>,
-    /// Whether the examples that the manuals print are still answered literally, as far as it is
-    /// about. Who does things otherwise need not.
+    /// Whether the printed examples that it concerns are still answered literally. A valid variant
+    /// may answer otherwise.
     pub printed: bool,
     pub(super) how: How,
 }
 
-/// Who does something wrong, or otherwise.
+/// The kind of a seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SeedKind {
-    /// A codec. A wrong field is wrong in a CNC too.
+    /// A defect of a codec. A defect of a field exists in a CNC too.
     Codec,
     Cnc,
-    /// A CNC that does things otherwise, and none of them wrong.
+    /// A valid variant of a CNC.
     Different,
 }
 
@@ -47,12 +48,13 @@ pub(super) enum How {
 
 impl From<FieldDefect> for Seed {
     fn from(defect: FieldDefect) -> Self {
-        // The field's own clause, and the one of its offset in the stream.
+        // The field's requirement, and that of its offset in the stream.
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
         requirements.dedup();
-        // An error number of 0 is none, and nothing else is specified of them.
+        // Zero turns an error into a success, which ADS-7 forbids; other error numbers are not
+        // specified.
         if defect.field.name() == "result" && defect.change == FieldChange::Zero {
             requirements.push("ADS-7");
         }
@@ -81,7 +83,7 @@ impl Seed {
         }
     }
 
-    /// The wrong field, if that is all.
+    /// The defect of a field, if it is one.
     pub fn field(&self) -> Option<&FieldDefect> {
         match &self.how {
             How::Field(defect) => Some(defect),
@@ -89,7 +91,7 @@ impl Seed {
         }
     }
 
-    /// What a codec does around its answers.
+    /// The defect of a codec's answers, if it is one.
     pub(crate) const fn of_codec(&self) -> Option<CodecFault> {
         match self.how {
             How::Codec(fault) => Some(fault),
@@ -102,7 +104,7 @@ impl Seed {
         matches!(self.how, How::Field(_) | How::Cnc(_))
     }
 
-    /// The model, if the CNC is another one: with channels, variables and objects of its own.
+    /// The model of a CNC with other channels, variables and objects.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
             How::Cnc(CncFault::Model(model)) => Some(model),

@@ -6,7 +6,7 @@ use ads_cnc::ads::AmsNetId;
 
 use super::{Entry, Moment, Reason};
 
-/// The AMS NetId of the simulated CNC, unless it is given another.
+/// The default AMS NetId of the simulated CNC.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
 /// The permitted writes: target, values and expiry.

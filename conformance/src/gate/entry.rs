@@ -18,28 +18,28 @@ pub enum Entry {
         /// The name. Without an index it includes the elements.
         name: CncString,
     },
-    /// The content at an address: of a COM object or of an element.
+    /// The content of a COM object or of an element, by its address.
     Content { group: IndexGroup, offset: IndexOffset },
-    /// The content of the one COM object of this name in a list.
+    /// The content of the only COM object with this name in a list.
     Object { list: AllowedList, name: CncString },
     /// NC programs for a channel.
     Stream(Channel),
-    /// What a host of the Service Interface writes to a channel.
+    /// The variables that a host of the Service Interface writes in a channel.
     Service(Channel),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AllowedList {
-    /// Of the platform.
+    /// The list of the platform.
     Platform,
-    /// Of a channel.
+    /// The list of a channel.
     Channel(Channel),
-    /// Of a platform axis.
+    /// The list of a platform axis.
     Axis(PlatformAxis),
 }
 
 impl AllowedList {
-    /// The list as it is addressed.
+    /// The list with its addressing.
     pub fn list(self) -> ObjectList {
         match self {
             Self::Platform => ObjectList::PLATFORM,
@@ -50,7 +50,7 @@ impl AllowedList {
 }
 
 impl Entry {
-    /// The entry that would allow a request; none for one that no entry of its own allows.
+    /// The entry that would allow a request; `None` if no entry can.
     pub fn needed(request: &Request<'_>) -> Option<Self> {
         Some(match request {
             Request::WriteByName(op) if is_of_service(op.name) => Self::Service(op.channel),
@@ -71,7 +71,7 @@ impl Entry {
         })
     }
 
-    /// Whether a variable of this name may be written.
+    /// Whether the entry allows writes to a variable with this name.
     pub(super) fn allows_variable(
         &self,
         of: Channel,
@@ -88,7 +88,7 @@ impl Entry {
     }
 }
 
-/// What a host writes; the rest is the NC program's.
+/// The variables that a host writes; the NC program writes the others.
 const SERVICE: [ServiceVariable; 3] =
     [ServiceVariable::RequestState, ServiceVariable::ResponseState, ServiceVariable::Response];
 
@@ -96,7 +96,7 @@ fn is_of_service(name: CncStr<'_>) -> bool {
     SERVICE.iter().any(|variable| name == *variable.name())
 }
 
-/// Whether the name is this one, or that of an element: nothing but indices follow.
+/// Whether a name is this one, or this one followed by indices.
 fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
     let asked: Vec<u8> = asked.bytes().collect();
     let Some(rest) = asked.strip_prefix(name.as_bytes()) else { return false };
@@ -111,7 +111,7 @@ fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
     }
 }
 
-/// As a file has it.
+/// As a TOML table of the file.
 impl fmt::Display for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -149,7 +149,7 @@ fn at(channel: Channel) -> String {
     format!("{key} = {}", channel.number())
 }
 
-/// As a basic string of TOML.
+/// A basic string of TOML.
 fn quoted(name: &CncString) -> String {
     let escaped = name.as_cnc_str().chars().flat_map(|character| match character {
         '"' | '\\' => vec!['\\', character],

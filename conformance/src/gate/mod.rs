@@ -47,7 +47,7 @@ use ads_cnc::streaming;
 
 use observed::Observed;
 
-/// Decides over every frame before a byte of it is sent.
+/// Checks every frame before any of it is sent.
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
     /// Whether malformed frames are allowed if the file permits them.

@@ -9,8 +9,7 @@ use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 use super::refusal::LEARNT_MAX;
 use super::{Allowed, Doubt, Entry};
 
-/// What the replies of one connection say. What contradicts a write is kept as well as what allows
-/// it.
+/// Facts from the replies of a connection: those that allow a write and those that forbid it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
     /// By channel as addressed: whether a rank and a number are the same channel is unknown.
@@ -320,16 +319,16 @@ fn is_of(list: ObjectList, group: IndexGroup) -> bool {
 }
 
 impl Entry {
-    /// Whether it allows a request that is no query.
+    /// Checks whether the entry allows a request other than a query.
     ///
     /// # Errors
-    /// Why what it names may not be what is written.
+    /// Why the value written may be another than the entry names.
     pub(super) fn allows(&self, request: &Request<'_>, observed: &Observed) -> Result<bool, Doubt> {
         match (self, request) {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
                 observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))
             }
-            // Each name of the handle is looked at there, whichever entry allows it.
+            // `is_variable` checks every name of the handle, whichever entry allows it.
             (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
                 observed.is_variable(op.channel, op.handle)
             }

@@ -10,11 +10,11 @@ use ads_cnc::{CncString, Error};
 
 use super::{Entry, Moment};
 
-/// The most handles, names and addresses that are kept of a connection. With more than that nothing
-/// is written by a handle or by the name of an object.
+/// Maximum number of handles, names and addresses stored for a connection. Beyond it every write by
+/// a handle or to a named object is rejected.
 pub(super) const LEARNT_MAX: usize = 65_536;
 
-/// A frame the gate did not let through.
+/// A frame that the gate rejects.
 #[derive(Clone, Debug)]
 pub struct Refusal {
     pub reason: Reason,

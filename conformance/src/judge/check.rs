@@ -108,7 +108,7 @@ pub struct Rule {
 impl From<&'static str> for Rule {
     fn from(id: &'static str) -> Self {
         if id == CLIENT {
-            // Not of the catalogue.
+            // Rules of the client protocol are not in the catalogue and have no level there.
             return Self { id, level: Some(Level::Must) };
         }
         let clause = clause(id);

@@ -16,18 +16,18 @@ use crate::objects::Pattern;
 pub struct Lookup {
     pub name: String,
     pub channel: Channel,
-    /// Which place, over the axis interface; of V.A only.
+    /// The axis, for access through the axis interface; V.A only.
     pub axis: Option<ChannelAxis>,
-    /// Which lists of objects, if several have the name.
+    /// The lists of objects to search, if several have the name.
     pub lists: Option<Pattern>,
-    /// At which offset, if a list has the name several times.
+    /// The index offset, if a list has the name several times.
     pub offset: Option<u32>,
-    /// What to take it for, whatever the CNC says.
+    /// The type, in place of that of the description.
     pub ty: Option<DataType>,
 }
 
 impl Lookup {
-    /// What has this name, in a channel.
+    /// Looks for a name in a channel.
     pub fn new(name: &str, channel: Channel) -> Self {
         let name = name.to_owned();
         Self { name, channel, axis: None, lists: None, offset: None, ty: None }

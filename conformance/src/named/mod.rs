@@ -9,7 +9,7 @@ pub use lookup::Lookup;
 use crate::objects::Object;
 use crate::session::{Session, Trouble};
 
-/// Finds it.
+/// Finds an object by its name.
 ///
 /// ```
 /// use ads_cnc::address::Channel;

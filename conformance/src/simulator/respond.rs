@@ -26,7 +26,7 @@ const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 /// The data of a reply, or the error number.
 pub type ReplyData = Result<Vec<u8>, AdsError>;
 
-/// Answers requests with data or an error number.
+/// Answers a request with data or an error number.
 type Answering<'a> = &'a dyn Fn(&Call<'_>) -> ReplyData;
 
 /// Appends the frame to answer with; see [`Responder::respond`](super::Responder::respond).

@@ -28,7 +28,7 @@ pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
 /// Stack size of a connection's thread in bytes.
 const STACK: usize = 1024 * 1024;
 
-/// How long a client may leave an answer lying before its connection ends.
+/// How long a client may not read a reply before its connection is closed.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// A running server; dropping it closes every connection and waits for their threads.

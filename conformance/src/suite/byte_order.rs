@@ -67,7 +67,8 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// A number that makes no sense, but does from behind.
+/// Checks a number: one that is implausible, but plausible with reversed bytes, breaks the byte
+/// order.
 fn in_order(
     probe: &mut Probe<'_>,
     what: impl Display,

@@ -41,7 +41,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
     for list in lists(probe)? {
         let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
         ends(probe, list, number)?;
-        // They are static, and nothing that was asked meanwhile changes that.
+        // The list is static: requests in between do not change it.
         let again: ObjectCount = probe.read("COM-1", CountObjects::new(list))?;
         let found = || format!("{} objects of {}", again.0, list.parts().index_group());
         probe.check("COM-1", again.0 == number, || format!("{number} as before"), found);

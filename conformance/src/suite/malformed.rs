@@ -44,7 +44,7 @@ impl<'p, 's> Spoilt<'p, 's> {
         Ok(Self { probe, good: RawCall::new(request)? })
     }
 
-    /// Sends other data in place of the good.
+    /// Sends other data.
     fn data(&mut self, rules: impl Rules, what: &str, data: &[u8]) -> Step {
         self.call(rules, what, |call| call.data = data.to_vec())
     }
@@ -55,7 +55,7 @@ impl<'p, 's> Spoilt<'p, 's> {
         self.data(["VAR-24", "VAR-11"], what, data)
     }
 
-    /// Sends the good data elsewhere or otherwise.
+    /// Sends the data with another address, service or length.
     fn call(&mut self, rules: impl Rules, what: &str, spoil: impl FnOnce(&mut RawCall)) -> Step {
         self.probe.refuses(rules, what, self.good.with(spoil), &self.good)
     }

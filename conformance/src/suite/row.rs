@@ -3,10 +3,10 @@
 use super::kit::Probe;
 use crate::judge::{Needs, Step, in_catalogue};
 
-/// The function that tries a case.
+/// The function of a case.
 pub(super) type Try = fn(&mut Probe<'_>) -> Step;
 
-/// A case that a function tries.
+/// A case with its function.
 pub(super) struct CaseRow {
     pub(super) id: &'static str,
     pub(super) clauses: &'static [&'static str],
@@ -15,7 +15,6 @@ pub(super) struct CaseRow {
     pub(super) title: &'static str,
 }
 
-/// A row of a table of cases.
 pub(super) const fn case(
     id: &'static str,
     clauses: &'static [&'static str],

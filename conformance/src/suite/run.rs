@@ -168,7 +168,7 @@ mod tests {
         }
     }
 
-    /// A case that panics has changed nothing in the end, and the next one is run.
+    /// A case that panics restores its values, and the next case runs.
     #[test]
     fn what_a_panic_leaves_is_restored() {
         let (_server, mut target) = target(None, NAME);

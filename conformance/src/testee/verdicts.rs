@@ -80,7 +80,7 @@ impl Verdicts<'_> {
             let deviation = self.deviation(case, question, reaction);
             let is_vacuous = |one: &Deviation| one.verdict == Verdict::Vacuous;
             if deviation.as_ref().is_some_and(is_vacuous) && self.gone.is_some() {
-                // What it is held against may not have been asked.
+                // The sibling may not have been asked.
                 stop.clone_from(&self.gone);
                 continue;
             }
@@ -104,7 +104,7 @@ impl Verdicts<'_> {
             Verdict::Fail | Verdict::Vacuous if level != Level::Must => Verdict::missed(level),
             verdict => verdict,
         };
-        // What is compared may be told apart by less than the level of the case.
+        // Some differences count at a lower level than the case.
         let level = Some(if verdict == Verdict::Differs { Level::Info } else { level });
         let (expected, found) = match &deviation {
             Some(one) => (one.expected.as_str(), one.found.as_str()),
@@ -147,7 +147,7 @@ impl Verdicts<'_> {
         reaction: &TesteeReaction,
         verdict: Verdict,
     ) -> Level {
-        // Only an answer can differ: a crash is one whatever was asked.
+        // Only an answer can differ: a crash is a fault in any case.
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
@@ -233,7 +233,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether the sibling of what was refused was accepted: else it may be refused for any reason.
+    /// Whether the accepted sibling was accepted: otherwise the rejection may have any reason.
     fn sibling(&self, sibling: &Option<String>, op: &str) -> Result<(), String> {
         let wanted = sibling.as_deref().unwrap_or_default();
         let is_wanted = |case: &Case| match &case.body {

@@ -52,7 +52,7 @@ pub(crate) fn check_printed(printed: &[u8]) {
     assert!(!printed.chars().any(|one| one.is_control() && one != '\n'));
 }
 
-/// All of it.
+/// The whole frame.
 pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
     assert_eq!(explanation.length, bytes.len());
     for part in &explanation.parts {

@@ -123,7 +123,7 @@ impl Bench<'_> {
         };
         let of_class = group.class == class && group.attribute == Attribute::Content;
         page.check("ADR-5", of_class, || format!("the content of {class:?}"), found);
-        // By index the rank may be another number than the one that was asked for.
+        // Queried by index, the returned rank may differ from the requested one.
         if group.addressing == Addressing::Logical || class == Class::Spindle {
             let same = u32::from(group.instance) == query.channel;
             page.check("ADR-5", same, || format!("the group of instance {}", query.channel), found);

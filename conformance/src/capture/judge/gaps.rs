@@ -87,7 +87,7 @@ impl TrafficJudge {
         self.records.on(topic, observation).open(rule, found);
     }
 
-    /// What a lost answer leaves open: the requirement of the function that was asked.
+    /// A lost reply leaves the requirement of the requested function undecided.
     fn open_function(
         &mut self,
         asked: &CapturedFrame,

@@ -148,7 +148,7 @@ fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     }
 }
 
-/// As a command gets and gives it.
+/// A CP1252 text as UTF-8, the encoding of commands.
 pub(super) fn utf8(text: CncStr<'_>) -> String {
     text.chars().collect()
 }

@@ -9,20 +9,20 @@ use crate::judge::in_catalogue;
 use crate::simulator::ReplyData;
 use crate::simulator::program::Policy;
 
-/// How a CNC does something wrong, or otherwise.
+/// How a defect or valid variant of a CNC works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CncFault {
-    /// Around each request.
+    /// Handles each request.
     Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Around each request for one of these functions.
+    /// Handles each request for one of these functions.
     Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// After each frame that answers one: what is sent instead.
+    /// Changes the frame of each reply.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
-    /// Bytes are sent in pieces of at most this size.
+    /// Frames are sent in pieces of at most this size.
     Pieces(usize),
-    /// In its NC programs.
+    /// Changes the execution of NC programs.
     Program(Policy),
-    /// It is another CNC: one with this model.
+    /// Uses this model.
     Model(&'static str),
 }
 
@@ -32,13 +32,13 @@ pub(in crate::faults) struct CncSeed {
     pub(in crate::faults) breaks: &'static [&'static str],
     pub(in crate::faults) what: &'static str,
     pub(in crate::faults) fault: CncFault,
-    /// The edition it shows in, if it does not in any.
+    /// The only edition in which it is detectable; `None` for both.
     pub(in crate::faults) edition: Option<Edition>,
-    /// Whether printed examples are answered as printed, as far as it is about.
+    /// Whether the printed examples that it concerns are still answered literally.
     pub(in crate::faults) printed: bool,
 }
 
-/// A row about requests.
+/// A row that handles requests.
 pub(in crate::faults) const fn row(
     id: &'static str,
     breaks: &'static [&'static str],
@@ -48,7 +48,7 @@ pub(in crate::faults) const fn row(
     fault(id, breaks, what, CncFault::Answer(answer))
 }
 
-/// A row about requests for functions.
+/// A row that handles requests for functions.
 pub(in crate::faults) const fn on(
     id: &'static str,
     breaks: &'static [&'static str],
@@ -59,7 +59,7 @@ pub(in crate::faults) const fn on(
     fault(id, breaks, what, CncFault::Function(functions, answer))
 }
 
-/// A row about something else.
+/// A row with another fault.
 pub(in crate::faults) const fn fault(
     id: &'static str,
     breaks: &'static [&'static str],
@@ -69,7 +69,7 @@ pub(in crate::faults) const fn fault(
     CncSeed { id, breaks: in_catalogue(breaks), what, fault, edition: None, printed: true }
 }
 
-/// A row about the NC program.
+/// A row about NC programs.
 pub(in crate::faults) const fn program(
     id: &'static str,
     breaks: &'static [&'static str],

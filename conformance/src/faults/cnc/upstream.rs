@@ -163,7 +163,7 @@ pub(in crate::faults) fn reply(
     if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }
 
-/// If it is too long for the client, as it was.
+/// The unpadded answer if the padded one exceeds the requested length.
 pub(in crate::faults) fn or_short(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -9,26 +9,26 @@ use crate::judge::in_catalogue;
 
 pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
 
-/// How a codec does something wrong.
+/// How a defect of a codec works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CodecFault {
-    /// What it has to refuse for such a fault it accepts.
+    /// Accepts input that must be rejected with an error of this class in this stream.
     Accepts(&'static str, &'static str),
-    /// It refuses this stream if it is as long as it may be.
+    /// Rejects this stream at its maximum length.
     Longest(&'static str),
-    /// It takes two fields of a stream for each other.
+    /// Exchanges two fields of a stream.
     Swaps(&'static str, &'static str, &'static str),
-    /// Each number of the stream has its bytes in reverse order.
+    /// Encodes and decodes the numbers of the stream in big-endian order.
     BigEndian(Stream),
-    /// Values are changed on their way out and in: of the stream, the value.
+    /// Changes values after decoding and before encoding; arguments are the stream and the value.
     Value(fn(&str, &mut Json)),
-    /// Bytes are changed on their way out.
+    /// Changes encoded bytes.
     Bytes(fn(&str, Vec<u8>) -> Vec<u8>),
-    /// Packets of NC text are changed on their way out.
+    /// Changes packets of NC text.
     Packets(fn(Vec<Vec<u8>>) -> Vec<Vec<u8>>),
-    /// NC text is changed on its way in.
+    /// Changes NC text before it is processed.
     Text(fn(&[u8]) -> Vec<u8>),
-    /// Anything.
+    /// Any other change.
     Around(fn(Right<'_>, &Question) -> Answer),
 }
 
@@ -95,7 +95,7 @@ impl CodecFault {
     }
 }
 
-/// It is accepted, whatever it is.
+/// The answer that accepts anything.
 pub(super) fn accepted() -> Answer {
     let value = Some(Json::Object(serde_json::Map::default()));
     Answer::Ok(Output { value, ..Output::default() })
@@ -105,7 +105,7 @@ pub(super) fn refused(class: &str) -> Answer {
     Answer::Reject(Rejection { class: Some(class.to_owned()), ..Rejection::default() })
 }
 
-/// With the value changed that comes out of `decode` and that goes into `encode`.
+/// Changes the value after `decode` and before `encode`.
 fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
     let mut other = question.clone();
     if let Some(fields) = &question.value
@@ -126,7 +126,7 @@ fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json
     }
 }
 
-/// Swaps two fields, in each record.
+/// Exchanges two fields, in each record.
 fn swap(value: &mut Json, one: &str, other: &str) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| swap(item, one, other)),

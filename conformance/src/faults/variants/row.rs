@@ -4,7 +4,7 @@ use ads_cnc::ads::FrameRef;
 
 use crate::faults::cnc::{CncFault, CncSeed, Upstream, fault};
 
-/// A row about something that does not answer as printed.
+/// A row whose printed examples are answered otherwise.
 pub(super) const fn unprinted(mut row: CncSeed) -> CncSeed {
     row.printed = false;
     row

@@ -19,7 +19,7 @@ pub use walker::GAP;
 use walker::NUMBER_MAX;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
 
-/// Descriptors in one request.
+/// Descriptors per request.
 pub const RANGE: u32 = 256;
 
 /// Maximum number of listed objects, and of objects read in one list.
@@ -139,7 +139,7 @@ struct Walk<'w> {
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
 }
 
-/// What an element says of itself.
+/// The attributes of an element.
 #[derive(Clone, Debug)]
 struct Attributes {
     name: CncString,

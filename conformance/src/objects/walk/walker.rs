@@ -7,10 +7,10 @@ use ads_cnc::{Decode, Descriptors, Kind};
 
 use super::super::Object;
 
-/// The most numbers in a row that the target may reject before a list counts as ended.
+/// A list ends after this many consecutive rejected numbers.
 pub const GAP: u32 = 8;
 
-/// The most channels, axes and spindles.
+/// Maximum number of channels, axes and spindles.
 pub(super) const NUMBER_MAX: u32 = 255;
 
 /// The kinds of variables with an index.

@@ -117,7 +117,7 @@ impl Cnc {
         self.clock.now()
     }
 
-    /// The data to answer with.
+    /// Answers a request with data.
     ///
     /// Which error number a CNC gives is not documented (ADS-7), so these are assumed:
     ///

@@ -16,15 +16,15 @@ pub struct Model {
     pub(in crate::simulator) version: Option<CncVersion>,
     /// In the order of their numbers.
     pub(in crate::simulator) channels: Vec<ChannelModel>,
-    /// In the configured order, which is that of their places on the platform.
+    /// In the configured order, which is that of the platform axes.
     pub(in crate::simulator) axes: Vec<AxisModel>,
     pub(in crate::simulator) spindles: usize,
     pub(in crate::simulator) platform: Objects,
-    /// Of each platform axis.
+    /// Objects of each platform axis.
     pub(in crate::simulator) platform_axis: Objects,
-    /// Of each place of each channel.
+    /// Objects of each axis of a channel.
     pub(in crate::simulator) channel_axis: Objects,
-    /// V.A.
+    /// The variables of V.A.
     pub(in crate::simulator) axis_variables: Variables,
     pub(in crate::simulator) classes: [ClassModel; 6],
     pub(in crate::simulator) platform_list: Descriptors,
@@ -37,33 +37,33 @@ pub(in crate::simulator) struct ChannelModel {
     pub(in crate::simulator) number: u8,
     /// At the start.
     pub(in crate::simulator) active: bool,
-    /// Which axis is at which place at the start.
+    /// The axis at each place, initially.
     pub(in crate::simulator) places: Vec<Option<usize>>,
     pub(in crate::simulator) objects: Objects,
     pub(in crate::simulator) variables: Variables,
-    /// Of V.E and V.G, in the order of their indices.
+    /// Indices of V.E and V.G in `variables`, in the order of the lists.
     pub(in crate::simulator) external: Vec<usize>,
     pub(in crate::simulator) global: Vec<usize>,
     pub(in crate::simulator) by_handle: HashMap<u32, At>,
     pub(in crate::simulator) parameters: Vec<Parameter>,
     pub(in crate::simulator) program: ProgramConfig,
-    /// Its program that asks services, if it has one.
+    /// Its NC program that sends requests to services, if any.
     pub(in crate::simulator) script: Option<ScriptConfig>,
-    /// Its objects and those of its places.
+    /// The list of its own objects and those of its axes.
     pub(in crate::simulator) list: Descriptors,
-    /// Those, and after them the platform's (COM-4).
+    /// The same list followed by the platform's objects (COM-4).
     pub(in crate::simulator) list_of_first: Descriptors,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::simulator) struct AxisModel {
-    /// Instance identifier, in names of V.A on the channel interface.
+    /// The axis name in names of V.A on the channel interface.
     pub(in crate::simulator) name: CncString,
     /// Logical axis number, not 0.
     pub(in crate::simulator) number: u32,
 }
 
-/// What overrides the settings of a file.
+/// Settings that override those of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
     /// The edition of the manual that the CNC follows.
@@ -72,7 +72,7 @@ pub struct Settings {
     pub version: Option<CncVersion>,
 }
 
-/// Where in an array with something for each class.
+/// The index of a class in an array with one item per class.
 pub(in crate::simulator) const fn class_place(class: Class) -> usize {
     match class {
         Class::PositionController => 0,

@@ -17,7 +17,7 @@ pub struct ScriptConfig {
     pub requests: Vec<ServiceRequest>,
     /// How often the list is repeated.
     pub repeat: Repeat,
-    /// The time between two requests.
+    /// Parses requests per second; returns the time between two.
     pub pause: Duration,
     /// The time for each write or read of a variable; at least a microsecond.
     pub cycle: Duration,

@@ -8,23 +8,22 @@ use crate::gate::NET_ID;
 
 #[derive(Clone, Copy, Debug)]
 pub struct ServerOptions {
-    /// The AMS NetId it answers for.
     pub net_id: AmsNetId,
-    /// How long a connection may be without a whole request before it is ended; for ever if none.
-    /// Clients that are gone without a word would take the places of others.
+    /// Time without a complete request after which a connection is closed; `None` for no limit.
+    /// Otherwise vanished clients would block connections.
     pub idle: Option<Duration>,
-    /// How long a new connection may be without its first whole request, and any connection with a
-    /// part of one; for ever if none. Clients that open connections only, or leave requests half
-    /// sent, lock others out no longer than that. Clients that have sent a request may, for `idle`,
-    /// and those that read slowly, for as long as they read.
+    /// Time without the first complete request, or with an incomplete request, after which a
+    /// connection is closed; `None` for no limit. Clients that only connect, or send half a
+    /// request, do not block others for longer. Clients that have sent a request are subject to
+    /// `idle`, and those that read slowly may do so.
     pub frame: Option<Duration>,
 }
 
 impl ServerOptions {
-    /// Ten minutes without a request: people who wait for the next have come back by then.
+    /// Ten minutes: long enough for a user who enters requests by hand.
     pub const IDLE: Duration = Duration::from_secs(600);
 
-    /// Ten seconds for a frame, and for the first: a frame is one write of its client.
+    /// Ten seconds: a client writes a frame at once.
     pub const FRAME: Duration = Duration::from_secs(10);
 }
 

@@ -9,10 +9,10 @@ use ads_cnc::{CncString, Decode as _};
 use crate::judge::{Rule, Step, Stop};
 use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
 
-/// The most parameters of a kind that are looked at.
+/// Maximum number of parameters of a kind that are tried.
 pub(super) const PARAMETERS_MAX: u32 = 1_000;
 
-/// What the names of a kind begin with, and its name.
+/// The prefix of the names of a kind, which is also its name.
 pub(super) const fn prefix(kind: DynamicKind) -> &'static str {
     match kind {
         DynamicKind::P => "P",
@@ -22,13 +22,13 @@ pub(super) const fn prefix(kind: DynamicKind) -> &'static str {
     }
 }
 
-/// How many there are, if the target says; that is judged elsewhere.
+/// The number of parameters, if the target returns it; other cases judge it.
 pub(super) fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<u32> {
     let count = probe.try_read::<DynamicCount>(CountDynamic::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0))
 }
 
-/// Every kind of every channel that has a parameter.
+/// Calls a function for every kind of every channel that has a parameter.
 pub(super) fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, DynamicKind, u32) -> Step,
@@ -60,10 +60,10 @@ pub(super) fn names_of(
     let mut all = Vec::new();
     for index in 1..=count {
         let request = DynamicNameByIndex::new(channel, kind, index)?;
-        // Where one is not there, none is behind it.
+        // A missing index ends the list.
         let Some(data) = probe.try_ask(request)? else { break };
         let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
-        // One that leaves no room for its NUL cannot be asked for.
+        // A name without room for its NUL cannot be requested.
         let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
         all.extend(name.map(|name| (index, name)));
     }
@@ -77,7 +77,7 @@ pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) 
     first.map(|(_, name)| name).ok_or_else(lacks)
 }
 
-/// Sends what must be rejected, beside a request that differs by the fault only and is answered.
+/// Sends a request that must be rejected, and one without the fault that is answered.
 pub(super) fn rejects_steadily<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

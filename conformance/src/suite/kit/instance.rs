@@ -14,12 +14,12 @@ pub(crate) struct Instance {
     /// The elements without element 0, which holds their number: whether the number counts it is not
     /// documented.
     pub(crate) count: u32,
-    /// The elements that cases look at.
+    /// The number of elements that cases read.
     pub(super) reached: u32,
 }
 
 impl Instance {
-    /// Whether its number counts element 0.
+    /// Whether the reported number includes element 0.
     pub(crate) const fn counts_itself(&self) -> bool {
         self.reported > self.count
     }

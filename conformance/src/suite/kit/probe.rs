@@ -346,8 +346,7 @@ pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
     }
 }
 
-/// The answer to a request, if the target claims to have one: whether it gives one is judged
-/// elsewhere.
+/// The data of a request, if its function is claimed: other cases judge whether it is answered.
 pub(crate) fn ask_if_claimed<'a>(
     probe: &mut Probe<'_>,
     request: impl Into<Request<'a>>,

@@ -27,7 +27,7 @@ pub struct TargetState {
     pub(in crate::suite) objects: Option<Vec<Object>>,
     /// Its instances, read when a case first needs them.
     pub(in crate::suite) instances: Option<Vec<Instance>>,
-    /// The CNC itself, if it is in this process.
+    /// The simulated CNC, if it is in this process.
     pub(in crate::suite) cnc: Option<Arc<Cnc>>,
     /// Requests sent.
     pub frames: usize,

@@ -38,7 +38,7 @@ pub(super) fn cases() -> Vec<Case> {
     cases.filter(|case| !case.requirements.is_empty()).collect()
 }
 
-/// Goes through a sequence.
+/// Plays a sequence.
 pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
     let done = match &sequence.given {
         Given::Streaming(given) => wire::stream(probe, given, &sequence.cited()),

@@ -2,13 +2,13 @@
 
 use crate::judge::Stop;
 
-/// What is at fault: its class, and the step.
+/// The class of a fault, and its step.
 pub type Fault<'c> = Option<(&'static str, &'c str)>;
 
-/// How a step ends that does not go as stated, or cannot be done.
+/// Why a step fails.
 #[derive(Debug)]
 pub enum Otherwise {
-    /// What was expected, and what was there.
+    /// The expected and the actual result.
     Differs(String, String),
     Stop(Stop),
 }
@@ -19,7 +19,7 @@ impl From<Stop> for Otherwise {
     }
 }
 
-/// What the simulated CNC rejects from within is a mistake of the suite.
+/// An error of the simulated CNC in a direct call is an error of the suite.
 impl<E: std::error::Error> From<E> for Otherwise {
     fn from(error: E) -> Self {
         Self::Stop(error.into())
@@ -28,12 +28,12 @@ impl<E: std::error::Error> From<E> for Otherwise {
 
 pub type Done<T> = Result<T, Otherwise>;
 
-/// A step that does not go as stated.
+/// The error of a step with another result.
 pub fn differs<T>(expected: impl ToString, found: impl ToString) -> Done<T> {
     Err(Otherwise::Differs(expected.to_string(), found.to_string()))
 }
 
-/// That a sequence lacks what its kind has.
+/// The error of a sequence without a required part.
 pub(super) fn lacks(what: &str) -> Otherwise {
     Otherwise::Stop(Stop::Harness(format!("a step lacks its {what}")))
 }

@@ -33,11 +33,10 @@ pub(super) const ONE: [u8; 4] = [1, 0, 0, 0];
 
 pub(super) const NONE: [u8; 4] = [0; 4];
 
-/// Each byte another.
+/// All bytes differ.
 pub(super) const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
-/// Uses the interface of the first channel that has one from both sides, and leaves it as at the
-/// start.
+/// Uses the first interface from both sides, and restores its initial state.
 pub(super) fn within(
     probe: &mut Probe<'_>,
     then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
@@ -47,7 +46,7 @@ pub(super) fn within(
     within_at(probe, channel, then)
 }
 
-/// As [`within`], of any channel.
+/// Like [`within`], for any channel.
 pub(super) fn within_at(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -55,7 +54,7 @@ pub(super) fn within_at(
 ) -> Step {
     let cnc = probe.cnc()?;
     let number = channel.number();
-    // What asks there of itself asks nothing meanwhile.
+    // The model's own script is stopped meanwhile.
     let script = cnc.with_script(number, |script| script.cloned())?;
     let empty = || -> Step {
         cnc.set_script(number, None)?;

@@ -238,7 +238,7 @@ pub(super) fn reset(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// A comment of so many bytes, with its line end.
+/// A comment with this number of bytes, including its line end.
 pub(super) fn comment(len: usize) -> Vec<u8> {
     let mut line = vec![b'('];
     line.resize(len.saturating_sub(3), b'-');

@@ -13,10 +13,11 @@ use super::variables::{self, handle_span};
 use super::{items, parameters, programs};
 use crate::edition::{CncVersion, Feature};
 
-/// Platform axes, spindles and places of a channel: what index groups and handles have room for.
+/// Maximum number of platform axes, spindles and axes of a channel that fits into index groups and
+/// handles.
 pub(super) const INSTANCES_MAX: usize = 255;
 
-/// What channels are built with.
+/// Inputs for building channels.
 pub(super) struct Channels<'a> {
     pub(super) source: Source<'a>,
     pub(super) axes: &'a [AxisModel],

@@ -13,7 +13,7 @@ use super::super::{ModelError, class_place};
 use super::parse::text;
 use crate::simulator::to_len;
 
-/// The most bytes of a content: what a frame has room for beside a result and a length.
+/// Maximum size of a content in bytes, so that it fits into a frame after result and length.
 const CONTENT_MAX: usize = 0xFFF8;
 
 /// Size of a STRING without a declared size (VAR-25).

@@ -9,12 +9,12 @@ use crate::simulator::model::ModelError;
 use crate::simulator::model::error::Source;
 use crate::text::duration;
 
-/// CP1252.
+/// Parses a text as CP1252.
 pub(super) fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelError> {
     text.get_ref().parse().map_err(|error| source.error(&text.span(), error))
 }
 
-/// A number and its unit.
+/// Parses a number with a unit of time.
 pub(super) fn time(source: Source<'_>, given: &Spanned<String>) -> Result<Duration, ModelError> {
     duration(given.get_ref()).map_err(|why| source.error(&given.span(), why))
 }

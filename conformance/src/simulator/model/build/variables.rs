@@ -239,7 +239,7 @@ fn starts_with(name: &CncString, kind: &str) -> bool {
     name.as_bytes().starts_with(kind.as_bytes())
 }
 
-/// Whether it encodes, whatever it is.
+/// Checks that a value can be encoded.
 fn encodes(what: &impl ads_cnc::Encode) -> Result<(), String> {
     what.encode_to_vec().map(drop).map_err(|error| error.to_string())
 }

@@ -33,7 +33,7 @@ impl Probe<'_> {
                 let found =
                     || format!("what differs by that alone is refused too: {}", accepted.result());
                 for rule in rules {
-                    // What is assumed of the sibling may well be done otherwise.
+                    // A sibling that is only assumed may be rejected too.
                     let verdict = match rule.level {
                         Some(Level::Must) => Verdict::Vacuous,
                         Some(level) => Verdict::missed(level),
@@ -58,7 +58,7 @@ impl Probe<'_> {
                 self.check(&rules, data.is_empty(), expected, &exchange);
             }
             None => {
-                // Silence is no way to refuse, however little is documented of the request.
+                // A missing reply is never permitted, even to an undocumented request.
                 let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
                 let rules: Vec<Rule> = rules.into_iter().map(must).collect();
                 self.check(&rules, false, expected, &exchange);
