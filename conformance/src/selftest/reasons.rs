@@ -1,6 +1,6 @@
 //! Why some defects may survive.
 
-use super::{Outcomes, SelfTestGroup, Tried};
+use super::tried::{Outcomes, SelfTestGroup, Tried};
 
 /// Group, beginning of the ID, and why nothing can tell.
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[(

@@ -8,202 +8,23 @@
 //! them.
 
 mod check;
+mod device;
+mod found;
 mod requests;
 mod table;
 mod witness;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Arc, Mutex, OnceLock};
 
-use ads_cnc::address::{Channel, ChannelAxis};
+use crate::faults::Seed;
+use crate::judge::Verdict;
+use crate::session::Trouble;
 
-use crate::edition::Edition;
-use crate::faults::{Faulty, Seed};
-use crate::gate::{Allowed, Entry, Gate, Moment};
-use crate::judge::{CaseOutcome, Needs, Selection, Verdict};
-use crate::objects::{self, Object, Options};
-use crate::profile::Profile;
-use crate::session::{self, Trouble};
-use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
-use crate::suite;
-use crate::text::named;
-
-use super::Outcomes;
+use super::tried::{Outcomes, judge};
 pub use check::{CheckedTable, SAMPLE, Scope};
+use device::{answers, devices};
+pub use found::{Detection, Found, Mode};
 pub use table::{DetectionRow, DetectionTable, Figures, inputs};
-
-/// How the suite is run against a device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Mode {
-    /// Queries only, and no profile.
-    ReadOnly,
-    /// Queries only, with a profile that tells everything about the device.
-    Profiled,
-    /// Without a profile; a file for `--allow-write` names every writable value.
-    Writes,
-    /// Such a file, the full profile, and malformed requests.
-    All,
-}
-
-named! { Mode: ReadOnly "read-only", Profiled "profiled", Writes "writes", All "all", }
-
-impl Mode {
-    const fn has_profile(self) -> bool {
-        matches!(self, Self::Profiled | Self::All)
-    }
-
-    fn gate(self, allowed: &Allowed) -> Gate {
-        let gate = Gate::queries();
-        match self {
-            Self::ReadOnly | Self::Profiled => gate,
-            Self::Writes => gate.with_allowed(Some(allowed.clone())),
-            Self::All => {
-                let allowed = Allowed { malformed: true, ..allowed.clone() };
-                gate.with_allowed(Some(allowed)).and_malformed()
-            }
-        }
-    }
-}
-
-/// What came of one defect in one mode.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Detection {
-    /// How it came out.
-    pub result: Found,
-    pub requirements: BTreeSet<String>,
-    pub cases: BTreeSet<String>,
-}
-
-/// How a defect came out in one mode.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Found {
-    /// A requirement that its row declares broken fails.
-    Caught,
-    /// Only other requirements fail.
-    Elsewhere,
-    /// Nothing fails. This request would have shown it.
-    Missed(String),
-    /// Nothing fails, and no request that the mode may send tells it from a right CNC: from the one
-    /// without a defect, or from that of this witness.
-    Undetectable(String),
-    /// Of a correct variant: nothing fails, as it should be.
-    Quiet,
-    /// Of a correct variant: something fails.
-    Alarm,
-}
-
-/// A CNC to run the suite against, without a defect.
-struct Device {
-    model: &'static str,
-    settings: Settings,
-    profile: Profile,
-    /// Every writable value, but for the numbers of axes.
-    allowed: Allowed,
-    /// The answers that a CNC without a defect gives, by what its gate lets through.
-    right: [OnceLock<Vec<u64>>; 3],
-    /// Its correct variants, mode by mode.
-    variants: Mutex<BTreeMap<Mode, witness::Variants>>,
-}
-
-impl Device {
-    fn new(model: &'static str, settings: Settings) -> Result<Self, Trouble> {
-        let internal = |error| Trouble::Internal(format!("the model: {error}"));
-        let built = Model::with_settings(model, "the model", settings).map_err(internal)?;
-        let profile = built.profile();
-        let allowed = everything_writable(Cnc::new(built), &profile)?;
-        Ok(Self {
-            model,
-            settings,
-            profile,
-            allowed,
-            right: Default::default(),
-            variants: Mutex::default(),
-        })
-    }
-
-    /// The CNC of the default model, by an edition.
-    fn of_edition(edition: Edition) -> Result<&'static Self, Trouble> {
-        static ENGLISH: OnceLock<Device> = OnceLock::new();
-        static GERMAN: OnceLock<Device> = OnceLock::new();
-        let device = match edition {
-            Edition::German => &GERMAN,
-            _ => &ENGLISH,
-        };
-        if device.get().is_none() {
-            let settings = Settings { edition: Some(edition), version: None };
-            // Another thread may have been faster, with the same.
-            let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
-        }
-        device.get().ok_or_else(|| Trouble::Internal("no device".to_owned()))
-    }
-
-    /// A CNC of it, with this defect if there is one.
-    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
-        let internal = |error| Trouble::Internal(format!("the model: {error}"));
-        let model = Model::with_settings(self.model, "the model", self.settings);
-        let cnc = Cnc::new(model.map_err(internal)?).with_stopped_clock();
-        Ok(Arc::new(Faulty::new(cnc, seed)))
-    }
-
-    /// The answers of the CNC without a defect to every request that a mode may send.
-    fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
-        let [queries, writes, all] = &self.right;
-        let right = match mode {
-            Mode::ReadOnly | Mode::Profiled => queries,
-            Mode::Writes => writes,
-            Mode::All => all,
-        };
-        if right.get().is_none() {
-            let _same = right.set(witness::answers(self, None, mode, None)?.answers);
-        }
-        Ok(right.get().map_or(&[], Vec::as_slice))
-    }
-
-    /// What the suite finds, run as a user runs it.
-    fn outcomes(&self, seed: Option<&Seed>, mode: Mode) -> Result<Vec<CaseOutcome>, Trouble> {
-        let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
-        let mut session = session::Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
-        if session.greet(&profile).is_err() {
-            // There is no report of a device that answers nothing.
-            return Ok(Vec::new());
-        }
-        let (client, _) = session.into_parts();
-        let mut session = suite::TargetState::new(client, profile);
-        let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
-        let plan = Selection::default().plan(cases, 1);
-        let plan = plan.map_err(|error| Trouble::Internal(error.to_string()))?;
-        let outcomes = suite::run(plan.cases.clone(), Some(&mut session), None, 1);
-        Ok(plan.finish(outcomes).0)
-    }
-}
-
-/// What a file for `--allow-write` would name: each value that the CNC says can be written, with
-/// what it does not list.
-fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
-    let cnc = Arc::new(cnc.with_stopped_clock());
-    let mut session = session::Session::in_process(cnc, Gate::queries())?;
-    let mut entries = Vec::new();
-    for variables in [false, true] {
-        let options = Options { variables, exact: true, ..Options::default() };
-        let found = objects::walk(&mut session, &options, &mut |_| {})?;
-        let writable = found.objects.iter().filter(|one| one.is_writable());
-        let writable = writable.filter(|one| !profile.leaves(&one.name.to_string()));
-        entries.extend(writable.map(Object::entry));
-    }
-    let parse = |name: &str| name.parse().map_err(|_| Trouble::Internal(name.to_owned()));
-    for channel in profile.channels.iter().filter_map(|&number| Channel::new(number).ok()) {
-        entries.extend([Entry::Stream(channel), Entry::Service(channel)]);
-        for axis in (1..=3).filter_map(|place| ChannelAxis::new(place).ok()) {
-            let name = parse("V.A.WCS")?;
-            entries.push(Entry::Variable { channel, axis: Some(axis), name });
-        }
-        for name in profile.by_name_only.iter() {
-            entries.push(Entry::Variable { channel, axis: None, name: parse(name)? });
-        }
-    }
-    let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
-    Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
-}
 
 /// Measures a defect, or a correct variant, in every mode.
 ///
@@ -226,23 +47,10 @@ pub fn hash(seed: &Seed) -> Result<String, Trouble> {
     let mut text = format!("{id} {requirements:?} {what} {edition:?}");
     for device in devices.iter().take(1) {
         let right = device.correct_answers(Mode::All)?;
-        let answers = witness::answers(device, Some(seed), Mode::All, Some(right))?.answers;
+        let answers = answers(device, Some(seed), Mode::All, Some(right))?.answers;
         text = format!("{text} {answers:?}");
     }
     Ok(table::hash(&text))
-}
-
-/// The CNCs that a defect is tried on: that of the edition that it shows in, or of both; of a
-/// variant with a model of its own that one.
-fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
-    if let Some(model) = seed.own_model() {
-        return witness::of_model(model).map(|device| vec![device]);
-    }
-    let editions = match seed.edition {
-        Some(edition) => vec![edition],
-        None => vec![Edition::English, Edition::German],
-    };
-    editions.into_iter().map(Device::of_edition).collect()
 }
 
 /// What the suite finds of a defect in a mode: on the CNC of each edition, up to the first on which
@@ -252,11 +60,11 @@ fn detect(seed: &Seed, mode: Mode) -> Result<Detection, Trouble> {
     let mut outcomes = Vec::new();
     for device in &devices {
         outcomes.extend(device.outcomes(Some(seed), mode)?);
-        if super::judge(&seed.requirements, &outcomes).1 == Outcomes::Caught {
+        if judge(&seed.requirements, &outcomes).1 == Outcomes::Caught {
             break;
         }
     }
-    let (failed, result) = super::judge(&seed.requirements, &outcomes);
+    let (failed, result) = judge(&seed.requirements, &outcomes);
     let result = match result {
         Outcomes::Caught | Outcomes::Elsewhere if witness::is_right(seed).is_some() => Found::Alarm,
         Outcomes::Caught => Found::Caught,
