@@ -1,7 +1,5 @@
 //! Instances and elements of SDA and GEO, held together.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::CncStr;
 use ads_cnc::address::{Addressing, Attribute, AxisStride, Class, Group, IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, FindInstance, Reply, Request};
@@ -9,22 +7,8 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
 
 use super::super::findings::{Observation, Topic};
-use super::Bench;
+use super::observed::Bench;
 use crate::judge::{Checks as _, Rule, assumed, online};
-
-/// What is known of the elements of a CNC.
-#[derive(Debug, Default)]
-pub(super) struct ObservedElements {
-    /// By the group of the content, and the offset.
-    known: BTreeMap<(u32, u32), ObservedElement>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct ObservedElement {
-    data_type: Option<DataType>,
-    length: Option<u32>,
-    writable: Option<bool>,
-}
 
 /// The types that are printed for elements.
 fn is_known(name: CncStr<'_>) -> bool {

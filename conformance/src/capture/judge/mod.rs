@@ -3,6 +3,7 @@
 mod elements;
 mod gaps;
 mod objects;
+mod observed;
 mod pair;
 mod parameters;
 mod replies;
@@ -18,7 +19,7 @@ use std::time::Duration;
 use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request, Task};
 
-use self::pair::Early;
+use self::observed::{Bench, ObservedCnc, Room};
 use super::findings::{Location, Observation, Topic, TopicRecords};
 use super::frames::Span;
 use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
@@ -58,26 +59,15 @@ struct Lost {
     unasked: Vec<CapturedFrame>,
 }
 
-/// What is known of one CNC.
+/// Answers without a request, in the order of the capture.
 #[derive(Debug, Default)]
-struct ObservedCnc {
-    objects: objects::Objects,
-    elements: elements::ObservedElements,
-    parameters: parameters::ObservedParameters,
-    variables: variables::Variables,
-    streams: streaming::Streams,
-    services: service::Services,
-}
-
-impl ObservedCnc {
-    /// Of a CNC that may have been sent requests before the capture began.
-    fn new(is_lost: bool) -> Self {
-        Self {
-            streams: streaming::Streams::new(is_lost),
-            services: service::Services::new(is_lost),
-            ..Self::default()
-        }
-    }
+struct Early {
+    all: BTreeMap<u64, CapturedFrame>,
+    /// Their numbers by invoke ID.
+    ids: BTreeSet<(u32, u64)>,
+    /// Their numbers by connection.
+    connections: BTreeSet<(u64, u64)>,
+    bytes: usize,
 }
 
 #[derive(Debug)]
@@ -106,35 +96,6 @@ pub(super) struct TrafficJudge {
     /// The last packet of which a frame came.
     newest: u64,
     room: Room,
-}
-
-/// Memory for the names, objects and elements of all CNCs.
-#[derive(Debug)]
-struct Room {
-    left: usize,
-    /// How many were not kept.
-    missed: u64,
-}
-
-impl Room {
-    const ALL: usize = 0x180_0000;
-
-    /// Whether there is room for one more of this size, beside what each takes.
-    fn take(&mut self, bytes: usize) -> bool {
-        let left = self.left.checked_sub(bytes.saturating_add(512));
-        match left {
-            Some(left) => self.left = left,
-            None => count(&mut self.missed),
-        }
-        left.is_some()
-    }
-}
-
-/// What a judgement of one exchange needs.
-struct Bench<'j> {
-    records: &'j mut TopicRecords,
-    cnc: &'j mut ObservedCnc,
-    room: &'j mut Room,
 }
 
 /// Whether a frame is for a task of a CNC.

@@ -1,11 +1,9 @@
 //! Which answer belongs to which request, in whatever order they were captured.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::super::findings::{Observation, Topic};
 use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, TrafficJudge, is_cnc, location, service_clause};
+use super::{CapturedFrame, Early, TrafficJudge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Requests of a connection that wait for their answers, and bytes of those of all connections; of
@@ -27,17 +25,6 @@ const ALIKE_MAX: usize = 512;
 /// Answers to nothing that are shown of a connection, and bytes of each; the others are counted.
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
-
-/// Answers without a request, in the order of the capture.
-#[derive(Debug, Default)]
-pub(super) struct Early {
-    all: BTreeMap<u64, CapturedFrame>,
-    /// Their numbers by invoke ID.
-    ids: BTreeSet<(u32, u64)>,
-    /// Their numbers by connection.
-    connections: BTreeSet<(u64, u64)>,
-    bytes: usize,
-}
 
 impl Early {
     fn push(&mut self, reply: CapturedFrame) {

@@ -1,19 +1,10 @@
 //! Dynamic parameters, held together.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::operation::{Call, Reply, Request};
 
 use super::super::findings::{Observation, Topic};
-use super::{Bench, Room};
+use super::observed::{Bench, ObservedParameters, Room};
 use crate::judge::Checks as _;
-
-/// What is known of the dynamic parameters of a CNC.
-#[derive(Debug, Default)]
-pub(super) struct ObservedParameters {
-    /// By index group and kind.
-    counts: BTreeMap<(u32, String), u32>,
-}
 
 impl ObservedParameters {
     /// Forgets nothing but what changes: indices move (DYN-4), so names are not kept.

@@ -1,48 +1,13 @@
 //! The variables of the Service Interface, in their order.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::service::ServiceVariable;
 
 use super::super::findings::{Observation, Topic, TopicRecord};
-use super::Bench;
+use super::observed::{Bench, ObservedInterface, Services};
 use super::requests::name_of;
 use crate::judge::{Checks as _, assumed};
-
-/// What is known of the Service Interface of each channel, by its index group.
-#[derive(Debug, Default)]
-pub(super) struct Services {
-    known: BTreeMap<u32, ObservedInterface>,
-    /// Whether requests before may not have been captured.
-    is_lost: bool,
-}
-
-impl Services {
-    pub(super) const fn new(is_lost: bool) -> Self {
-        Self { known: BTreeMap::new(), is_lost }
-    }
-}
-
-/// One channel's, as a client left it.
-#[derive(Debug, Default)]
-struct ObservedInterface {
-    /// More may have been read and written than was captured, for what is asked now.
-    is_lost: bool,
-    /// A service has read that it is asked, and who is.
-    read_state: bool,
-    read_id: bool,
-    /// The response, REQUEST_STATE = 0 and RESPONSE_STATE were written for what is asked now.
-    response: bool,
-    reset: bool,
-    answered: bool,
-    /// A client that plays the program has written these.
-    wrote_id: bool,
-    wrote_request: bool,
-    /// REQUEST_STATE was written last, and nothing of the answer since.
-    asked: bool,
-}
 
 impl Bench<'_> {
     pub(super) fn service(

@@ -1,7 +1,5 @@
 //! NC text on its way to the stream of a channel.
 
-use std::collections::BTreeMap;
-use std::fmt;
 use std::time::Duration;
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
@@ -9,39 +7,11 @@ use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 
 use super::super::findings::{Observation, Topic};
-use super::Bench;
+use super::observed::Bench;
 use crate::judge::{Checks as _, assumed};
 
 /// Who has been refused and writes nothing for as long has given up.
 const GIVEN_UP: Duration = Duration::from_secs(30);
-
-/// What is known of the streams of a CNC, by the index group of the channel.
-#[derive(Debug, Default)]
-pub(super) struct Streams {
-    known: BTreeMap<u32, ObservedStream>,
-    /// Whether what was written before may not have been captured.
-    is_lost: bool,
-}
-
-impl Streams {
-    pub(super) const fn new(is_lost: bool) -> Self {
-        Self { known: BTreeMap::new(), is_lost }
-    }
-}
-
-#[derive(Default)]
-struct ObservedStream {
-    /// What was refused last, and when.
-    refused: Option<(Vec<u8>, Option<super::Time>)>,
-    /// What is wrong with the program so far; none while its beginning is not known.
-    checker: Option<Checker>,
-}
-
-impl fmt::Debug for ObservedStream {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ObservedStream").field("refused", &self.refused).finish_non_exhaustive()
-    }
-}
 
 impl Bench<'_> {
     pub(super) fn stream(

@@ -1,36 +1,16 @@
 //! Numbers, descriptions and handles of variables, held together.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::findings::{Observation, Topic};
 use super::super::target::TargetVariable;
-use super::{Bench, Room};
+use super::observed::{Bench, ChannelVariables, Room, Variables};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
 
 /// Channels that are told apart.
 const CHANNELS_MAX: usize = 512;
-
-/// What is known of the variables of a CNC.
-#[derive(Debug, Default)]
-pub(super) struct Variables {
-    /// By the index group of the channel.
-    channels: BTreeMap<u32, ChannelVariables>,
-}
-
-#[derive(Debug, Default)]
-struct ChannelVariables {
-    /// By kind; that of no kind is the sum.
-    counts: BTreeMap<String, u32>,
-    /// By name: with the kind and index it was described at.
-    described: BTreeMap<String, (Description, String, u32)>,
-    handles: BTreeMap<u32, String>,
-    /// The first handle of each name.
-    names: BTreeMap<String, u32>,
-}
 
 impl ChannelVariables {
     /// Keeps the name of a handle, if there is room for a new one.
