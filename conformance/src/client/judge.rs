@@ -1,9 +1,9 @@
 //! What is wrong with frames themselves.
 
-use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
+use ads_cnc::ads::{AmsHeader, FrameRef};
 
 use super::Client;
-use crate::exchange::{Exchange, ExchangeError, Violation};
+use crate::exchange::{Exchange, ExchangeError, Violation, violations};
 use crate::wire_service::{clause, reply_stream};
 
 impl Client {
@@ -52,25 +52,4 @@ impl Client {
         }
         exchange.violations.append(&mut broken);
     }
-}
-
-/// What of ADS-5 the response's header does not keep.
-pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
-    let checks = [
-        (
-            got.command == sent.command,
-            format!("command {} answered by {}", sent.command.0, got.command.0),
-        ),
-        (
-            got.state_flags == StateFlags::RESPONSE,
-            format!("state flags {:#06x} instead of 0x0005", got.state_flags.0),
-        ),
-        (
-            got.target == sent.source,
-            format!("answered to {}, asked by {}", got.target, sent.source),
-        ),
-        (got.source == sent.target, format!("answered by {}, asked {}", got.source, sent.target)),
-    ];
-    let broken = checks.into_iter().filter(|(kept, _)| !kept);
-    broken.map(|(_, what)| Violation { requirement: "ADS-5", what }).collect()
 }

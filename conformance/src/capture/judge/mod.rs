@@ -26,8 +26,8 @@ use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
 use super::tally::{CaptureTally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
-use crate::client::{answer, violations};
-use crate::exchange::{Exchange, ExchangeError};
+use crate::client::answer;
+use crate::exchange::{Exchange, ExchangeError, violations};
 use crate::judge::{CaseOutcome, Checks as _, assumed};
 use crate::wire_service;
 
