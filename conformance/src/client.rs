@@ -23,7 +23,6 @@ use crate::text::Moment;
 use crate::wire_service::{decode_reply, service_of};
 
 pub use inquiry::{Inquired, Inquiry, InquiryReply};
-pub(crate) use judge::violations;
 pub use tap::Tap;
 pub use target::Target;
 pub(crate) use target::net_id_of;

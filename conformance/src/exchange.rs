@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ads_cnc::Error;
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{AdsError, AmsHeader, AmsPort};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
 use ads_cnc::operation::{Call, Service};
 
 use crate::gate::Refusal;
@@ -208,4 +208,25 @@ impl From<&Exchange> for Evidence {
         };
         evidence.cut(&exchange.sent, &exchange.received)
     }
+}
+
+/// What of ADS-5 the response's header does not keep.
+pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
+    let checks = [
+        (
+            got.command == sent.command,
+            format!("command {} answered by {}", sent.command.0, got.command.0),
+        ),
+        (
+            got.state_flags == StateFlags::RESPONSE,
+            format!("state flags {:#06x} instead of 0x0005", got.state_flags.0),
+        ),
+        (
+            got.target == sent.source,
+            format!("answered to {}, asked by {}", got.target, sent.source),
+        ),
+        (got.source == sent.target, format!("answered by {}, asked {}", got.source, sent.target)),
+    ];
+    let broken = checks.into_iter().filter(|(kept, _)| !kept);
+    broken.map(|(_, what)| Violation { requirement: "ADS-5", what }).collect()
 }

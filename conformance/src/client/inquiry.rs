@@ -7,8 +7,8 @@ use ads_cnc::ads::{
     AdsError, AmsHeader, AmsPort, Command, DeviceInfoReply, DeviceStateReply, FrameRef, WriteReply,
 };
 
-use super::{Client, violations};
-use crate::exchange::{ExchangeError, Violation};
+use super::Client;
+use crate::exchange::{ExchangeError, Violation, violations};
 use crate::judge::Evidence;
 
 /// A command whose request has no data; `Self` is its reply.

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
+use ads_cnc::ads::{AmsHeader, FrameRef};
 
 use super::Client;
-use crate::exchange::{Exchange, ExchangeError, Violation};
+use crate::exchange::{Exchange, ExchangeError, Violation, violations};
 use crate::wire_service::{clause, reply_stream};
 
 impl Client {
@@ -54,24 +54,4 @@ impl Client {
         }
         exchange.violations.append(&mut broken);
     }
-}
-
-/// The rules of ADS-5 that the response's header breaks.
-pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
-    let mut broken = Vec::new();
-    let mut check = |kept: bool, what: fmt::Arguments<'_>| {
-        if !kept {
-            broken.push(Violation { requirement: "ADS-5", what: what.to_string() });
-        }
-    };
-    let (ask, reply) = (sent.command, got.command);
-    check(reply == ask, format_args!("command {} answered by {}", ask.0, reply.0));
-    let flags = got.state_flags;
-    let is_response = flags == StateFlags::RESPONSE;
-    check(is_response, format_args!("state flags {:#06x} instead of 0x0005", flags.0));
-    let (to, from) = (got.target, sent.source);
-    check(to == from, format_args!("answered to {to}, asked by {from}"));
-    let (by, asked) = (got.source, sent.target);
-    check(by == asked, format_args!("answered by {by}, asked {asked}"));
-    broken
 }

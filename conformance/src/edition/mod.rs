@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod support;
 mod version;
 
 use std::fmt;
@@ -33,6 +34,7 @@ use ads_cnc::Kind;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Function, OffsetRule};
 
+pub use support::Support;
 pub use version::{CncVersion, Feature, VersionError};
 
 /// An edition of the manual on ADS access.
@@ -219,44 +221,5 @@ impl AddressedBy {
             (_, Some(Stream::VariableName | Stream::VariableNameWrite), _) => Self::Name,
             _ => Self::Other,
         }
-    }
-}
-
-/// Whether an edition or a version has a feature, and the requirement that states it.
-///
-/// ```
-/// use ads_cnc::Kind;
-/// use ads_cnc::operation::Function;
-/// use ads_cnc_conformance::edition::Edition;
-///
-/// let support = Edition::German.permits(Function::WriteByHandle, Kind::V_S, None);
-/// assert_eq!((support.available, support.assumed), (false, false));
-/// assert_eq!(support.to_string(), "no (VAR-18)");
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Support {
-    /// Whether it is available.
-    pub available: bool,
-    /// The requirement that decides it.
-    pub requirement: &'static str,
-    /// The requirement does not document it: a CNC may do otherwise.
-    pub assumed: bool,
-}
-
-impl Support {
-    const fn documented(available: bool, requirement: &'static str) -> Self {
-        Self { available, requirement, assumed: false }
-    }
-
-    const fn assumed(available: bool, requirement: &'static str) -> Self {
-        Self { available, requirement, assumed: true }
-    }
-}
-
-impl fmt::Display for Support {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { available, requirement, assumed } = *self;
-        let available = if available { "yes" } else { "no" };
-        write!(f, "{available} ({requirement}{})", if assumed { ", assumed" } else { "" })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::net::SocketAddr;
 
-use super::{Candidate, SelfTestGroup};
+use super::tried::{Candidate, SelfTestGroup};
 use crate::clients::{ClientDefect, TestServer, defects, habits, trial};
 use crate::judge::CaseOutcome;
 use crate::session::Trouble;

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ads_cnc::layout::Stream;
 
-use super::{Candidate, SelfTestGroup};
+use super::tried::{Candidate, SelfTestGroup};
 use crate::faults::{self, Seed};
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, TESTEE};
 use crate::session::Trouble;

@@ -1,6 +1,6 @@
 //! Why some defects may survive.
 
-use super::{Outcomes, SelfTestGroup, Tried};
+use super::tried::{Outcomes, SelfTestGroup, Tried};
 
 /// Group, prefix of the ID, and why the defect is not detectable.
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[(

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Candidate, Outcomes, SelfTestGroup};
+use super::tried::{Candidate, Outcomes, SelfTestGroup, judge};
 use crate::edition::Edition;
 use crate::faults::{self, Faulty, Seed, SeedKind};
 use crate::judge::{Case, CaseOutcome, Needs};
@@ -43,7 +43,7 @@ fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, Trouble> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
     let is_caught =
-        |outcomes: &[CaseOutcome]| super::judge(&seed.requirements, outcomes).1 == Outcomes::Caught;
+        |outcomes: &[CaseOutcome]| judge(&seed.requirements, outcomes).1 == Outcomes::Caught;
     let targeted = |case: &Case| seed.requirements.iter().any(|id| case.requirements.contains(id));
     if !seed.requirements.is_empty() {
         let (outcomes, _) = run(seed, by_default, targeted)?;

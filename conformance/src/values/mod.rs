@@ -16,7 +16,9 @@ use std::fmt;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
-/// The text of a STRING up to the first NUL.
+use crate::text::escape;
+
+/// The text of a STRING: what is before the first NUL, or all.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
@@ -141,7 +143,7 @@ impl Type {
 /// The name, with the dimensions in brackets.
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&printable(&self.name))?;
+        f.write_str(&escape(&self.name))?;
         self.dimensions.iter().try_for_each(|len| write!(f, "[{len}]"))
     }
 }

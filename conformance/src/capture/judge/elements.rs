@@ -1,7 +1,5 @@
 //! Instances and elements of SDA and GEO, compared across exchanges.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::CncStr;
 use ads_cnc::address::{Addressing, Attribute, AxisStride, Class, Group, IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, FindInstance, Reply, Request};
@@ -9,24 +7,10 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
 
 use super::super::findings::{Observation, Topic};
-use super::Bench;
+use super::observed::Bench;
 use crate::judge::{Checks as _, Rule, assumed, online};
 
-/// The elements of a CNC as captured so far.
-#[derive(Debug, Default)]
-pub(super) struct ObservedElements {
-    /// By index group and index offset of the content.
-    known: BTreeMap<(u32, u32), ObservedElement>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct ObservedElement {
-    data_type: Option<DataType>,
-    length: Option<u32>,
-    writable: Option<bool>,
-}
-
-/// Whether a type is one that the manual prints for elements.
+/// The types that are printed for elements.
 fn is_known(name: CncStr<'_>) -> bool {
     let known = ["UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
     known.iter().chain(&["BOOLEAN", "STRING"]).any(|known| name == *known)

@@ -3,6 +3,7 @@
 mod elements;
 mod gaps;
 mod objects;
+mod observed;
 mod pair;
 mod parameters;
 mod replies;
@@ -18,16 +19,16 @@ use std::time::Duration;
 use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request, Task};
 
-use self::pair::Early;
+use self::observed::{Bench, ObservedCnc, Room};
 use super::findings::{Location, Observation, Topic, TopicRecords};
 use super::frames::Span;
 use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
 use super::tally::{CaptureTally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
-use crate::client::{answer, violations};
-use crate::exchange::{Exchange, ExchangeError};
-use crate::judge::{CaseOutcome, Checks as _, Describe, assumed};
+use crate::client::answer;
+use crate::exchange::{Exchange, ExchangeError, violations};
+use crate::judge::{CaseOutcome, Checks as _, assumed};
 use crate::wire_service;
 
 /// Maximum number of CNCs that are distinguished.
@@ -58,26 +59,15 @@ struct Lost {
     unasked: Vec<CapturedFrame>,
 }
 
-/// The state of a CNC as captured so far.
+/// Answers without a request, in the order of the capture.
 #[derive(Debug, Default)]
-struct ObservedCnc {
-    objects: objects::Objects,
-    elements: elements::ObservedElements,
-    parameters: parameters::ObservedParameters,
-    variables: variables::Variables,
-    streams: streaming::Streams,
-    services: service::Services,
-}
-
-impl ObservedCnc {
-    /// `is_lost`: requests to it before the capture began are possible.
-    fn new(is_lost: bool) -> Self {
-        Self {
-            streams: streaming::Streams::new(is_lost),
-            services: service::Services::new(is_lost),
-            ..Self::default()
-        }
-    }
+struct Early {
+    all: BTreeMap<u64, CapturedFrame>,
+    /// Their numbers by invoke ID.
+    ids: BTreeSet<(u32, u64)>,
+    /// Their numbers by connection.
+    connections: BTreeSet<(u64, u64)>,
+    bytes: usize,
 }
 
 #[derive(Debug)]
@@ -108,36 +98,7 @@ pub(super) struct TrafficJudge {
     room: Room,
 }
 
-/// The memory left for names, objects and elements of all CNCs.
-#[derive(Debug)]
-struct Room {
-    left: usize,
-    /// Number of entries that were not stored.
-    missed: u64,
-}
-
-impl Room {
-    const ALL: usize = 0x180_0000;
-
-    /// Takes memory for an entry of this size plus overhead; returns whether enough was left.
-    fn take(&mut self, bytes: usize) -> bool {
-        let left = self.left.checked_sub(bytes.saturating_add(512));
-        match left {
-            Some(left) => self.left = left,
-            None => count(&mut self.missed),
-        }
-        left.is_some()
-    }
-}
-
-/// The state that the judgement of one exchange needs.
-struct Bench<'j> {
-    records: &'j mut TopicRecords,
-    cnc: &'j mut ObservedCnc,
-    room: &'j mut Room,
-}
-
-/// Whether this is the port of a task of a CNC.
+/// Whether a frame is for a task of a CNC.
 fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }

@@ -1,41 +1,13 @@
 //! Objects of COM: numbers, descriptors and contents, compared across exchanges.
 
-use std::collections::BTreeMap;
-
+use ads_cnc::DescriptorsRef;
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, ReadDescriptors, Reply, Request};
-use ads_cnc::{Descriptor, DescriptorsRef};
 
 use super::super::findings::{Observation, Topic};
-use super::Bench;
+use super::observed::{Bench, ObservedContent, ObservedList};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::suite::descriptor_holds_together;
-
-/// The objects of a CNC as captured so far.
-#[derive(Debug, Default)]
-pub(super) struct Objects {
-    /// By index group.
-    lists: BTreeMap<u32, ObservedList>,
-    /// By address of the content.
-    contents: BTreeMap<(u32, u32), ObservedContent>,
-}
-
-#[derive(Debug, Default)]
-struct ObservedList {
-    count: Option<u32>,
-    /// By index: the descriptor, and whether it was read alone.
-    known: BTreeMap<u32, (Descriptor, bool)>,
-    ids: BTreeMap<u32, u32>,
-}
-
-#[derive(Clone, Debug)]
-struct ObservedContent {
-    name: String,
-    size: u32,
-    /// Size of its type in bytes, if it is fixed.
-    type_size: Option<u32>,
-    writable: bool,
-}
 
 impl Bench<'_> {
     pub(super) fn objects(

@@ -1,11 +1,9 @@
 //! Finds the request of each reply, also if both were captured in another order.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::super::findings::{Observation, Topic};
 use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, TrafficJudge, is_cnc, location, service_clause};
+use super::{CapturedFrame, Early, TrafficJudge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Maximum number of waiting requests of a connection, and of bytes of those of all connections;
@@ -27,17 +25,6 @@ const ALIKE_MAX: usize = 512;
 /// Maximum number of shown replies without a request of a connection, and of bytes of each.
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
-
-/// Replies whose request has not been captured yet, in the order of the capture.
-#[derive(Debug, Default)]
-pub(super) struct Early {
-    all: BTreeMap<u64, CapturedFrame>,
-    /// Their numbers by invoke ID.
-    ids: BTreeSet<(u32, u64)>,
-    /// Their numbers by connection.
-    connections: BTreeSet<(u64, u64)>,
-    bytes: usize,
-}
 
 impl Early {
     fn push(&mut self, reply: CapturedFrame) {

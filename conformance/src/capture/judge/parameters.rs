@@ -1,19 +1,10 @@
 //! Dynamic parameters, compared across exchanges.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::operation::{Call, Reply, Request};
 
 use super::super::findings::{Observation, Topic};
-use super::{Bench, Room};
+use super::observed::{Bench, ObservedParameters, Room};
 use crate::judge::Checks as _;
-
-/// The numbers of dynamic parameters of a CNC as captured so far.
-#[derive(Debug, Default)]
-pub(super) struct ObservedParameters {
-    /// By index group and kind.
-    counts: BTreeMap<(u32, String), u32>,
-}
 
 impl ObservedParameters {
     /// Stores a count. Names are not stored because indices move (DYN-4).

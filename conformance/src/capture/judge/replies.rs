@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
 use ads_cnc_vectors::requirement;
 
 use super::super::findings::{Observation, Topic, TopicRecords};
-use super::Bench;
+use super::observed::Bench;
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::wire_service;

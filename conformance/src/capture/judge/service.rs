@@ -1,50 +1,13 @@
 //! The variables of the Service Interface: sizes and order of access.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::service::ServiceVariable;
 
 use super::super::findings::{Observation, Topic, TopicRecord};
-use super::Bench;
+use super::observed::{Bench, ObservedInterface, Services};
 use super::requests::name_of;
 use crate::judge::{Checks as _, assumed};
-
-/// The Service Interfaces of a CNC as captured so far, by index group of the channel.
-#[derive(Debug, Default)]
-pub(super) struct Services {
-    known: BTreeMap<u32, ObservedInterface>,
-    /// Whether requests before the first captured one are possible.
-    is_lost: bool,
-}
-
-impl Services {
-    pub(super) const fn new(is_lost: bool) -> Self {
-        Self { known: BTreeMap::new(), is_lost }
-    }
-}
-
-/// The state of one channel's interface.
-#[derive(Debug, Default)]
-struct ObservedInterface {
-    /// Accesses for the current request may be missing in the capture.
-    is_lost: bool,
-    /// The service has read REQUEST_STATE != 0, and the UUID.
-    read_state: bool,
-    read_id: bool,
-    /// The service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE for the current
-    /// request.
-    response: bool,
-    reset: bool,
-    answered: bool,
-    /// A client that acts as the NC program has written UUID and REQUEST.
-    wrote_id: bool,
-    wrote_request: bool,
-    /// A client that acts as the NC program wrote REQUEST_STATE != 0, and no RESPONSE_STATE was
-    /// written since.
-    asked: bool,
-}
 
 impl Bench<'_> {
     pub(super) fn service(

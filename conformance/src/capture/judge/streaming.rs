@@ -1,7 +1,5 @@
 //! NC text written to the program stream of a channel.
 
-use std::collections::BTreeMap;
-use std::fmt;
 use std::time::Duration;
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
@@ -9,39 +7,11 @@ use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 
 use super::super::findings::{Observation, Topic};
-use super::Bench;
+use super::observed::Bench;
 use crate::judge::{Checks as _, assumed};
 
 /// After a rejected write, a client that is silent for this long has given up.
 const GIVEN_UP: Duration = Duration::from_secs(30);
-
-/// The program streams of a CNC as captured so far, by index group of the channel.
-#[derive(Debug, Default)]
-pub(super) struct Streams {
-    known: BTreeMap<u32, ObservedStream>,
-    /// Whether earlier writes are possible that were not captured.
-    is_lost: bool,
-}
-
-impl Streams {
-    pub(super) const fn new(is_lost: bool) -> Self {
-        Self { known: BTreeMap::new(), is_lost }
-    }
-}
-
-#[derive(Default)]
-struct ObservedStream {
-    /// The packet that was rejected last, and when.
-    refused: Option<(Vec<u8>, Option<super::Time>)>,
-    /// Checks the program so far; `None` while its beginning is unknown.
-    checker: Option<Checker>,
-}
-
-impl fmt::Debug for ObservedStream {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ObservedStream").field("refused", &self.refused).finish_non_exhaustive()
-    }
-}
 
 impl Bench<'_> {
     pub(super) fn stream(

@@ -5,7 +5,7 @@ use ads_cnc::{VariableAccess, VariableType};
 
 use super::super::findings::{Observation, Topic};
 use super::super::target::TargetVariable;
-use super::Bench;
+use super::observed::Bench;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.

@@ -1,36 +1,16 @@
 //! Numbers, descriptions and handles of variables, compared across exchanges.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::findings::{Observation, Topic};
 use super::super::target::TargetVariable;
-use super::{Bench, Room};
+use super::observed::{Bench, ChannelVariables, Room, Variables};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
 
 /// Maximum number of channels that are distinguished.
 const CHANNELS_MAX: usize = 512;
-
-/// The variables of a CNC as captured so far.
-#[derive(Debug, Default)]
-pub(super) struct Variables {
-    /// By index group of the channel.
-    channels: BTreeMap<u32, ChannelVariables>,
-}
-
-#[derive(Debug, Default)]
-struct ChannelVariables {
-    /// By kind; the empty kind has the sum.
-    counts: BTreeMap<String, u32>,
-    /// By name: the description, and the kind and index it was requested by.
-    described: BTreeMap<String, (Description, String, u32)>,
-    handles: BTreeMap<u32, String>,
-    /// The first handle of each name.
-    names: BTreeMap<String, u32>,
-}
 
 impl ChannelVariables {
     /// Stores the name of a handle, if there is memory for it.

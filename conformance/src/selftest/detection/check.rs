@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 use super::{Detection, DetectionRow, DetectionTable, Figures, Found, Mode, hash, inputs, measure};
 use crate::faults::Seed;
 use crate::judge::order;
-use crate::selftest::parallel;
+use crate::selftest::parallel::parallel;
 
 /// Which defects are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

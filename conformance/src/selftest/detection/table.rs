@@ -9,7 +9,7 @@ use std::fmt::{self, Write as _};
 
 use serde::Serialize;
 
-use super::{Detection, Found, Mode};
+use super::found::{Detection, Found, Mode};
 use crate::faults::{self, Seed, SeedKind};
 use crate::simulator::DEFAULT_MODEL;
 use crate::simulator::program::digest;

@@ -5,13 +5,13 @@
 //! a mode with a profile, that profile is also true of the witness.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, PoisonError};
 
-use super::requests::{RecordedAnswers, ask_everything};
-use super::{Device, Found, Mode};
+use super::device::{Device, Variants, answers};
+use super::found::{Found, Mode};
+use super::requests::RecordedAnswers;
 use crate::faults::{self, FieldChange, FieldDefect, Seed, SeedKind};
-use crate::session::{Session, Trouble};
-use crate::simulator::Settings;
+use crate::session::Trouble;
 
 /// Fields with arbitrary values: a one-to-one change of them gives a right CNC too. Stream, field,
 /// changes, and why.
@@ -82,23 +82,6 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
     }
 }
 
-/// The answers of a CNC to every request that a mode may send.
-pub(super) fn answers(
-    device: &Device,
-    seed: Option<&Seed>,
-    mode: Mode,
-    right: Option<&[u64]>,
-) -> Result<RecordedAnswers, Trouble> {
-    let cnc = device.cnc(seed)?;
-    let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
-    let (client, _) = session.into_parts();
-    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
-}
-
-/// Valid variants, by position and digest of the first answer that differs from the CNC without a
-/// defect.
-pub(super) type Variants = Arc<BTreeMap<(usize, Option<u64>), Vec<&'static Seed>>>;
-
 fn first_difference(answers: &[u64]) -> (usize, Option<u64>) {
     (answers.len(), answers.last().copied())
 }
@@ -118,18 +101,4 @@ fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
         }
     }
     Ok(Arc::clone(known.entry(mode).or_insert(Arc::new(variants))))
-}
-
-/// The device with this model, which is that of a valid variant.
-pub(super) fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
-    static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
-    let devices = DEVICES.get_or_init(Mutex::default);
-    let mut devices = devices.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(device) = devices.get(model) {
-        return Ok(device);
-    }
-    // Three of them, for the lifetime of the process.
-    let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
-    devices.insert(model, device);
-    Ok(device)
 }

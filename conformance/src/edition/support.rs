@@ -1,0 +1,42 @@
+//! Whether an edition or a version has something.
+
+use std::fmt;
+
+/// Whether an edition or a version has something, and by which requirement.
+///
+/// ```
+/// use ads_cnc::Kind;
+/// use ads_cnc::operation::Function;
+/// use ads_cnc_conformance::edition::Edition;
+///
+/// let support = Edition::German.permits(Function::WriteByHandle, Kind::V_S, None);
+/// assert_eq!((support.available, support.assumed), (false, false));
+/// assert_eq!(support.to_string(), "no (VAR-18)");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Support {
+    /// Whether it is available.
+    pub available: bool,
+    /// The requirement.
+    pub requirement: &'static str,
+    /// The requirement does not document it: a CNC may do otherwise.
+    pub assumed: bool,
+}
+
+impl Support {
+    pub(super) const fn documented(available: bool, requirement: &'static str) -> Self {
+        Self { available, requirement, assumed: false }
+    }
+
+    pub(super) const fn assumed(available: bool, requirement: &'static str) -> Self {
+        Self { available, requirement, assumed: true }
+    }
+}
+
+impl fmt::Display for Support {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { available, requirement, assumed } = *self;
+        let available = if available { "yes" } else { "no" };
+        write!(f, "{available} ({requirement}{})", if assumed { ", assumed" } else { "" })
+    }
+}

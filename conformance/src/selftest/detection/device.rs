@@ -1,0 +1,179 @@
+//! The CNCs that the suite is run against.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use ads_cnc::address::{Channel, ChannelAxis};
+
+use super::found::Mode;
+use super::requests::{RecordedAnswers, ask_everything};
+use crate::edition::Edition;
+use crate::faults::{Faulty, Seed};
+use crate::gate::{Allowed, Entry, Gate, Moment};
+use crate::judge::{CaseOutcome, Needs, Selection};
+use crate::objects::{self, Object, Options};
+use crate::profile::Profile;
+use crate::session::{Session, Trouble};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
+use crate::suite;
+
+/// Correct variants, by the place and the digest of the first answer that is another than that of
+/// the CNC without a defect.
+pub(super) type Variants = Arc<BTreeMap<(usize, Option<u64>), Vec<&'static Seed>>>;
+
+/// A CNC to run the suite against, without a defect.
+pub(super) struct Device {
+    model: &'static str,
+    pub(super) settings: Settings,
+    profile: Profile,
+    /// Every writable value, but for the numbers of axes.
+    allowed: Allowed,
+    /// The answers that a CNC without a defect gives, by what its gate lets through.
+    right: [OnceLock<Vec<u64>>; 3],
+    /// Its correct variants, mode by mode.
+    pub(super) variants: Mutex<BTreeMap<Mode, Variants>>,
+}
+
+impl Device {
+    fn new(model: &'static str, settings: Settings) -> Result<Self, Trouble> {
+        let internal = |error| Trouble::Internal(format!("the model: {error}"));
+        let built = Model::with_settings(model, "the model", settings).map_err(internal)?;
+        let profile = built.profile();
+        let allowed = everything_writable(Cnc::new(built), &profile)?;
+        Ok(Self {
+            model,
+            settings,
+            profile,
+            allowed,
+            right: Default::default(),
+            variants: Mutex::default(),
+        })
+    }
+
+    /// The CNC of the default model, by an edition.
+    fn of_edition(edition: Edition) -> Result<&'static Self, Trouble> {
+        static ENGLISH: OnceLock<Device> = OnceLock::new();
+        static GERMAN: OnceLock<Device> = OnceLock::new();
+        let device = match edition {
+            Edition::German => &GERMAN,
+            _ => &ENGLISH,
+        };
+        if device.get().is_none() {
+            let settings = Settings { edition: Some(edition), version: None };
+            // Another thread may have been faster, with the same.
+            let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
+        }
+        device.get().ok_or_else(|| Trouble::Internal("no device".to_owned()))
+    }
+
+    /// A CNC of it, with this defect if there is one.
+    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
+        let internal = |error| Trouble::Internal(format!("the model: {error}"));
+        let model = Model::with_settings(self.model, "the model", self.settings);
+        let cnc = Cnc::new(model.map_err(internal)?).with_stopped_clock();
+        Ok(Arc::new(Faulty::new(cnc, seed)))
+    }
+
+    /// The answers of the CNC without a defect to every request that a mode may send.
+    pub(super) fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
+        let [queries, writes, all] = &self.right;
+        let right = match mode {
+            Mode::ReadOnly | Mode::Profiled => queries,
+            Mode::Writes => writes,
+            Mode::All => all,
+        };
+        if right.get().is_none() {
+            let _same = right.set(answers(self, None, mode, None)?.answers);
+        }
+        Ok(right.get().map_or(&[], Vec::as_slice))
+    }
+
+    /// What the suite finds, run as a user runs it.
+    pub(super) fn outcomes(
+        &self,
+        seed: Option<&Seed>,
+        mode: Mode,
+    ) -> Result<Vec<CaseOutcome>, Trouble> {
+        let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
+        let mut session = Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
+        if session.greet(&profile).is_err() {
+            // There is no report of a device that answers nothing.
+            return Ok(Vec::new());
+        }
+        let (client, _) = session.into_parts();
+        let mut session = suite::TargetState::new(client, profile);
+        let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
+        let plan = Selection::default().plan(cases, 1);
+        let plan = plan.map_err(|error| Trouble::Internal(error.to_string()))?;
+        let outcomes = suite::run(plan.cases.clone(), Some(&mut session), None, 1);
+        Ok(plan.finish(outcomes).0)
+    }
+}
+
+/// What a file for `--allow-write` would name: each value that the CNC says can be written, with
+/// what it does not list.
+fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
+    let cnc = Arc::new(cnc.with_stopped_clock());
+    let mut session = Session::in_process(cnc, Gate::queries())?;
+    let mut entries = Vec::new();
+    for variables in [false, true] {
+        let options = Options { variables, exact: true, ..Options::default() };
+        let found = objects::walk(&mut session, &options, &mut |_| {})?;
+        let writable = found.objects.iter().filter(|one| one.is_writable());
+        let writable = writable.filter(|one| !profile.leaves(&one.name.to_string()));
+        entries.extend(writable.map(Object::entry));
+    }
+    let parse = |name: &str| name.parse().map_err(|_| Trouble::Internal(name.to_owned()));
+    for channel in profile.channels.iter().filter_map(|&number| Channel::new(number).ok()) {
+        entries.extend([Entry::Stream(channel), Entry::Service(channel)]);
+        for axis in (1..=3).filter_map(|place| ChannelAxis::new(place).ok()) {
+            let name = parse("V.A.WCS")?;
+            entries.push(Entry::Variable { channel, axis: Some(axis), name });
+        }
+        for name in profile.by_name_only.iter() {
+            entries.push(Entry::Variable { channel, axis: None, name: parse(name)? });
+        }
+    }
+    let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
+    Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
+}
+
+/// The answers of a CNC to everything that a mode may send.
+pub(super) fn answers(
+    device: &Device,
+    seed: Option<&Seed>,
+    mode: Mode,
+    right: Option<&[u64]>,
+) -> Result<RecordedAnswers, Trouble> {
+    let cnc = device.cnc(seed)?;
+    let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
+    let (client, _) = session.into_parts();
+    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
+}
+
+/// The device with this model, which is one of the correct variants.
+fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
+    static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
+    let devices = DEVICES.get_or_init(Mutex::default);
+    let mut devices = devices.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(device) = devices.get(model) {
+        return Ok(device);
+    }
+    // Three of them, for as long as the process lives.
+    let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
+    devices.insert(model, device);
+    Ok(device)
+}
+
+/// The CNCs that a defect is tried on: that of the edition that it shows in, or of both; of a
+/// variant with a model of its own that one.
+pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
+    if let Some(model) = seed.own_model() {
+        return of_model(model).map(|device| vec![device]);
+    }
+    let editions = match seed.edition {
+        Some(edition) => vec![edition],
+        None => vec![Edition::English, Edition::German],
+    };
+    editions.into_iter().map(Device::of_edition).collect()
+}
