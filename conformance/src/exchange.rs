@@ -210,7 +210,7 @@ impl From<&Exchange> for Evidence {
     }
 }
 
-/// What of ADS-5 the response's header does not keep.
+/// The rules of ADS-5 that the response's header breaks.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let checks = [
         (

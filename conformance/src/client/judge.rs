@@ -1,7 +1,5 @@
 //! Checks the headers of received frames.
 
-use std::fmt;
-
 use ads_cnc::ads::{AmsHeader, FrameRef};
 
 use super::Client;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Whether an edition or a version has something, and by which requirement.
+/// Whether an edition or a version has a feature, and the requirement that states it.
 ///
 /// ```
 /// use ads_cnc::Kind;
@@ -17,7 +17,7 @@ use std::fmt;
 pub struct Support {
     /// Whether it is available.
     pub available: bool,
-    /// The requirement.
+    /// The requirement that decides it.
     pub requirement: &'static str,
     /// The requirement does not document it: a CNC may do otherwise.
     pub assumed: bool,

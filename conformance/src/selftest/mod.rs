@@ -66,9 +66,9 @@ impl SelfTest {
     }
 }
 
-/// Tries all whose ID, group or target begins with one of these words; all if there is none. Of the
-/// table of detection as much as `scope` wants is measured again. `tell` is told after each how many
-/// are done, of how many.
+/// Runs all trials whose ID, group or requirement begins with one of these words; all if there are
+/// none. `scope` is the part of the table of detection to measure again. `tell` is called after
+/// each with the number done and the number of all.
 pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) -> SelfTest {
     let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()

@@ -3,8 +3,8 @@
 use std::sync::Mutex;
 use std::thread;
 
-/// Does the work on each item, in as many threads for each processor; the results in the order of
-/// the items.
+/// Processes each item, in this many threads per processor; the results have the order of the
+/// items.
 pub(super) fn parallel<T: Sync, R: Send>(
     items: &[T],
     threads: usize,

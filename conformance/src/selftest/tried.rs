@@ -15,9 +15,9 @@ pub enum SelfTestGroup {
     Cnc,
     /// Clients with a defect, by the scenarios.
     Client,
-    /// Testees that misbehave as a whole.
+    /// Testees that misbehave in general.
     Miniature,
-    /// Who does things otherwise, and nothing wrong.
+    /// Valid variants.
     Different,
 }
 
@@ -25,53 +25,53 @@ named! { SelfTestGroup:
     Codec "codec", Cnc "cnc", Client "client", Miniature "miniature", Different "different",
 }
 
-/// One that is tried.
+/// A trial and its result.
 #[derive(Clone, Debug, Serialize)]
 pub struct Tried {
-    /// The defect, the miniature or the difference.
+    /// The ID of the defect, miniature or variant.
     pub id: String,
-    /// As what it was tried.
+    /// Its group.
     pub group: SelfTestGroup,
     pub what: String,
-    /// What it breaks; nothing if it does nothing wrong.
+    /// The requirements it breaks; empty for a valid variant.
     pub targets: Vec<String>,
     pub failed: Vec<String>,
     pub result: Outcomes,
-    /// Of one that survives: why it may.
+    /// The reason why it may survive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// What came of one that was tried.
+/// The result of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcomes {
     /// A requirement that it breaks has failed.
     Caught,
-    /// Of a codec: a vector of a requirement that it breaks is not met. No manual says all that the
-    /// vector expects, so that is a warning or a difference and fails nobody.
+    /// Codec only: a vector of a requirement that it breaks has a warning or a difference, because
+    /// the manuals do not state everything that the vector expects.
     Noticed,
-    /// Others have failed, and none that it breaks.
+    /// Other requirements have failed, and none that it breaks.
     Elsewhere,
-    /// Nothing has failed.
+    /// No requirement has failed.
     Survived,
-    /// Nothing is wrong, and nothing has failed.
+    /// A valid variant, and no requirement has failed.
     Quiet,
-    /// Nothing is wrong, and something has failed.
+    /// A valid variant, but a requirement has failed.
     FalseAlarm,
-    /// What it changes was what it is changed to wherever it came by: nobody could tell.
+    /// The defect changed no byte in any exchange, so it is not detectable.
     Same,
-    /// It could not be tried.
+    /// It could not be run.
     Broken,
 }
 
-/// One that can be tried.
+/// A trial before it is run.
 pub(super) struct Candidate {
     pub(super) id: String,
     pub(super) group: SelfTestGroup,
     pub(super) what: String,
     pub(super) targets: Vec<&'static str>,
-    /// Nothing if it does as it would without its defect.
+    /// Runs the cases; `None` if the defect changed nothing.
     pub(super) run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, Trouble> + Send + Sync>,
 }
 
@@ -80,7 +80,7 @@ pub(super) fn whole(id: &str) -> &str {
     id.split_once('.').map_or(id, |(of, _)| of)
 }
 
-/// What has failed, and whether that is right.
+/// Which requirements have failed, and the result.
 pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
@@ -93,7 +93,7 @@ pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>,
         found
     };
     let failed = with(&[Verdict::Fail, Verdict::Vacuous]);
-    // A should is warned of, and what is assumed differs: by their levels these are caught too.
+    // A should gives a warning, and an assumed part a difference: at their levels these are caught.
     let noticed = with(&[Verdict::Warning, Verdict::Differs]);
     let hit = |id: &&str| match ads_cnc_vectors::clause(id) {
         Some(clause) => {

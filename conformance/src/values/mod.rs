@@ -18,7 +18,7 @@ use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
 use crate::text::escape;
 
-/// The text of a STRING: what is before the first NUL, or all.
+/// The text of a STRING up to the first NUL.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
@@ -36,7 +36,7 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// assert_eq!(plain(&ty, &bytes).as_deref(), Some("1,-2,16"));
 /// assert_eq!(
 ///     parse(&ty, "1,2,40000").unwrap_err().to_string(),
-///     "40000 is no SGN16, which has -32768 to 32767"
+///     "40000 is not of type SGN16, which has -32768 to 32767"
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

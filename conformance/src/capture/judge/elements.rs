@@ -10,7 +10,7 @@ use super::super::findings::{Observation, Topic};
 use super::observed::Bench;
 use crate::judge::{Checks as _, Rule, assumed, online};
 
-/// The types that are printed for elements.
+/// Whether a type is one that the manual prints for elements.
 fn is_known(name: CncStr<'_>) -> bool {
     let known = ["UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
     known.iter().chain(&["BOOLEAN", "STRING"]).any(|known| name == *known)

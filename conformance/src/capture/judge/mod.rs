@@ -28,7 +28,7 @@ use super::time::Time;
 use super::vectors::Collector;
 use crate::client::answer;
 use crate::exchange::{Exchange, ExchangeError, violations};
-use crate::judge::{CaseOutcome, Checks as _, assumed};
+use crate::judge::{CaseOutcome, Checks as _, Describe, assumed};
 use crate::wire_service;
 
 /// Maximum number of CNCs that are distinguished.
@@ -59,7 +59,7 @@ struct Lost {
     unasked: Vec<CapturedFrame>,
 }
 
-/// Answers without a request, in the order of the capture.
+/// Replies whose request has not been captured yet, in the order of the capture.
 #[derive(Debug, Default)]
 struct Early {
     all: BTreeMap<u64, CapturedFrame>,
@@ -98,7 +98,7 @@ pub(super) struct TrafficJudge {
     room: Room,
 }
 
-/// Whether a frame is for a task of a CNC.
+/// Whether this is the port of a task of a CNC.
 fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }

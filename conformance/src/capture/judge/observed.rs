@@ -11,25 +11,25 @@ use crate::capture::findings::TopicRecords;
 use crate::capture::tally::count;
 use crate::capture::time::Time;
 
-/// What a judgement of one exchange needs.
+/// The state that the judgement of one exchange needs.
 pub(super) struct Bench<'j> {
     pub(super) records: &'j mut TopicRecords,
     pub(super) cnc: &'j mut ObservedCnc,
     pub(super) room: &'j mut Room,
 }
 
-/// Memory for the names, objects and elements of all CNCs.
+/// The memory left for names, objects and elements of all CNCs.
 #[derive(Debug)]
 pub(super) struct Room {
     pub(super) left: usize,
-    /// How many were not kept.
+    /// Number of entries that were not stored.
     pub(super) missed: u64,
 }
 
 impl Room {
     pub(super) const ALL: usize = 0x180_0000;
 
-    /// Whether there is room for one more of this size, beside what each takes.
+    /// Takes memory for an entry of this size plus overhead; returns whether enough was left.
     pub(super) fn take(&mut self, bytes: usize) -> bool {
         let left = self.left.checked_sub(bytes.saturating_add(512));
         match left {
@@ -40,7 +40,7 @@ impl Room {
     }
 }
 
-/// What is known of one CNC.
+/// The state of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct ObservedCnc {
     pub(super) objects: Objects,
@@ -52,18 +52,18 @@ pub(super) struct ObservedCnc {
 }
 
 impl ObservedCnc {
-    /// Of a CNC that may have been sent requests before the capture began.
+    /// `is_lost`: requests to it before the capture began are possible.
     pub(super) fn new(is_lost: bool) -> Self {
         Self { streams: Streams::new(is_lost), services: Services::new(is_lost), ..Self::default() }
     }
 }
 
-/// What is known of the objects of a CNC.
+/// The objects of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
-    /// By the index group of the list.
+    /// By index group.
     pub(super) lists: BTreeMap<u32, ObservedList>,
-    /// By the address of the content.
+    /// By address of the content.
     pub(super) contents: BTreeMap<(u32, u32), ObservedContent>,
 }
 
@@ -79,15 +79,15 @@ pub(super) struct ObservedList {
 pub(super) struct ObservedContent {
     pub(super) name: String,
     pub(super) size: u32,
-    /// Bytes of its type, if it has a fixed size.
+    /// Size of its type in bytes, if it is fixed.
     pub(super) type_size: Option<u32>,
     pub(super) writable: bool,
 }
 
-/// What is known of the elements of a CNC.
+/// The elements of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct ObservedElements {
-    /// By the group of the content, and the offset.
+    /// By index group and index offset of the content.
     pub(super) known: BTreeMap<(u32, u32), ObservedElement>,
 }
 
@@ -98,36 +98,36 @@ pub(super) struct ObservedElement {
     pub(super) writable: Option<bool>,
 }
 
-/// What is known of the dynamic parameters of a CNC.
+/// The numbers of dynamic parameters of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct ObservedParameters {
     /// By index group and kind.
     pub(super) counts: BTreeMap<(u32, String), u32>,
 }
 
-/// What is known of the variables of a CNC.
+/// The variables of a CNC as captured so far.
 #[derive(Debug, Default)]
 pub(super) struct Variables {
-    /// By the index group of the channel.
+    /// By index group of the channel.
     pub(super) channels: BTreeMap<u32, ChannelVariables>,
 }
 
 #[derive(Debug, Default)]
 pub(super) struct ChannelVariables {
-    /// By kind; that of no kind is the sum.
+    /// By kind; the empty kind has the sum.
     pub(super) counts: BTreeMap<String, u32>,
-    /// By name: with the kind and index it was described at.
+    /// By name: the description, and the kind and index it was requested by.
     pub(super) described: BTreeMap<String, (Description, String, u32)>,
     pub(super) handles: BTreeMap<u32, String>,
     /// The first handle of each name.
     pub(super) names: BTreeMap<String, u32>,
 }
 
-/// What is known of the streams of a CNC, by the index group of the channel.
+/// The program streams of a CNC as captured so far, by index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Streams {
     pub(super) known: BTreeMap<u32, ObservedStream>,
-    /// Whether what was written before may not have been captured.
+    /// Whether earlier writes are possible that were not captured.
     pub(super) is_lost: bool,
 }
 
@@ -139,9 +139,9 @@ impl Streams {
 
 #[derive(Default)]
 pub(super) struct ObservedStream {
-    /// What was refused last, and when.
+    /// The packet that was rejected last, and when.
     pub(super) refused: Option<(Vec<u8>, Option<Time>)>,
-    /// What is wrong with the program so far; none while its beginning is not known.
+    /// Checks the program so far; `None` while its beginning is unknown.
     pub(super) checker: Option<Checker>,
 }
 
@@ -151,11 +151,11 @@ impl fmt::Debug for ObservedStream {
     }
 }
 
-/// What is known of the Service Interface of each channel, by its index group.
+/// The Service Interfaces of a CNC as captured so far, by index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Services {
     pub(super) known: BTreeMap<u32, ObservedInterface>,
-    /// Whether requests before may not have been captured.
+    /// Whether requests before the first captured one are possible.
     pub(super) is_lost: bool,
 }
 
@@ -165,21 +165,23 @@ impl Services {
     }
 }
 
-/// One channel's, as a client left it.
+/// The state of one channel's interface.
 #[derive(Debug, Default)]
 pub(super) struct ObservedInterface {
-    /// More may have been read and written than was captured, for what is asked now.
+    /// Accesses for the current request may be missing in the capture.
     pub(super) is_lost: bool,
-    /// A service has read that it is asked, and who is.
+    /// The service has read REQUEST_STATE != 0, and the UUID.
     pub(super) read_state: bool,
     pub(super) read_id: bool,
-    /// The response, REQUEST_STATE = 0 and RESPONSE_STATE were written for what is asked now.
+    /// The service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE for the current
+    /// request.
     pub(super) response: bool,
     pub(super) reset: bool,
     pub(super) answered: bool,
-    /// A client that plays the program has written these.
+    /// A client that acts as the NC program has written UUID and REQUEST.
     pub(super) wrote_id: bool,
     pub(super) wrote_request: bool,
-    /// REQUEST_STATE was written last, and nothing of the answer since.
+    /// A client that acts as the NC program wrote REQUEST_STATE != 0, and no RESPONSE_STATE was
+    /// written since.
     pub(super) asked: bool,
 }

@@ -17,20 +17,20 @@ use crate::session::{Session, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite;
 
-/// Correct variants, by the place and the digest of the first answer that is another than that of
-/// the CNC without a defect.
+/// Valid variants, by position and digest of the first answer that differs from the CNC without a
+/// defect.
 pub(super) type Variants = Arc<BTreeMap<(usize, Option<u64>), Vec<&'static Seed>>>;
 
-/// A CNC to run the suite against, without a defect.
+/// A CNC without a defect to run the suite against.
 pub(super) struct Device {
     model: &'static str,
     pub(super) settings: Settings,
     profile: Profile,
-    /// Every writable value, but for the numbers of axes.
+    /// Every writable value, except axis numbers.
     allowed: Allowed,
-    /// The answers that a CNC without a defect gives, by what its gate lets through.
+    /// The answers of the CNC without a defect, by the requests its gate allows.
     right: [OnceLock<Vec<u64>>; 3],
-    /// Its correct variants, mode by mode.
+    /// Its valid variants, by mode.
     pub(super) variants: Mutex<BTreeMap<Mode, Variants>>,
 }
 
@@ -50,7 +50,7 @@ impl Device {
         })
     }
 
-    /// The CNC of the default model, by an edition.
+    /// The CNC of the default model with an edition.
     fn of_edition(edition: Edition) -> Result<&'static Self, Trouble> {
         static ENGLISH: OnceLock<Device> = OnceLock::new();
         static GERMAN: OnceLock<Device> = OnceLock::new();
@@ -60,13 +60,13 @@ impl Device {
         };
         if device.get().is_none() {
             let settings = Settings { edition: Some(edition), version: None };
-            // Another thread may have been faster, with the same.
+            // Another thread may have set an equal one.
             let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
         }
         device.get().ok_or_else(|| Trouble::Internal("no device".to_owned()))
     }
 
-    /// A CNC of it, with this defect if there is one.
+    /// A CNC of this device, optionally with a defect.
     fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
         let internal = |error| Trouble::Internal(format!("the model: {error}"));
         let model = Model::with_settings(self.model, "the model", self.settings);
@@ -74,7 +74,7 @@ impl Device {
         Ok(Arc::new(Faulty::new(cnc, seed)))
     }
 
-    /// The answers of the CNC without a defect to every request that a mode may send.
+    /// The digests of the answers without a defect to every request that a mode may send.
     pub(super) fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
         let [queries, writes, all] = &self.right;
         let right = match mode {
@@ -88,7 +88,7 @@ impl Device {
         Ok(right.get().map_or(&[], Vec::as_slice))
     }
 
-    /// What the suite finds, run as a user runs it.
+    /// The outcomes of the suite, run as a user runs it.
     pub(super) fn outcomes(
         &self,
         seed: Option<&Seed>,
@@ -97,7 +97,7 @@ impl Device {
         let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
         let mut session = Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
         if session.greet(&profile).is_err() {
-            // There is no report of a device that answers nothing.
+            // For a device without any answer `run` makes no report.
             return Ok(Vec::new());
         }
         let (client, _) = session.into_parts();
@@ -110,8 +110,8 @@ impl Device {
     }
 }
 
-/// What a file for `--allow-write` would name: each value that the CNC says can be written, with
-/// what it does not list.
+/// The complete file of `--allow-write`: each value that the CNC describes as writable, and the
+/// writable values it does not list.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = Session::in_process(cnc, Gate::queries())?;
@@ -138,7 +138,7 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> 
     Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
 }
 
-/// The answers of a CNC to everything that a mode may send.
+/// The answers of a CNC to every request that a mode may send.
 pub(super) fn answers(
     device: &Device,
     seed: Option<&Seed>,
@@ -151,7 +151,7 @@ pub(super) fn answers(
     Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
 }
 
-/// The device with this model, which is one of the correct variants.
+/// The device with this model, which is that of a valid variant.
 fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
     static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
     let devices = DEVICES.get_or_init(Mutex::default);
@@ -159,14 +159,14 @@ fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
     if let Some(device) = devices.get(model) {
         return Ok(device);
     }
-    // Three of them, for as long as the process lives.
+    // Three of them, for the lifetime of the process.
     let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
     devices.insert(model, device);
     Ok(device)
 }
 
-/// The CNCs that a defect is tried on: that of the edition that it shows in, or of both; of a
-/// variant with a model of its own that one.
+/// The CNCs to try a defect on: with the edition in which it is detectable, or with both; for a
+/// variant with a model of its own, that model.
 pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
     if let Some(model) = seed.own_model() {
         return of_model(model).map(|device| vec![device]);

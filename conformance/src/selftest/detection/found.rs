@@ -8,13 +8,13 @@ use crate::text::named;
 /// How the suite is run against a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mode {
-    /// Queries only, and no profile.
+    /// Queries only, without a profile.
     ReadOnly,
-    /// Queries only, with a profile that tells everything about the device.
+    /// Queries only, with a complete profile of the device.
     Profiled,
-    /// Without a profile; a file for `--allow-write` names every writable value.
+    /// Without a profile; the file of `--allow-write` names every writable value.
     Writes,
-    /// Such a file, the full profile, and malformed requests.
+    /// The file of `Writes`, the profile of `Profiled`, and malformed requests.
     All,
 }
 
@@ -38,29 +38,28 @@ impl Mode {
     }
 }
 
-/// What came of one defect in one mode.
+/// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detection {
-    /// How it came out.
     pub result: Found,
     pub requirements: BTreeSet<String>,
     pub cases: BTreeSet<String>,
 }
 
-/// How a defect came out in one mode.
+/// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// A requirement that its row declares broken fails.
+    /// A requirement of the defect's row fails.
     Caught,
     /// Only other requirements fail.
     Elsewhere,
-    /// Nothing fails. This request would have shown it.
+    /// No requirement fails; this request would detect the defect.
     Missed(String),
-    /// Nothing fails, and no request that the mode may send tells it from a right CNC: from the one
-    /// without a defect, or from that of this witness.
+    /// No requirement fails, and no request of the mode distinguishes the CNC from a right one:
+    /// from the CNC without the defect, or from this witness.
     Undetectable(String),
-    /// Of a correct variant: nothing fails, as it should be.
+    /// A valid variant, and no requirement fails.
     Quiet,
-    /// Of a correct variant: something fails.
+    /// A valid variant, but a requirement fails.
     Alarm,
 }

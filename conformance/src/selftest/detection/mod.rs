@@ -25,7 +25,7 @@ use device::{answers, devices};
 pub use found::{Detection, Found, Mode};
 pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 
-/// Measures a defect, or a correct variant, in every mode.
+/// Measures a defect, or a valid variant, in every mode.
 ///
 /// # Errors
 /// An error of the suite, or of the simulated CNC.
@@ -52,8 +52,7 @@ pub fn hash(seed: &Seed) -> Result<String, Trouble> {
     Ok(table::hash(&text))
 }
 
-/// What the suite finds of a defect in a mode: on the CNC of each edition, up to the first on which
-/// it is caught.
+/// The result of a defect in a mode: on the CNC of each edition, until it is caught.
 fn detect(seed: &Seed, mode: Mode) -> Result<Detection, Trouble> {
     let devices = devices(seed)?;
     let mut outcomes = Vec::new();

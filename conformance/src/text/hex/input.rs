@@ -37,7 +37,7 @@ impl std::error::Error for HexError {}
 /// for text in ["0200000a", "0x02 0x00, 0x00 0x0A", "02:00:00:0a", "0x0200\n000A"] {
 ///     assert_eq!(parse_hex(text)?, [2, 0, 0, 10]);
 /// }
-/// assert_eq!(parse_hex("02 0g").unwrap_err().to_string(), "line 1, column 5: 'g' is no hex digit");
+/// assert_eq!(parse_hex("02 0g").unwrap_err().to_string(), "line 1, column 5: 'g' is not a hex digit");
 /// # Ok::<(), ads_cnc_conformance::explain::HexError>(())
 /// ```
 ///
