@@ -1,4 +1,4 @@
-//! What may be written, to whom and until when.
+//! What the file of `--allow-write` says.
 
 use std::net::IpAddr;
 
