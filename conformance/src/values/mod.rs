@@ -34,7 +34,7 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// assert_eq!(plain(&ty, &bytes).as_deref(), Some("1,-2,16"));
 /// assert_eq!(
 ///     parse(&ty, "1,2,40000").unwrap_err().to_string(),
-///     "40000 is no SGN16, which has -32768 to 32767"
+///     "40000 is not of type SGN16, which has -32768 to 32767"
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,8 +110,8 @@ impl Type {
             let given: String = indices.iter().map(|index| format!("[{index}]")).collect();
             let needed = dimensions.len();
             return Err(match needed {
-                0 => format!("{self} is no array, so that it has no element {given}"),
-                _ => format!("{given} is no element of {self}, which has {needed} indices"),
+                0 => format!("{self} is not an array and has no element {given}"),
+                _ => format!("{given} is not an element of {self}, which has {needed} indices"),
             });
         }
         for (index, &len) in indices.iter().zip(dimensions) {
