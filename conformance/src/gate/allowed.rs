@@ -1,4 +1,4 @@
-//! What may be written: entries, and what each of them lets through.
+//! The permitted writes: entries, and the requests that each allows.
 
 use std::fmt;
 use std::net::IpAddr;
@@ -63,7 +63,7 @@ pub struct Allowed {
     pub malformed: bool,
     /// When it is over.
     pub expires: Moment,
-    /// What may be written.
+    /// The permitted writes.
     pub entries: Vec<Entry>,
 }
 

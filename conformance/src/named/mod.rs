@@ -9,7 +9,7 @@ use ads_cnc::value::DataType;
 use crate::objects::{Object, Pattern};
 use crate::session::{Session, Trouble};
 
-/// What is asked for by a name.
+/// A name to look for, and its kind of value:
 ///
 /// | name | is |
 /// |---|---|
