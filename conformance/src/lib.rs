@@ -40,8 +40,8 @@
 #![deny(clippy::disallowed_methods)]
 // Code must not panic on bytes from outside, nor between a write and its restoring. Modules without
 // such code allow these lints, below or in their parent: a panic there ends one case as a harness
-// error, or a tool before its first request. In the modules `cli` and `suite` the files that write to
-// a target or restore a value deny them again.
+// error, or a tool before its first request. In the modules `cli` and `suite` the files that write
+// to a target or restore a value deny them again.
 #![cfg_attr(
     not(test),
     deny(

@@ -96,7 +96,7 @@ fn an_error_of_the_cnc_is_told_with_its_meaning() {
     let trouble = session.call(&read).unwrap_err();
     assert_eq!(trouble.ads_error(), Some(AdsError::SYMBOL_NOT_FOUND));
     assert_eq!(trouble.exit(), Exit::Failure);
-    assert!(trouble.to_string().contains("nothing of this name"), "{trouble}");
+    assert!(trouble.to_string().contains("no such name"), "{trouble}");
 }
 
 #[test]

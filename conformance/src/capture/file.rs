@@ -96,7 +96,7 @@ pub(super) fn packets(
             Err(error) => {
                 let what = match error {
                     PcapError::ReadError => "it cannot be read any further",
-                    _ => "what follows is no record",
+                    _ => "the bytes after it are not a record",
                 };
                 let number = interfaces.packets;
                 return Ok(FileEnd::Cut(format!("{what}, after packet {number}")));

@@ -115,7 +115,7 @@ pub enum CapturePiece {
 /// ```
 ///
 /// # Errors
-/// If it is neither pcap nor pcapng. A truncated file is read up to its end, and [`FileEnd`] says so.
+/// If it is neither pcap nor pcapng. A truncated file is read up to its end, see [`FileEnd`].
 pub fn frames(
     input: impl Read + Send,
     ports: Ports,

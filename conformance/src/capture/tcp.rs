@@ -66,7 +66,7 @@ pub(super) struct Half {
     /// Segments that came too early, by offset.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
-    /// Offset up to which the other side has acknowledged; `told` is the segment that did.
+    /// Offset acknowledged by the other side; `told` is the segment that did so.
     acknowledged: u64,
     told: Option<Mark>,
     waiting: u32,

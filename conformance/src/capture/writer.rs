@@ -1,5 +1,5 @@
-//! Writes a capture that Wireshark reads: pcapng, with made-up headers of Ethernet, IP and TCP around
-//! the bytes of a real connection.
+//! Writes a capture for Wireshark: pcapng, with made-up headers of Ethernet, IP and TCP around the
+//! bytes of a real connection.
 //!
 //! The file has the bytes that were passed to and received from the system, in this order and with
 //! the time of this machine, not the segments and acknowledgements on the network. Each connection

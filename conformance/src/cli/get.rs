@@ -101,7 +101,7 @@ impl Get {
             Ok(None) => {
                 let ty = match object.ty.name.as_str() {
                     "" => "the CNC does not say its type".to_owned(),
-                    name => format!("{name} is no type of the manuals"),
+                    name => format!("{name} is not a type of the manuals"),
                 };
                 complain(format_args!("{ty}; --type TYPE reads the bytes as one"));
                 if self.plain { Exit::Failure } else { Exit::Success }

@@ -143,10 +143,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     let line = format!("listening on {}, AMS NetId {}\n", server.addr(), server.net_id());
     let mut out = io::stdout().lock();
     if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
-        return refuse(
-            Exit::Internal,
-            format_args!("nobody can be told where it listens: {error}"),
-        );
+        return refuse(Exit::Internal, format_args!("the address cannot be printed: {error}"));
     }
     drop(out);
     // The threads of the server do the work.
@@ -178,7 +175,7 @@ pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), 
     if addr.ip().is_loopback() {
         return Ok(());
     }
-    let open = "the simulated CNC asks nobody who he is";
+    let open = "the simulated CNC does not authenticate clients";
     if allow_remote {
         complain(format_args!(
             "warning: {addr} is not a loopback address: {open}, and whoever reaches it can read \

@@ -55,7 +55,7 @@ pub fn listen(
     }
     let stop = requirements.is_empty().then(|| {
         requirements.push(CLIENT);
-        Stop::Inconclusive("nobody has sent anything".to_owned())
+        Stop::Inconclusive("no client has sent a request".to_owned())
     });
     let stop = stop.or(beyond.stop());
     let count = count.saturating_add(beyond.requests);

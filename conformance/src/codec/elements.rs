@@ -39,11 +39,11 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
 /// Encodes a field as the number of elements that the dimensions give.
 pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Vec<u8>, Refused> {
     if !is_typed(field, context) {
-        let plain = || unfit(format_args!("{field} is no single value"));
+        let plain = || unfit(format_args!("{field} is not a single value"));
         return Ok(hex(value.tagged().ok_or_else(plain)?)?.to_vec());
     }
     let (kind, data_type, dimensions) = type_of(context)?;
-    let given = value.list().ok_or_else(|| unfit(format_args!("{field} is no list")))?;
+    let given = value.list().ok_or_else(|| unfit(format_args!("{field} is not a list")))?;
     let items = given.iter().map(|value| match value.tagged() {
         Some(tagged) if tagged.kind == kind => Ok(tagged),
         _ => Err(unfit(format_args!("{field} has an element that is no {}", kind.name()))),

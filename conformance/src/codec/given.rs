@@ -25,12 +25,12 @@ impl<'f> Given<'f> {
     }
 
     fn one(self, name: &str) -> Result<&'f Tagged, Refused> {
-        let single = || unfit(format_args!("{name} is no single value"));
+        let single = || unfit(format_args!("{name} is not a single value"));
         self.field(name)?.tagged().ok_or_else(single)
     }
 
     fn list(self, name: &str) -> Result<&'f [Value], Refused> {
-        self.field(name)?.list().ok_or_else(|| unfit(format_args!("{name} is no list")))
+        self.field(name)?.list().ok_or_else(|| unfit(format_args!("{name} is not a list")))
     }
 
     pub(super) fn record(self, name: &str) -> Result<Given<'f>, Refused> {
@@ -49,7 +49,7 @@ impl<'f> Given<'f> {
     pub(super) fn numbers(self, name: &str) -> Result<Vec<u32>, Refused> {
         let number = |value: &Value| match value.tagged() {
             Some(tagged) => integer(tagged),
-            None => Err(unfit(format_args!("{name} is no list of numbers"))),
+            None => Err(unfit(format_args!("{name} is not a list of numbers"))),
         };
         self.list(name)?.iter().map(number).collect()
     }

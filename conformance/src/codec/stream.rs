@@ -83,7 +83,7 @@ where
     if layout.repeats {
         let name = records_of(layout);
         let records = fields.get(name).and_then(Value::list);
-        let records = records.ok_or_else(|| unfit(format_args!("{name} is no list")))?;
+        let records = records.ok_or_else(|| unfit(format_args!("{name} is not a list")))?;
         let record = |one: &Value| match one {
             Value::Record(fields) => Ok(Json::Object(json_record(layout, context, fields)?)),
             _ => Err(unfit("no record where one has to be")),
@@ -183,7 +183,7 @@ fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json,
         Value::List(items) => {
             return items.iter().map(|item| json_field(row, context, item)).collect();
         }
-        Value::Record(_) => return Err(unfit(format_args!("{} is no single value", row.name))),
+        Value::Record(_) => return Err(unfit(format_args!("{} is not a single value", row.name))),
     };
     let json = match row.ty {
         FieldType::String => to_value(Text::from(text(tagged)?)),

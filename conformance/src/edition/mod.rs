@@ -104,7 +104,7 @@ impl Edition {
     pub fn by_name(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|edition| edition.name() == name).ok_or_else(|| {
             let names = Self::ALL.map(Self::name).join(" and ");
-            format!("{name:?} is no edition; there are {names}")
+            format!("{name:?} is not an edition; editions: {names}")
         })
     }
 

@@ -1,4 +1,4 @@
-//! What the file of `--allow-write` says.
+//! The permitted writes: entries, and the requests that each allows.
 
 use std::net::IpAddr;
 
@@ -61,7 +61,7 @@ pub struct Allowed {
     pub malformed: bool,
     /// When it is over.
     pub expires: Moment,
-    /// What may be written.
+    /// The permitted writes.
     pub entries: Vec<Entry>,
 }
 

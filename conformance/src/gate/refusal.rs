@@ -182,13 +182,13 @@ impl fmt::Display for Refusal {
             Reason::NoFile(function, _) => {
                 write!(
                     f,
-                    "\"{}\" is no query, and nothing is allowed to be written",
+                    "\"{}\" is not a query, and nothing is allowed to be written",
                     name(function)
                 )
             }
             Reason::NoEntry(function) => write!(
                 f,
-                "\"{}\" is no query, and the file of --allow-write does not name this",
+                "\"{}\" is not a query, and the file of --allow-write does not name this",
                 name(function)
             ),
             Reason::OtherTarget { allowed, target } => {

@@ -1,4 +1,4 @@
-//! What a CNC has that can be read: objects of the COM task, elements of SDA and GEO, variables,
+//! The readable values of a CNC: objects of the COM task, elements of SDA and GEO, variables,
 //! parameters.
 //!
 //! [`walk`] finds all of them with as few requests as possible. A list ends where the table says; the

@@ -150,7 +150,7 @@ fn edition<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Edition>, D::Er
 
 fn version<'de, D: Deserializer<'de>>(value: D) -> Result<Option<CncVersion>, D::Error> {
     checked(value, |text: String| {
-        CncVersion::new(&text).map_err(|_| format!("{text:?} is no version, as V4.29.0 is one"))
+        CncVersion::new(&text).map_err(|_| format!("{text:?} is not a version such as V4.29.0"))
     })
 }
 
@@ -158,13 +158,13 @@ fn ports<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u16>>, D::Err
     checked(value, |ports: Vec<u16>| {
         each(ports, |&port| match Task::from_port(AmsPort(port)) {
             Some(_) => Ok(()),
-            None => Err(format!("{port} is no port of a CNC; there are 551, 552 and 553")),
+            None => Err(format!("{port} is not a port of a CNC; ports: 551, 552 and 553")),
         })
     })
 }
 
 fn is_channel(number: u32) -> Result<(), String> {
-    let odd = |_| format!("{number} is no channel; they are numbered from 1 to 255");
+    let odd = |_| format!("{number} is not a channel; channels are numbered from 1 to 255");
     Channel::new(number).map(drop).map_err(odd)
 }
 
@@ -196,7 +196,7 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
     checked(value, |places: Vec<(u32, u32)>| {
         each(places, |&(channel, place)| {
             is_channel(channel)?;
-            let odd = |_| format!("{place} is no place of an axis; they are counted from 1");
+            let odd = |_| format!("{place} is not a place of an axis; places are counted from 1");
             ChannelAxis::new(place).map(drop).map_err(odd)
         })
     })
@@ -218,7 +218,7 @@ fn names<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::
     checked(value, |names: Vec<String>| {
         each(names, |name| match VariablePath::new(name) {
             Ok(_) if name.chars().count() < TEXT_MAX => Ok(()),
-            Ok(_) => Err(format!("a name has at most {} characters", TEXT_MAX.saturating_sub(1))),
+            Ok(_) => Err(format!("a name has at most {} characters", TEXT_MAX - 1)),
             Err(error) => Err(format!("{name:?}: {error}")),
         })
     })
@@ -240,7 +240,7 @@ fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>,
                 Ok(())
             } else {
                 let all: Vec<&str> = all().collect();
-                Err(format!("{name:?} is no function; there are {}", all.join(", ")))
+                Err(format!("{name:?} is not a function; functions: {}", all.join(", ")))
             }
         })
     })

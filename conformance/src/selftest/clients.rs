@@ -21,6 +21,6 @@ pub(super) fn candidates() -> Vec<Candidate> {
 
 fn run(defect: &ClientDefect) -> Result<Vec<CaseOutcome>, Trouble> {
     let server = TestServer::new(SocketAddr::from(([127, 0, 0, 1], 0)))
-        .map_err(|error| Trouble::Internal(format!("nobody can be waited for: {error}")))?;
+        .map_err(|error| Trouble::Internal(format!("the test server does not start: {error}")))?;
     Ok(trial(defect, &server))
 }

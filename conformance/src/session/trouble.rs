@@ -193,7 +193,7 @@ impl fmt::Display for Trouble {
             }
             Self::Reply(error) => write!(
                 f,
-                "the answer is none that the manuals know: {error}. ads-cnc run judges the device"
+                "the reply does not match the manuals: {error}. ads-cnc run judges the device"
             ),
         }
     }
@@ -205,12 +205,12 @@ impl std::error::Error for Trouble {}
 const fn meaning(error: AdsError) -> Option<&'static str> {
     Some(match error {
         AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",
-        AdsError::INVALID_GROUP => "there is no such channel, axis or class",
-        AdsError::INVALID_OFFSET => "there is no such object, element or function",
+        AdsError::INVALID_GROUP => "no such channel, axis or class",
+        AdsError::INVALID_OFFSET => "no such object, element or function",
         AdsError::INVALID_ACCESS => "this must not be read, or not be written",
         AdsError::INVALID_SIZE => "the size does not fit",
         AdsError::INVALID_DATA => "no such index or handle, or not now",
-        AdsError::SYMBOL_NOT_FOUND => "there is nothing of this name",
+        AdsError::SYMBOL_NOT_FOUND => "no such name",
         _ => return None,
     })
 }

@@ -14,7 +14,7 @@ use super::state::ChannelState;
 #[non_exhaustive]
 pub enum ControlError {
     /// No channel has this number.
-    #[error("there is no channel {0}")]
+    #[error("no such channel: {0}")]
     Channel(u8),
     /// The channel does not have the place, the axis does not exist, or another axis of the channel
     /// has the same name.

@@ -114,7 +114,7 @@ impl ServerState {
         let options = self.options;
         let mut connections = lock(&self.connections);
         if connections.len() >= CONNECTIONS_MAX {
-            return Err(io::Error::other("there are as many as there may be"));
+            return Err(io::Error::other("the maximum number of connections is reached"));
         }
         connections.insert(id, stream.try_clone()?);
         drop(connections);

@@ -90,7 +90,7 @@ impl Steps<'_> {
         let strange = capabilities.ops.iter().find(|op| !known.contains(&op.as_str()));
         let fault = match strange {
             _ if capabilities.ops.is_empty() => Some("no op is claimed".to_owned()),
-            Some(op) => Some(format!("{op} is no op; there are {}", known.join(", "))),
+            Some(op) => Some(format!("{op} is not an op; ops: {}", known.join(", "))),
             None => None,
         };
         self.note("ops are those of the protocol", fault);

@@ -60,7 +60,7 @@ impl Miniature {
     pub fn by_name(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
             let names: Vec<&str> = Self::ALL.iter().map(|one| one.name()).collect();
-            format!("there are {}", names.join(", "))
+            format!("miniatures: {}", names.join(", "))
         })
     }
 

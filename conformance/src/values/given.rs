@@ -15,7 +15,7 @@ pub struct ValueFormat {
 /// An unknown name of a type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no type is called {0}; there are BOOLEAN, SGN08 … UNS32, REAL32, REAL64, STRING, and those of objects, BOOL, SINT … LREAL"
+    "no type is called {0}; types: BOOLEAN, SGN08 … UNS32, REAL32, REAL64, STRING, and those of objects, BOOL, SINT … LREAL"
 )]
 pub struct UnknownType(String);
 

@@ -112,8 +112,8 @@ impl Type {
             let given: String = indices.iter().map(|index| format!("[{index}]")).collect();
             let needed = dimensions.len();
             return Err(match needed {
-                0 => format!("{self} is no array, so that it has no element {given}"),
-                _ => format!("{given} is no element of {self}, which has {needed} indices"),
+                0 => format!("{self} is not an array and has no element {given}"),
+                _ => format!("{given} is not an element of {self}, which has {needed} indices"),
             });
         }
         for (index, &len) in indices.iter().zip(dimensions) {

@@ -53,7 +53,9 @@ fn boolean(text: &str) -> Result<Boolean, Unfit> {
     match text.to_ascii_uppercase().as_str() {
         "TRUE" | "1" => Ok(Boolean::TRUE),
         "FALSE" | "0" => Ok(Boolean::FALSE),
-        _ => Err(Unfit(format!("{text} is no BOOLEAN, which has TRUE and FALSE, or 1 and 0"))),
+        _ => Err(Unfit(format!(
+            "{text} is not of type BOOLEAN, which has TRUE and FALSE, or 1 and 0"
+        ))),
     }
 }
 
@@ -70,25 +72,26 @@ where
     let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_digit(radix));
     let name = ty.name();
     if !is_number {
-        return Err(Unfit(format!("{text} is no {name}, which is a whole number")));
+        return Err(Unfit(format!("{text} is not of type {name}, which is a whole number")));
     }
     // A number with too many digits is out of range.
     let number = i128::from_str_radix(digits, radix).unwrap_or(i128::MAX).checked_mul(sign);
     number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| {
         let (least, most) = (least.into(), most.into());
-        Unfit(format!("{text} is no {name}, which has {least} to {most}"))
+        Unfit(format!("{text} is not of type {name}, which has {least} to {most}"))
     })
 }
 
 fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T, Unfit> {
-    let no = || Unfit(format!("{text} is no {}, which is a number such as -1.5e3", ty.name()));
+    let no =
+        || Unfit(format!("{text} is not of type {}, which is a number such as -1.5e3", ty.name()));
     // Without words such as "inf": an axis must not be sent to infinity.
     let in_digits = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
     let number = if in_digits { text.parse().map_err(|_| no())? } else { return Err(no()) };
     let digits = text.split(['e', 'E']).next().unwrap_or(text);
     let is_nothing = number == T::default() && digits.contains(|c: char| ('1'..='9').contains(&c));
     if is_nothing {
-        Err(Unfit(format!("{text} is no {}, which would take it for 0", ty.name())))
+        Err(Unfit(format!("{text} is not of type {}, which would round it to 0", ty.name())))
     } else {
         Ok(number)
     }
@@ -104,7 +107,7 @@ fn within<T: std::fmt::Debug>(
     if is_within {
         Ok(number)
     } else {
-        Err(Unfit(format!("{text} is no {}, which has {least:?} to {most:?}", ty.name())))
+        Err(Unfit(format!("{text} is not of type {}, which has {least:?} to {most:?}", ty.name())))
     }
 }
 
@@ -138,7 +141,7 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
     let all = if ty.dimensions.is_empty() { vec![given.to_owned()] } else { split(given)? };
     let dimensions = counted(ty, all.len())?;
     let encoded = |text| {
-        let foreign = |error| Unfit(format!("{text:?} is no STRING: {error}"));
+        let foreign = |error| Unfit(format!("{text:?} is not of type STRING: {error}"));
         CncStr::new(text).map_err(foreign)
     };
     let texts: Vec<CncStr<'_>> =
@@ -230,25 +233,41 @@ mod tests {
     #[test]
     fn what_does_not_fit_says_what_would() {
         for (ty, text, why) in [
-            (DataType::Sgn08, "128", "128 is no SGN08, which has -128 to 127"),
-            (DataType::Uns32, "-1", "-1 is no UNS32, which has 0 to 4294967295"),
-            (DataType::Lint, "0x1_0", "0x1_0 is no LINT, which is a whole number"),
+            (DataType::Sgn08, "128", "128 is not of type SGN08, which has -128 to 127"),
+            (DataType::Uns32, "-1", "-1 is not of type UNS32, which has 0 to 4294967295"),
+            (DataType::Lint, "0x1_0", "0x1_0 is not of type LINT, which is a whole number"),
             (
                 DataType::Lword,
                 "99999999999999999999999999999999999999999999",
-                "99999999999999999999999999999999999999999999 is no LWORD, which has 0 to \
+                "99999999999999999999999999999999999999999999 is not of type LWORD, which has 0 to \
                  18446744073709551615",
             ),
-            (DataType::Uns16, "1.5", "1.5 is no UNS16, which is a whole number"),
-            (DataType::Real64, "inf", "inf is no REAL64, which is a number such as -1.5e3"),
+            (DataType::Uns16, "1.5", "1.5 is not of type UNS16, which is a whole number"),
+            (
+                DataType::Real64,
+                "inf",
+                "inf is not of type REAL64, which is a number such as -1.5e3",
+            ),
             (
                 DataType::Real32,
                 "1e39",
-                "1e39 is no REAL32, which has -3.4028235e38 to 3.4028235e38",
+                "1e39 is not of type REAL32, which has -3.4028235e38 to 3.4028235e38",
             ),
-            (DataType::Real64, "-1e-400", "-1e-400 is no REAL64, which would take it for 0"),
-            (DataType::Real32, "0.1e-50", "0.1e-50 is no REAL32, which would take it for 0"),
-            (DataType::Boolean, "2", "2 is no BOOLEAN, which has TRUE and FALSE, or 1 and 0"),
+            (
+                DataType::Real64,
+                "-1e-400",
+                "-1e-400 is not of type REAL64, which would round it to 0",
+            ),
+            (
+                DataType::Real32,
+                "0.1e-50",
+                "0.1e-50 is not of type REAL32, which would round it to 0",
+            ),
+            (
+                DataType::Boolean,
+                "2",
+                "2 is not of type BOOLEAN, which has TRUE and FALSE, or 1 and 0",
+            ),
             (DataType::Uns08, "1,2", "UNS08 is one element, 2 are given"),
         ] {
             assert_eq!(parse(&single(ty), text).unwrap_err().to_string(), why);

@@ -24,7 +24,7 @@ fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
     let (code, _, why) = ads_cnc(&["--model", file.path()]);
     assert_eq!(code, Some(2), "{why}");
-    assert!(why.ends_with(".toml:2: text in UTF-8 is needed, and byte 0xE4 is none\n"), "{why}");
+    assert!(why.ends_with(".toml:2: the file must be UTF-8; byte 0xE4 is not\n"), "{why}");
 }
 
 #[test]
@@ -102,7 +102,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("offset = 0x251, value", "offset = 0x251, vlaue", "unknown field `vlaue`"),
     ("[class.hld.axis]", "[class.hdl.axis]", "unknown field `hdl`"),
     // Settings.
-    ("edition = \"en-1.05\"", "edition = \"fr-1.05\"", "there are en-1.05 and de-1.051"),
+    ("edition = \"en-1.05\"", "edition = \"fr-1.05\"", "editions: en-1.05 and de-1.051"),
     ("cnc-version = \"V4.29.0\"", "cnc-version = \"V4\"", "cnc-version: minor"),
     // Axes.
     ("name = \"Y\"", "name = \"Y.1\"", "none of . [ ]"),
@@ -120,10 +120,10 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("places = [4, 0, 0]", "places = [4, 5, 0]", "two axes of a channel are named X"),
     // Objects.
     ("\"example_byte_r\"", "\"example_name_of_33_characters____r\"", "name"),
-    ("type = \"BYTE\"", "type = \"UNS08\"", "there are BOOL BYTE"),
+    ("type = \"BYTE\"", "type = \"UNS08\"", "types: BOOL BYTE"),
     ("0x11, value = 0xB5", "0x11, value = 0x100", "256 is not within 0 and 255"),
-    ("0x11, value = 0xB5", "0x11, value = 1.5", "a float is no value"),
-    ("0x11, value = 0xB5", "0x11, value = [1]", "no value"),
+    ("0x11, value = 0xB5", "0x11, value = 1.5", "a float is not a value"),
+    ("0x11, value = 0xB5", "0x11, value = [1]", "not a value"),
     ("0x11, value = 0xB5", "0x10, value = 1", "two objects are at offset 0x10"),
     ("0x11, value = 0xB5", "0x251, value = 1", "an object of the platform is at offset 0x251"),
     ("0x11, value = 0xB5", "0x10011, value = 1", "those of axes"),
@@ -169,7 +169,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     (
         "\"V.E.channel\", type = \"UNS32\", value = 1",
         "\"V.E.channel\", type = \"DWORD\", value = 1",
-        "there are BOOLEAN",
+        "types: BOOLEAN",
     ),
     ("handle = 0x2000004", "handle = 0x2000002", "has the handle 0x2000002 of another"),
     ("name = \"V.CYC.count\"", "handle = 5, name = \"V.CYC.count\"", "by name only"),
@@ -224,7 +224,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     (
         "\"feedhold.enable\", type = \"BOOLEAN\"",
         "\"feedhold.enable\", type = \"BOOL\"",
-        "there are BOOLEAN",
+        "types: BOOLEAN",
     ),
     ("unit = \"1/min\", writable", "unit = \"1/min\u{3A9}\", writable", "not in CP1252"),
 ];

@@ -172,7 +172,7 @@ fn each_fault_is_refused_with_its_line() {
     }
     let empty = "[[channel]]\nnumber = 1\n[channel.service]\nrequests = []\n";
     let error = Model::from_toml(empty, "m").unwrap_err().to_string();
-    assert_eq!(error, "m:4: there is no request to be made");
+    assert_eq!(error, "m:4: no request is configured");
     let old = format!("cnc-version = \"V2.11.2029.0\"\n{SERVICE}");
     let error = Model::from_toml(&old, "m").unwrap_err().to_string();
     assert_eq!(error, "m:5: a CNC of this version has no Service Interface");

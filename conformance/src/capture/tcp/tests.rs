@@ -4,7 +4,7 @@ use super::*;
 
 const MARK: Mark = Mark { packet: 1, time: None, acknowledged: None };
 
-/// What comes out of segments: bytes, and `_` for each byte of a gap.
+/// The bytes emitted for segments, with `_` for each byte of a gap.
 fn joined(half: &mut Half, parts: &[(u32, &[u8])], end: bool) -> String {
     let mut all = String::new();
     let mut out = |piece: ReassembledPiece<'_>| match piece {

@@ -71,7 +71,7 @@ impl ServiceCommand<'_> {
                  stdout; end them"
             ));
         }
-        let (program, arguments) = self.words.split_first().ok_or("there is none")?;
+        let (program, arguments) = self.words.split_first().ok_or("no command")?;
         let mut command = process::Command::new(program);
         command
             .args(arguments)

@@ -51,7 +51,7 @@ impl<'a> Arguments<'a> {
             Some((name, dimensions)) => (name, numbers(dimensions)?),
             None => (text, Vec::new()),
         };
-        let known = DataType::by_name(CncStr::new(name)?).ok_or("a type that nobody knows")?;
+        let known = DataType::by_name(CncStr::new(name)?).ok_or("unknown type")?;
         Ok(match known {
             DataType::String if dimensions.is_empty() => Type::hinted(known),
             known => Type::known(known, dimensions),
@@ -64,7 +64,7 @@ impl<'a> Arguments<'a> {
             "V.L" => DynamicKind::VL,
             "V.P" => DynamicKind::VP,
             "V.S" => DynamicKind::VS,
-            _ => return Err("a kind that nobody knows".into()),
+            _ => return Err("unknown kind".into()),
         })
     }
 
@@ -76,7 +76,7 @@ impl<'a> Arguments<'a> {
             "hld" => Class::Hld,
             "path-preparation" => Class::PathPreparation,
             "spindle" => Class::Spindle,
-            _ => return Err("a class that nobody knows".into()),
+            _ => return Err("unknown class".into()),
         })
     }
 }
@@ -275,7 +275,7 @@ fn descriptor(object: &Descriptor) -> Value {
 fn object(wire: &mut Connection, args: &mut Arguments<'_>) -> Result<Descriptor, Fail> {
     let (channel, name) = (args.channel()?, args.text()?);
     let found = list(wire, channel)?.into_iter().find(|object| object.name() == name);
-    found.ok_or_else(|| "there is no such object".into())
+    found.ok_or_else(|| "no such object".into())
 }
 
 fn content(object: &Descriptor) -> Type {
@@ -298,7 +298,7 @@ fn element(
         }
         (Class::PositionController, ..) | (Class::Hld, _, 1..) | (_, 0, _) => {
             let found = wire.call(&FindInstance::new(class, channel, axis), &mut reply)?;
-            let first = found.first_element()?.ok_or("there is no such instance")?;
+            let first = found.first_element()?.ok_or("no such instance")?;
             first.nth(number)?
         }
         (_, channel, 0) => ElementAddress::for_channel(Channel::new(channel)?, class, number)?,

@@ -54,7 +54,7 @@ impl CheckedTable {
         if whole {
             let gone =
                 published.rows.iter().filter(|row| !seeds.iter().any(|one| one.id == row.id));
-            differences.extend(gone.map(|row| format!("{}: there is no such defect", row.id)));
+            differences.extend(gone.map(|row| format!("{}: no such defect", row.id)));
         }
         let seeds = match scope {
             Scope::All => seeds,

@@ -50,7 +50,7 @@ impl Source<'_> {
     /// The error for a file that is not UTF-8 from this offset on.
     pub(super) fn not_text(bytes: &[u8], at: usize, file: &str) -> ModelError {
         let byte = bytes.get(at).copied().unwrap_or_default();
-        let reason = format!("text in UTF-8 is needed, and byte {byte:#04X} is none");
+        let reason = format!("the file must be UTF-8; byte {byte:#04X} is not");
         ModelError { file: file.to_owned(), line: Some(line(bytes, at)), reason }
     }
 }

@@ -1,4 +1,4 @@
-//! What the CNC has: its configuration, which no request changes.
+//! The configuration of the simulated CNC, which no request changes.
 //!
 //! It is read from TOML; the comments of the default model describe what it may contain:
 //! `ads-cnc serve --print-model` writes it out.

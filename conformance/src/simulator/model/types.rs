@@ -85,7 +85,7 @@ pub(super) const OBJECT: &[NamedType] = &[
 pub(super) fn find(types: &'static [NamedType], name: &str) -> Result<&'static NamedType, String> {
     types.iter().find(|known| known.name == name).ok_or_else(|| {
         let known: Vec<&str> = types.iter().map(|known| known.name).collect();
-        format!("{name:?} is no type; there are {}", known.join(" "))
+        format!("{name:?} is not a type; types: {}", known.join(" "))
     })
 }
 
@@ -146,7 +146,7 @@ fn one(scalar: ScalarType, size: usize, value: &Value) -> Result<Vec<u8>, String
             parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
         }
         (ScalarType::String, Value::String(text)) => string(text, size),
-        (_, value) => Err(format!("a {} is no value of this type", value.type_str())),
+        (_, value) => Err(format!("a {} is not a value of this type", value.type_str())),
     }
 }
 
@@ -170,7 +170,7 @@ fn integer(number: i64, min: i64, max: i64, size: usize) -> Result<Vec<u8>, Stri
 /// Parsed by Rust, which rounds to the nearest.
 fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
     let text = number.to_string();
-    text.parse().map_err(|_| format!("{text} is no number"))
+    text.parse().map_err(|_| format!("{text} is not a number"))
 }
 
 /// Encodes CP1252, padded with NULs. Bytes after a NUL in the text are kept.

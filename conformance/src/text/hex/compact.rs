@@ -12,7 +12,7 @@ pub(crate) fn parse(text: &str) -> Result<Vec<u8>, String> {
         .filter(|character| !character.is_ascii_whitespace())
         .map(|character| character.to_digit(16).and_then(|digit| u8::try_from(digit).ok()))
         .collect();
-    let digits = digits.ok_or_else(|| format!("{} is no hex", cut(text)))?;
+    let digits = digits.ok_or_else(|| format!("{} is not hex", cut(text)))?;
     let pairs = digits.chunks(2).map(|pair| match pair {
         [high, low] => Ok(high << 4 | low),
         _ => Err(format!("{} has an odd number of digits", cut(text))),

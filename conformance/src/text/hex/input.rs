@@ -17,7 +17,7 @@ impl fmt::Display for HexError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { line, column, found } = self;
         match found {
-            Some(found) => write!(f, "line {line}, column {column}: {found:?} is no hex digit"),
+            Some(found) => write!(f, "line {line}, column {column}: {found:?} is not a hex digit"),
             None => write!(
                 f,
                 "line {line}, column {column}: a byte has two hex digits, this one has one"
@@ -88,9 +88,9 @@ mod tests {
         for (text, why) in [
             ("02 0", "line 1, column 4: a byte has two hex digits, this one has one"),
             ("02 0 03", "line 1, column 4: a byte has two hex digits, this one has one"),
-            ("02\n0x0x", "line 2, column 4: 'x' is no hex digit"),
-            ("020x00", "line 1, column 4: 'x' is no hex digit"),
-            ("02 ä", "line 1, column 4: 'ä' is no hex digit"),
+            ("02\n0x0x", "line 2, column 4: 'x' is not a hex digit"),
+            ("020x00", "line 1, column 4: 'x' is not a hex digit"),
+            ("02 ä", "line 1, column 4: 'ä' is not a hex digit"),
         ] {
             assert_eq!(parse_hex(text).unwrap_err().to_string(), why, "{text:?}");
         }

@@ -40,7 +40,7 @@ impl Channels<'_> {
             channels.insert(number, self.channel(number, table, &mut taken, &mut handles)?);
         }
         if channels.is_empty() {
-            return Err(self.source.error(&(0..0), "there is no channel"));
+            return Err(self.source.error(&(0..0), "no channel is configured"));
         }
         Ok(channels.into_values().collect())
     }

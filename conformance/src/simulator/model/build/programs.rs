@@ -31,7 +31,7 @@ pub(super) fn streaming(
             "once" => Start::Once,
             "by-hand" => Start::ByHand,
             other => {
-                let why = format!("{other:?} is none of again, once and by-hand");
+                let why = format!("{other:?} is not one of again, once and by-hand");
                 return Err(source.error(&start.span(), why));
             }
         };
@@ -57,7 +57,7 @@ pub(super) fn service(
 ) -> Result<ScriptConfig, ModelError> {
     let rows = table.requests.get_ref();
     if rows.is_empty() {
-        return Err(source.error(&table.requests.span(), "there is no request to be made"));
+        return Err(source.error(&table.requests.span(), "no request is configured"));
     }
     let repeat = match &table.times {
         Some(times) if *times.get_ref() == 0 => {

@@ -91,7 +91,7 @@ fn extended(
         };
     }
     let unknown = |given: &Spanned<String>, names: &str| {
-        source.error(&given.span(), format!("{:?} is none of {names}", given.get_ref()))
+        source.error(&given.span(), format!("{:?} is not one of {names}", given.get_ref()))
     };
     let synchronisation = match &row.synchronisation {
         None => Synchronisation::SYNCHRONIZED,
@@ -121,7 +121,7 @@ pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variab
         if !starts_with(&variable.name, "V.A.") {
             return Err(source.error(&span, "what each axis has is V.A"));
         }
-        if variable.name.as_bytes().len() > NAME_MAX.saturating_sub(AXIS_NAME_MAX) {
+        if variable.name.as_bytes().len() > NAME_MAX - AXIS_NAME_MAX {
             let why = format!("its name and that of an axis exceed {NAME_MAX} characters");
             return Err(source.error(&span, why));
         }
@@ -162,7 +162,7 @@ pub(super) fn of_channel(
         } else {
             let index = of_kinds.entry(global).or_insert(0_u32);
             variable.handle.get_or_insert(handle(number, global, *index));
-            *index = index.saturating_add(1);
+            *index += 1;
         }
         if let Some(values) = &row.values {
             return Err(
