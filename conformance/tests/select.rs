@@ -275,7 +275,7 @@ fn a_bad_file_of_waivers_is_refused_with_its_line() {
     let cases = [
         ("broken", "[[waiver]\n".to_owned(), "line 1"),
         ("unknown-key", format!("{good}owner = \"me\"\n"), "line 7"),
-        ("no-requirement", good.replace("VAR-8", "VAR-99"), "there is no requirement VAR-99"),
+        ("no-requirement", good.replace("VAR-8", "VAR-99"), "no such requirement: VAR-99"),
         ("pass", good.replace("\"fail\"", "\"pass\""), "line 4"),
         ("no-reason", good.replace("known", " "), "a waiver needs a reason"),
         ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "a day alone"),

@@ -9,27 +9,6 @@ pub use lookup::Lookup;
 use crate::objects::Object;
 use crate::session::{Session, Trouble};
 
-/// A name to look for, and its kind of value:
-///
-/// | name | is |
-/// |---|---|
-/// | `V.L.…`, `V.P.…`, `V.S.…`, `P` and a digit | a dynamic parameter |
-/// | any other `V.…` | a variable; with `[i][j]` at its end an element |
-/// | anything else | a COM object or an element of SDA or GEO, by its whole name |
-#[derive(Clone, Debug)]
-pub struct Lookup {
-    pub name: String,
-    pub channel: Channel,
-    /// The axis, for access through the axis interface; V.A only.
-    pub axis: Option<ChannelAxis>,
-    /// The lists of objects to search, if several have the name.
-    pub lists: Option<Pattern>,
-    /// The index offset, if a list has the name several times.
-    pub offset: Option<u32>,
-    /// The type, in place of that of the description.
-    pub ty: Option<DataType>,
-}
-
 /// Finds an object by its name.
 ///
 /// ```
