@@ -1,5 +1,5 @@
-//! Writes the IDs of the requirements as a constant, so that a program can check them when it is compiled,
-//! and the lists of the files that the loader includes.
+//! Writes the IDs of the requirements and of their parts as constants, so that a program that cites one
+//! compiles only if there is one, and the lists of the files that the loader includes.
 
 use std::path::Path;
 use std::{env, fs, io};
@@ -7,19 +7,33 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     let data = "data/requirements.json";
     println!("cargo::rerun-if-changed={data}");
-    // An ID of a requirement, and not of one of its parts, has no dot.
-    let text = fs::read_to_string(data)?;
-    let ids = text.lines().filter_map(|line| {
-        line.trim().strip_prefix("\"id\": \"")?.split('"').next().filter(|id| !id.contains('.'))
-    });
-    let ids: Vec<&str> = ids.collect();
+    let ids = constants(&fs::read_to_string(data)?);
     let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
     let out = Path::new(&out);
-    fs::write(out.join("requirement_ids.rs"), format!("&{ids:?}"))?;
+    fs::write(out.join("ids.rs"), ids)?;
     for kind in ["vectors", "sequences"] {
         fs::write(out.join(format!("{kind}.rs")), included(&format!("data/{kind}"))?)?;
     }
     Ok(())
+}
+
+/// A constant for each ID, with the title of the requirement or the text of the part, and the list of all.
+fn constants(requirements: &str) -> String {
+    let (mut items, mut names) = (String::new(), Vec::new());
+    for entry in requirements.split("\"id\": \"").skip(1) {
+        let text_after = |key: &str| entry.split_once(key)?.1.split('"').next();
+        let id = entry.split('"').next().unwrap_or_default();
+        // The ID of a part has a dot.
+        let doc = text_after(if id.contains('.') { "\"text\": \"" } else { "\"title\": \"" });
+        // No bracket is a link.
+        let doc = doc.unwrap_or_default().replace('[', r"\\[");
+        let name = id.replace(['-', '.'], "_");
+        let item = format!("pub const {name}: ClauseId = ClauseId::new(\"{id}\");");
+        items.push_str(&format!("#[doc = \"{doc}\"]\n{item}\n"));
+        names.push(name);
+    }
+    let names = names.join(", ");
+    format!("{items}pub(crate) const EVERY: &[ClauseId] = &[{names}];\n")
 }
 
 /// The path and the text of each file of a folder, in the order of their names.

@@ -25,7 +25,7 @@ use ads_cnc::operation::*;
 use ads_cnc::streaming::{Ack, NcText, Sender};
 use ads_cnc_conformance::client::Target;
 use ads_cnc_conformance::gate::{Allowed, Gate};
-use ads_cnc_conformance::session::{Session, Trouble};
+use ads_cnc_conformance::session::{Session, ToolError};
 use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, digest};
 use ads_cnc_conformance::simulator::{Cnc, NET_ID, Server};
 
@@ -98,7 +98,7 @@ fn mixed(addr: SocketAddr, time: Duration) -> Result<()> {
 
 fn client(addr: SocketAddr, name: &str, end: Instant) -> Result<u64> {
     let mut cnc = session(addr, &format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n"))?;
-    let failed = |trouble: Trouble| format!("{name}: {trouble}");
+    let failed = |trouble: ToolError| format!("{name}: {trouble}");
     let channel = Channel::new(1)?;
     let element = ElementAddress::for_channel(channel, Class::Hld, 1)?;
     let mut count = 0_u64;
@@ -218,7 +218,7 @@ fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
     while let Some(packet) = sender.packet() {
         let ack = match session.call(&WriteProgramStream::new(Channel::new(1)?, packet)) {
             Ok(_) => Ack::Accepted,
-            Err(Trouble::Ads { error, .. }) => Ack::from_result(error),
+            Err(ToolError::Ads { error, .. }) => Ack::from_result(error),
             Err(trouble) => return Err(trouble.to_string().into()),
         };
         sender.acknowledge(ack)?;

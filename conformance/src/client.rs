@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 use ads_cnc::Encode;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{Call, Service};
+use ads_cnc_vectors::ids::*;
 
 use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
 use crate::gate::{Gate, Permit};
@@ -59,7 +60,7 @@ const PAUSE: Duration = Duration::from_millis(1);
 
 /// The most replies with an unexpected invoke ID, before the expected reply, that become violations
 /// of their own; the others are counted.
-const STRAYS_TOLD: u64 = 3;
+const STRAYS_MAX: u64 = 3;
 
 /// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte
 /// in a response's ID is noticed.
@@ -244,7 +245,7 @@ impl Client {
         });
         exchange.sent = bytes;
         if let Some(data) = exchange.answer().and_then(AdsReply::success) {
-            self.gate.learn(call, data);
+            self.gate.observe(call, data);
         }
         Ok(header)
     }
@@ -273,9 +274,9 @@ impl Client {
             self.disconnect();
             came = self.exchange(permit, header, received, violations, &mut strays);
         }
-        if let Some(more) = strays.checked_sub(STRAYS_TOLD).filter(|more| *more > 0) {
-            let what = format!("{more} more answers to other invoke IDs; {STRAYS_TOLD} are shown");
-            violations.push(Violation { requirement: "ADS-5", what });
+        if let Some(more) = strays.checked_sub(STRAYS_MAX).filter(|more| *more > 0) {
+            let what = format!("{more} more answers to other invoke IDs; {STRAYS_MAX} are shown");
+            violations.push(Violation { requirement: ADS_5, what });
         }
         Ok(came)
     }
@@ -349,17 +350,17 @@ impl Client {
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
                         let what =
                             format!("{more} bytes after the answer that no request asked for");
-                        violations.push(Violation { requirement: "ADS-5", what });
+                        violations.push(Violation { requirement: ADS_5, what });
                         self.disconnect();
                     }
                     received.truncate(len);
                     return Ok(header);
                 }
                 *strays = strays.saturating_add(1);
-                if *strays <= STRAYS_TOLD {
+                if *strays <= STRAYS_MAX {
                     let (id, asked) = (header.invoke_id, sent.invoke_id);
                     let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
-                    violations.push(Violation { requirement: "ADS-5", what });
+                    violations.push(Violation { requirement: ADS_5, what });
                 }
                 received.drain(..len);
                 if asked.elapsed() >= self.target.timeout {

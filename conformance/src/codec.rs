@@ -3,9 +3,9 @@
 mod address;
 mod decoded;
 mod elements;
+mod field_reader;
 mod fields;
 mod frame;
-mod given;
 pub mod message;
 mod path;
 mod stream;
@@ -15,7 +15,7 @@ use fields::{collect, data, name, numbers, one, record, text_tagged, uns16, uns3
 
 use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::{Context, Fields};
-use given::Given;
+use field_reader::FieldReader;
 
 /// The class of an error, with the name that the vectors use.
 pub fn class(error: &Error) -> &'static str {
@@ -55,7 +55,7 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 /// # Errors
 /// If the fields are not a value of the stream, or the codec rejects them.
 pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
-    let of = Given(fields);
+    let of = FieldReader(fields);
     match name {
         "ams-frame" => frame::encode(of, context),
         "index-group" => address::encode_group(of),

@@ -8,6 +8,8 @@ use ads_cnc::Error;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
 use ads_cnc::operation::{Call, Service};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use crate::gate::Refusal;
 use crate::judge::{Describe, Evidence};
@@ -117,7 +119,7 @@ impl fmt::Display for ExchangeError {
 /// A rule that a frame itself breaks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    pub requirement: &'static str,
+    pub requirement: ClauseId,
     pub what: String,
 }
 
@@ -212,21 +214,20 @@ impl From<&Exchange> for Evidence {
 
 /// The rules of ADS-5 that the response's header breaks.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
-    let checks = [
-        (
-            got.command == sent.command,
-            format!("command {} answered by {}", sent.command.0, got.command.0),
-        ),
-        (
-            got.state_flags == StateFlags::RESPONSE,
-            format!("state flags {:#06x} instead of 0x0005", got.state_flags.0),
-        ),
-        (
-            got.target == sent.source,
-            format!("answered to {}, asked by {}", got.target, sent.source),
-        ),
-        (got.source == sent.target, format!("answered by {}, asked {}", got.source, sent.target)),
-    ];
-    let broken = checks.into_iter().filter(|(kept, _)| !kept);
-    broken.map(|(_, what)| Violation { requirement: "ADS-5", what }).collect()
+    let mut broken = Vec::new();
+    let mut check = |kept: bool, what: fmt::Arguments<'_>| {
+        if !kept {
+            broken.push(Violation { requirement: ADS_5, what: what.to_string() });
+        }
+    };
+    let (ask, reply) = (sent.command, got.command);
+    check(reply == ask, format_args!("command {} answered by {}", ask.0, reply.0));
+    let flags = got.state_flags;
+    let is_response = flags == StateFlags::RESPONSE;
+    check(is_response, format_args!("state flags {:#06x} instead of 0x0005", flags.0));
+    let (to, from) = (got.target, sent.source);
+    check(to == from, format_args!("answered to {to}, asked by {from}"));
+    let (by, asked) = (got.source, sent.target);
+    check(by == asked, format_args!("answered by {by}, asked {asked}"));
+    broken
 }

@@ -69,12 +69,12 @@ impl Acceptor {
         self.stopped.store(true, Ordering::SeqCst);
         // The thread blocks in `accept` until a connection arrives; if none can be made, do not
         // join it.
-        if self.knock().is_ok() || thread.is_finished() {
+        if self.wake_listener().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }
     }
 
-    fn knock(&self) -> io::Result<()> {
+    fn wake_listener(&self) -> io::Result<()> {
         // A listener on all addresses is reached through the loopback address.
         let ip = match self.addr.ip() {
             IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
@@ -97,7 +97,7 @@ impl Drop for Acceptor {
 ///
 /// # Errors
 /// Those of the system, and [`io::ErrorKind::PermissionDenied`] for any other machine.
-pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
+pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
     if !addr.ip().is_loopback() {
         let why = "a client that is wrong on purpose goes to this machine only";
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));

@@ -4,6 +4,8 @@ use ads_cnc::ads::{AdsError, Command, ReadReplyRef, ReadWriteReplyRef, WriteRepl
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Service;
 use ads_cnc::{Decode, Encode, Error};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 /// The service of a command; `None` for other commands.
 pub const fn service_of(command: Command) -> Option<Service> {
@@ -16,11 +18,11 @@ pub const fn service_of(command: Command) -> Option<Service> {
 }
 
 /// The requirement that specifies a service.
-pub(crate) const fn clause(service: Service) -> &'static str {
+pub(crate) const fn clause(service: Service) -> ClauseId {
     match service {
-        Service::Read => "ADS-1",
-        Service::Write => "ADS-2",
-        Service::ReadWrite => "ADS-3",
+        Service::Read => ADS_1,
+        Service::Write => ADS_2,
+        Service::ReadWrite => ADS_3,
     }
 }
 

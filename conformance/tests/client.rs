@@ -5,8 +5,8 @@ use std::net::SocketAddr;
 use std::thread;
 
 use ads_cnc_conformance::clients::{
-    ClientDefect, Flaw, JudgedClient, ReferenceClient, Scenario, TestServer, VOCABULARY, defects,
-    find_defect, habits, judge, scenarios, trial,
+    ClientDefect, ClientFault, JudgedClient, ReferenceClient, Scenario, TestServer, VOCABULARY,
+    defects, find_defect, judge, scenarios, trial, variants,
 };
 use ads_cnc_conformance::judge::{CLIENT, Verdict};
 use ads_cnc_vectors::{Level, clause, requirement};
@@ -25,14 +25,14 @@ fn the_own_client_passes_everything() {
 #[test]
 fn habits_raise_nothing() {
     thread::scope(|scope| {
-        for habit in habits() {
-            scope.spawn(|| raises_nothing(Some(habit.flaw)));
+        for variant in variants() {
+            scope.spawn(|| raises_nothing(Some(variant.fault)));
         }
     });
 }
 
-fn raises_nothing(flaw: Option<Flaw>) -> JudgedClient {
-    let judged = judge(&mut ReferenceClient { flaw }, &stage(), &scenarios());
+fn raises_nothing(fault: Option<ClientFault>) -> JudgedClient {
+    let judged = judge(&mut ReferenceClient { fault }, &stage(), &scenarios());
     let mut raised = Vec::new();
     for outcome in &judged.outcomes {
         for one in outcome.verdicts.iter().filter(|one| one.verdict != Verdict::Pass) {
@@ -41,7 +41,7 @@ fn raises_nothing(flaw: Option<Flaw>) -> JudgedClient {
             raised.push(format!("{id} {requirement} {}: {said:?} {:?}", one.verdict, outcome.note));
         }
     }
-    assert!(raised.is_empty(), "{flaw:?}\n{}", raised.join("\n"));
+    assert!(raised.is_empty(), "{fault:?}\n{}", raised.join("\n"));
     judged
 }
 

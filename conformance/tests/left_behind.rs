@@ -12,12 +12,12 @@ use common::file::TestFile;
 use common::signal;
 
 /// How long anything may take.
-const PATIENCE: Duration = Duration::from_secs(30);
+const WAIT_MAX: Duration = Duration::from_secs(30);
 
 fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
     let begun = Instant::now();
     while !done() {
-        assert!(begun.elapsed() < PATIENCE, "{what}");
+        assert!(begun.elapsed() < WAIT_MAX, "{what}");
         thread::sleep(Duration::from_millis(10));
     }
 }

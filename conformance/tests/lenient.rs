@@ -3,21 +3,21 @@
 use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Exit, Needs, Verdict};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
-    Answer, Output, Own, Question, Rejection, Terms, Testee, TesteeHello, TesteeReaction, judge,
-    questions,
+    Answer, CodecTestee, Output, Question, Rejection, Terms, Testee, TesteeHello, TesteeReaction,
+    judge, questions,
 };
 use ads_cnc_vectors::{Level, sequence, vector};
 
 /// The project's own codec, with other answers to some questions.
-struct Otherwise<F>(F);
+struct StepError<F>(F);
 
-impl<F: Fn(&Own, &Question) -> Answer> Testee for Otherwise<F> {
+impl<F: Fn(&CodecTestee, &Question) -> Answer> Testee for StepError<F> {
     fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
-        Ok(Own::default().hello())
+        Ok(CodecTestee::default().hello())
     }
 
     fn ask(&mut self, question: &Question) -> TesteeReaction {
-        TesteeReaction::Answer((self.0)(&Own::default(), question))
+        TesteeReaction::Answer((self.0)(&CodecTestee::default(), question))
     }
 
     fn bye(&mut self) -> Result<(), String> {
@@ -30,9 +30,9 @@ fn cases() -> Vec<Case> {
 }
 
 /// How the judgement of such a codec ends, and what it is not the same in.
-fn judged(codec: impl Fn(&Own, &Question) -> Answer) -> (Exit, Vec<String>) {
+fn judged(codec: impl Fn(&CodecTestee, &Question) -> Answer) -> (Exit, Vec<String>) {
     let terms = Terms { seed: 3, subject: CaseSubject::Testee, edition: None, strict: false };
-    let outcomes = judge(&mut Otherwise(codec), cases(), terms).outcomes;
+    let outcomes = judge(&mut StepError(codec), cases(), terms).outcomes;
     let verdicts = outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict);
     let noticed = |verdict| matches!(verdict, Verdict::Warning | Verdict::Differs);
     let other = outcomes.iter().filter(|one| noticed(one.verdict()));
@@ -48,13 +48,13 @@ fn accepted() -> Answer {
 }
 
 /// The answer to the question with other bytes.
-fn of_bytes(own: &Own, question: &Question, bytes: Vec<u8>) -> Answer {
+fn of_bytes(own: &CodecTestee, question: &Question, bytes: Vec<u8>) -> Answer {
     own.answer(&Question { hex: Some(bytes), ..question.clone() })
 }
 
 /// A codec that reads and writes the numbers of a stream in 2 bytes each, where none of the manuals
 /// gives a width.
-fn of_two_bytes(own: &Own, question: &Question, of: &str) -> Answer {
+fn of_two_bytes(own: &CodecTestee, question: &Question, of: &str) -> Answer {
     if question.stream != of {
         return own.answer(question);
     }
@@ -74,7 +74,7 @@ fn of_two_bytes(own: &Own, question: &Question, of: &str) -> Answer {
 }
 
 /// The vectors and sequences that a codec differs in, and nothing else: it passes all others.
-fn assert_differs(codec: impl Fn(&Own, &Question) -> Answer, expected: &[&str]) {
+fn assert_differs(codec: impl Fn(&CodecTestee, &Question) -> Answer, expected: &[&str]) {
     let (exit, other) = judged(codec);
     assert_eq!(exit, Exit::Success, "{other:?}");
     for id in expected {
@@ -84,7 +84,7 @@ fn assert_differs(codec: impl Fn(&Own, &Question) -> Answer, expected: &[&str]) 
 
 #[test]
 fn index_0_may_be_decoded() {
-    let codec = |own: &Own, question: &Question| match &question.hex {
+    let codec = |own: &CodecTestee, question: &Question| match &question.hex {
         Some(bytes) if question.stream == "dynamic-index" && bytes[..] == [0; 4] => accepted(),
         _ => own.answer(question),
     };
@@ -93,7 +93,7 @@ fn index_0_may_be_decoded() {
 
 #[test]
 fn bytes_after_the_nul_of_a_request_may_be_ignored() {
-    let codec = |own: &Own, question: &Question| {
+    let codec = |own: &CodecTestee, question: &Question| {
         let (from, most) = match question.stream.as_str() {
             "variable-name" | "variable-kind" => (0, 256),
             "dynamic-name-request" => (0, 96),
@@ -123,7 +123,7 @@ fn bytes_after_the_nul_of_a_request_may_be_ignored() {
 
 #[test]
 fn an_extended_description_may_be_longer() {
-    let codec = |own: &Own, question: &Question| match &question.hex {
+    let codec = |own: &CodecTestee, question: &Question| match &question.hex {
         Some(bytes) if question.stream == "variable-extended-description" && bytes.len() == 9 => {
             of_bytes(own, question, bytes[..8].to_vec())
         }
@@ -135,7 +135,7 @@ fn an_extended_description_may_be_longer() {
 /// Both editions print two lengths; the vendors' help pages have one.
 #[test]
 fn a_write_may_have_the_two_lengths_that_are_printed() {
-    let codec = |own: &Own, question: &Question| {
+    let codec = |own: &CodecTestee, question: &Question| {
         if question.stream != "write-request" {
             return own.answer(question);
         }
@@ -175,7 +175,7 @@ fn numbers_without_a_printed_width_may_have_another() {
 #[test]
 fn the_largest_index_of_a_name_may_be_accepted() {
     let text = b"4294967295";
-    let codec = move |own: &Own, question: &Question| match &question.hex {
+    let codec = move |own: &CodecTestee, question: &Question| match &question.hex {
         Some(bytes)
             if question.stream == "variable-path"
                 && bytes.windows(text.len()).any(|part| part == text) =>
@@ -211,7 +211,7 @@ fn a_checker_may_know_no_more_of_nc_text_than_the_manual_says() {
             questions(&case.unwrap_or_else(|| panic!("no {id}")), "en-1.05")
         })
         .collect();
-    let codec = move |own: &Own, question: &Question| match asked.contains(question) {
+    let codec = move |own: &CodecTestee, question: &Question| match asked.contains(question) {
         true => opposite(own.answer(question)),
         false => own.answer(question),
     };
@@ -260,7 +260,7 @@ fn the_opposite_of_what_is_assumed_fails_nobody() {
 #[test]
 fn what_another_edition_prints_fails_nobody() {
     let judged = |edition| {
-        let mut codec = Otherwise(|own: &Own, question: &Question| match &question.hex {
+        let mut codec = StepError(|own: &CodecTestee, question: &Question| match &question.hex {
             Some(bytes) if bytes == b"V.E.trajectory.vector.x" => rejected(),
             _ => own.answer(question),
         });

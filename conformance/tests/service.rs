@@ -24,7 +24,7 @@ const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 const OTHER: &str = "19719079-BA06-4740-BC02-DE5215211751";
 
 /// How long anything may take.
-const PATIENCE: Duration = Duration::from_secs(30);
+const WAIT_MAX: Duration = Duration::from_secs(30);
 
 /// A CNC in this process, and the tool in another.
 struct Bench {
@@ -66,7 +66,7 @@ impl Bench {
         let begun = Instant::now();
         loop {
             let now = begun.elapsed();
-            assert!(now < PATIENCE, "no response");
+            assert!(now < WAIT_MAX, "no response");
             match call.step() {
                 CallStep::Read(variable) => {
                     self.with(|interface| call.read(interface.read(variable), now)).unwrap();
@@ -324,7 +324,7 @@ fn a_time_limit_ends_all_that_was_started() {
     let command = ["sh", "-c", "(sleep 1000; echo never) & sleep 1000"];
     let (answer, _) = Bench::start().once(&["--time-limit", "200ms"], &command, "");
     assert_eq!(answer, ("ERROR: time limit of 200ms exceeded".to_owned(), 1002));
-    assert!(begun.elapsed() < PATIENCE);
+    assert!(begun.elapsed() < WAIT_MAX);
 }
 
 /// A command may leave something running that holds its stdout: its answer is given all the same,

@@ -18,7 +18,7 @@ use ads_cnc_conformance::client::Target;
 use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::judge::Exit;
 use ads_cnc_conformance::net;
-use ads_cnc_conformance::session::{Session, Trouble};
+use ads_cnc_conformance::session::{Session, ToolError};
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use common::Serve;
 
@@ -51,9 +51,9 @@ fn what_is_allowed_is_written_and_nothing_else() {
     let read = ReadByName::new(channel(), "V.E.test[4]").unwrap();
     assert_eq!(session.call(&read).unwrap().bytes, value);
 
-    let trouble = session.call(&write("V.E.Testvar[4]")).unwrap_err();
-    assert_eq!(trouble.exit(), Exit::Refused);
-    let text = trouble.to_string();
+    let error = session.call(&write("V.E.Testvar[4]")).unwrap_err();
+    assert_eq!(error.exit(), Exit::Refused);
+    let text = error.to_string();
     assert!(text.contains("refused for safety") && text.contains("V.E.Testvar[4]"), "{text}");
 }
 
@@ -65,10 +65,10 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let write =
         |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0][..]);
     // A description has to have it too.
-    assert!(matches!(session.call(&write(handle)), Err(Trouble::Refused(_))));
+    assert!(matches!(session.call(&write(handle)), Err(ToolError::Refused(_))));
     session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();
     session.call(&write(handle)).unwrap();
-    assert!(matches!(session.call(&write(other)), Err(Trouble::Refused(_))));
+    assert!(matches!(session.call(&write(other)), Err(ToolError::Refused(_))));
 }
 
 #[test]
@@ -86,17 +86,17 @@ fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
 
     let mut session = simulated(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
     let write = WriteObject::new(group, offset, &[1][..]).unwrap();
-    assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
+    assert!(matches!(session.call(&write), Err(ToolError::Refused(_))));
 }
 
 #[test]
 fn an_error_of_the_cnc_is_told_with_its_meaning() {
     let mut session = simulated(Gate::queries());
     let read = ReadByName::new(channel(), "V.E.nothing_there").unwrap();
-    let trouble = session.call(&read).unwrap_err();
-    assert_eq!(trouble.ads_error(), Some(AdsError::SYMBOL_NOT_FOUND));
-    assert_eq!(trouble.exit(), Exit::Failure);
-    assert!(trouble.to_string().contains("no such name"), "{trouble}");
+    let error = session.call(&read).unwrap_err();
+    assert_eq!(error.ads_error(), Some(AdsError::SYMBOL_NOT_FOUND));
+    assert_eq!(error.exit(), Exit::Failure);
+    assert!(error.to_string().contains("no such name"), "{error}");
 }
 
 #[test]
@@ -108,9 +108,9 @@ fn a_dry_run_goes_through_writes_and_stops_at_questions() {
     for _ in 0..3 {
         session.call(&write(WRITABLE)).unwrap();
     }
-    assert!(matches!(session.call(&write("V.E.b")), Err(Trouble::Refused(_))));
+    assert!(matches!(session.call(&write("V.E.b")), Err(ToolError::Refused(_))));
     let read = ReadByName::new(channel(), WRITABLE).unwrap();
-    assert!(matches!(session.call(&read), Err(Trouble::NotSent)));
+    assert!(matches!(session.call(&read), Err(ToolError::NotSent)));
 }
 
 /// A listener that does this with its first connections, the same with each.
@@ -125,8 +125,8 @@ fn device(with: fn(TcpStream)) -> Target {
 fn ask(target: Target) -> (Exit, String) {
     let asked = Session::connect(target, Gate::queries())
         .and_then(|mut session| session.call(&CountObjects::new(channel())).map(drop));
-    let trouble = asked.unwrap_err();
-    (trouble.exit(), trouble.to_string())
+    let error = asked.unwrap_err();
+    (error.exit(), error.to_string())
 }
 
 /// Each way in which a device can be out of reach says what to do about it.
@@ -188,7 +188,7 @@ fn a_write_is_not_repeated() {
     });
     let mut session = Session::connect(target, allowing(&variable(WRITABLE))).unwrap();
     let write = WriteByName::new(channel(), WRITABLE, &[1][..]).unwrap();
-    assert!(matches!(session.call(&write), Err(Trouble::NoAnswer(_))));
+    assert!(matches!(session.call(&write), Err(ToolError::NoAnswer(_))));
     let (len, again) = taken.join().unwrap();
     assert!(len > 38 && !again);
 }
@@ -248,21 +248,21 @@ fn a_device_says_what_it_is() {
 #[test]
 fn a_device_need_not_say_what_it_is() {
     for data in [&[1, 7, 0, 0][..], &[1, 7, 0, 0, 0, 0, 0, 0]] {
-        let trouble = saying(0, data).device_state(Task::Com).unwrap_err();
-        assert_eq!(trouble.ads_error(), Some(AdsError::SERVICE_NOT_SUPPORTED));
-        assert_eq!(trouble.exit(), Exit::Failure);
-        assert_eq!(trouble.to_string(), "the device refuses ReadState with 0x701");
+        let error = saying(0, data).device_state(Task::Com).unwrap_err();
+        assert_eq!(error.ads_error(), Some(AdsError::SERVICE_NOT_SUPPORTED));
+        assert_eq!(error.exit(), Exit::Failure);
+        assert_eq!(error.to_string(), "the device refuses ReadState with 0x701");
     }
-    let trouble = saying(6, &[]).device_info(Task::Com).unwrap_err();
-    assert_eq!(trouble.exit(), Exit::Nothing);
-    assert!(trouble.to_string().contains("AMS port 553"), "{trouble}");
+    let error = saying(6, &[]).device_info(Task::Com).unwrap_err();
+    assert_eq!(error.exit(), Exit::Nothing);
+    assert!(error.to_string().contains("AMS port 553"), "{error}");
     // Success without its fields, and the other command's reply.
     for data in [&[0; 4][..], &[0, 0, 0, 0, 5, 0, 0, 0]] {
-        let trouble = saying(0, data).device_info(Task::Com).unwrap_err();
-        assert!(trouble.to_string().contains("device-info-reply: "), "{trouble}");
+        let error = saying(0, data).device_info(Task::Com).unwrap_err();
+        assert!(error.to_string().contains("device-info-reply: "), "{error}");
     }
     // Nothing is sent in a dry run.
     let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
     let mut session = Session::dry(nobody, Gate::queries()).unwrap();
-    assert!(matches!(session.device_info(Task::Com), Err(Trouble::NotSent)));
+    assert!(matches!(session.device_info(Task::Com), Err(ToolError::NotSent)));
 }

@@ -13,7 +13,7 @@ use ads_cnc_conformance::judge::{Case, CaseOutcome, CaseSubject, Exit, Needs, TE
 use ads_cnc_conformance::process::{RunningCommand, shell};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
-    JudgedTestee, Miniature, Own, Terms, Testee, TesteeProcess, judge,
+    CodecTestee, JudgedTestee, Miniature, Terms, Testee, TesteeProcess, judge,
 };
 
 const OF_A_TESTEE: Terms<'static> =
@@ -34,10 +34,10 @@ fn own() -> String {
 }
 
 /// A machine that does much else answers late.
-const PATIENCE: Duration = Duration::from_secs(20);
+const WAIT_MAX: Duration = Duration::from_secs(20);
 
 fn process(arguments: &str) -> TesteeProcess {
-    within(PATIENCE, arguments)
+    within(WAIT_MAX, arguments)
 }
 
 fn within(timeout: Duration, arguments: &str) -> TesteeProcess {
@@ -64,7 +64,7 @@ fn exit(judged: &JudgedTestee) -> Exit {
 fn the_own_codec_passes_over_pipes_as_in_the_process() {
     let mut over_pipes = process("");
     let piped = judge(&mut over_pipes, cases(), OF_A_TESTEE);
-    let mut own = Own::default();
+    let mut own = CodecTestee::default();
     let direct = judge(&mut own, cases(), OF_A_TESTEE);
     assert_eq!(exit(&piped), Exit::Success, "{:?}", failed(&piped.outcomes));
     assert_eq!(piped.asked, direct.asked);
@@ -80,7 +80,7 @@ fn the_own_codec_passes_over_pipes_as_in_the_process() {
 #[test]
 fn the_order_comes_from_the_seed_and_does_not_matter() {
     let with = |seed| {
-        let mut own = Own::default();
+        let mut own = CodecTestee::default();
         let judged = judge(&mut own, cases(), Terms { seed, ..OF_A_TESTEE });
         judged.outcomes.iter().map(|one| one.verdict()).collect::<Vec<_>>()
     };
@@ -95,7 +95,7 @@ fn miniatures_are_seen_through() {
         let timeout = match miniature {
             Miniature::Hangs => Duration::from_secs(1),
             Miniature::Stays => Duration::from_secs(5),
-            _ => PATIENCE,
+            _ => WAIT_MAX,
         };
         let mut process = within(timeout, &format!("--miniature {}", miniature.name()));
         let judged = judge(&mut process, some(), OF_A_TESTEE);
@@ -159,7 +159,7 @@ fn a_field_done_wrong_fails_its_requirement() {
         ("ams-header.invoke_id.swap", "ADS-5"),
         ("dynamic-value.value.swap", "GEN-1"),
     ] {
-        let mut own = Own { defect: faults::by_id(id).cloned() };
+        let mut own = CodecTestee { defect: faults::by_id(id).cloned() };
         let judged = judge(&mut own, cases(), OF_A_TESTEE);
         assert!(failed(&judged.outcomes).contains(&requirement), "{id}");
     }
@@ -206,7 +206,7 @@ mod shell {
         Question, Testee as _, TesteeProcess, TesteeReaction, check_protocol,
     };
 
-    use super::PATIENCE;
+    use super::WAIT_MAX;
 
     /// A testee in shell that claims these ops and says a line to each case.
     fn shell(ops: &str, line: &str) -> TesteeProcess {
@@ -215,7 +215,7 @@ mod shell {
             format!(r#"{{"protocol":1,{testee},"capabilities":{{"ops":[{ops}],"streams":[]}}}}"#);
         let command =
             format!("read l; printf '%s\\n' '{hello}'; while read l; do printf '{line}\\n'; done");
-        TesteeProcess::new(command, PATIENCE)
+        TesteeProcess::new(command, WAIT_MAX)
     }
 
     /// What it makes of the first case, whose number is 1.

@@ -1,6 +1,7 @@
 //! Documents, requirements and errata, one type for each shape of their JSON. Unknown fields are errors.
 
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// A manual, or the vendors' public help pages, under the short name that sources use.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -171,6 +172,32 @@ impl Clause {
     /// What not doing it means.
     pub fn level(&self) -> Level {
         self.part.map_or(self.requirement.level, |part| part.level)
+    }
+}
+
+/// The ID of a requirement or of a part: one of the constants in [`ids`](crate::ids).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ClauseId(&'static str);
+
+impl ClauseId {
+    pub(crate) const fn new(id: &'static str) -> Self {
+        Self(id)
+    }
+
+    /// Every ID, in the order of the catalogue.
+    pub const fn all() -> &'static [Self] {
+        crate::ids::EVERY
+    }
+
+    /// The ID as cited, such as `VAR-9.1`.
+    pub const fn as_str(self) -> &'static str {
+        self.0
+    }
+}
+
+impl fmt::Display for ClauseId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.0)
     }
 }
 

@@ -31,18 +31,19 @@
 
 mod catalogue;
 mod hex;
+pub mod ids;
 mod load;
 mod sequence;
 mod vector;
 
 pub use catalogue::{
-    Assumption, Basis, Clause, Document, Erratum, Level, Observable, Part, Reading, Requirement,
-    Source, Status,
+    Assumption, Basis, Clause, ClauseId, Document, Erratum, Level, Observable, Part, Reading,
+    Requirement, Source, Status,
 };
 pub use hex::Hex;
 pub use load::{
-    Catalogue, LoadError, VERSION, catalogue, clause, documents, errata, erratum, is_requirement,
-    requirement, requirements, sequence, sequences, vector, vectors,
+    Catalogue, LoadError, VERSION, catalogue, clause, documents, errata, erratum, requirement,
+    requirements, sequence, sequences, vector, vectors,
 };
 pub use sequence::{
     ExternalService, FillPiece, Given, HexPiece, Piece, Pieces, Sequence, SequenceAccept,

@@ -86,34 +86,6 @@ pub fn requirement(id: &str) -> Option<&'static Requirement> {
     requirements().iter().find(|item| item.id == id)
 }
 
-/// The IDs of all requirements, without those of their parts.
-const IDS: &[&str] = include!(concat!(env!("OUT_DIR"), "/requirement_ids.rs"));
-
-/// Whether a requirement has this ID; a program can check its IDs when it is compiled.
-///
-/// ```
-/// const _: () = assert!(ads_cnc_vectors::is_requirement("VAR-7"));
-/// assert!(!ads_cnc_vectors::is_requirement("VAR-0"));
-/// ```
-pub const fn is_requirement(id: &str) -> bool {
-    let mut at = 0;
-    while at < IDS.len() {
-        if is_same(IDS[at].as_bytes(), id.as_bytes()) {
-            return true;
-        }
-        at += 1;
-    }
-    false
-}
-
-const fn is_same(one: &[u8], other: &[u8]) -> bool {
-    let mut at = 0;
-    while at < one.len() && at < other.len() && one[at] == other[at] {
-        at += 1;
-    }
-    at == one.len() && at == other.len()
-}
-
 /// The requirement with this ID, or the part with it and its requirement.
 ///
 /// ```

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use crate::work::{Result, Work};
 
 /// The longest wait for a connection, and for any byte of a reply.
-const PATIENCE: Duration = Duration::from_secs(10);
+const WAIT_MAX: Duration = Duration::from_secs(10);
 
 /// How a server is asked.
 #[derive(Clone, Copy)]
@@ -90,10 +90,10 @@ struct Client<'a> {
 impl<'a> Client<'a> {
     /// Connected, and answered once.
     fn connect(addr: SocketAddr, work: &'a Work, is_echo: bool) -> Result<Self> {
-        let stream = TcpStream::connect_timeout(&addr, PATIENCE)?;
+        let stream = TcpStream::connect_timeout(&addr, WAIT_MAX)?;
         stream.set_nodelay(true)?;
-        stream.set_read_timeout(Some(PATIENCE))?;
-        stream.set_write_timeout(Some(PATIENCE))?;
+        stream.set_read_timeout(Some(WAIT_MAX))?;
+        stream.set_write_timeout(Some(WAIT_MAX))?;
         let received = vec![0; 256 * 1024];
         let mut client =
             Self { stream, work, is_echo, next: (1, 1), out: Vec::new(), received, held: 0 };

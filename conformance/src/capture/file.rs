@@ -71,7 +71,7 @@ pub(super) fn packets(
     input: impl Read + Send,
     mut each: impl FnMut(Packet<'_>),
 ) -> Result<FileEnd, FileError> {
-    let mut reader = create_reader(BUFFER, Patient(input)).map_err(|error| match error {
+    let mut reader = create_reader(BUFFER, FullReader(input)).map_err(|error| match error {
         PcapError::Eof => FileError::Empty,
         PcapError::ReadError => FileError::Io(std::io::Error::other("it cannot be read")),
         _ => FileError::Format,
@@ -121,9 +121,9 @@ pub(super) fn packets(
 
 /// A reader that fills the whole buffer unless the file ends, because the parser takes a short read
 /// for the end.
-struct Patient<R>(R);
+struct FullReader<R>(R);
 
-impl<R: Read> Read for Patient<R> {
+impl<R: Read> Read for FullReader<R> {
     fn read(&mut self, buf: &mut [u8]) -> std::io::Result<usize> {
         let mut filled = 0_usize;
         while let Some(room) = buf.get_mut(filled..).filter(|room| !room.is_empty()) {

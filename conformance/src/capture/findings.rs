@@ -6,6 +6,7 @@ use std::net::SocketAddr;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirements;
 
 use super::frames::Span;
@@ -16,20 +17,20 @@ use crate::judge::{
     Stop, Verdict,
 };
 
-/// Declares [`Topic`].
-macro_rules! topics {
-    ($( $topic:ident: $subject:ident, $id:literal, $title:literal, [$($requirement:literal),*] $(of $area:literal)?; )+) => {
+/// Declares [`TrafficCase`].
+macro_rules! traffic_cases {
+    ($( $case:ident: $subject:ident, $id:literal, $title:literal, [$($requirement:expr),*] $(of $area:literal)?; )+) => {
         /// A case of captured traffic.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum Topic { $( $topic, )+ }
+        pub(super) enum TrafficCase { $( $case, )+ }
 
-        impl Topic {
-            const ALL: &'static [Self] = &[$( Self::$topic, )+];
+        impl TrafficCase {
+            const ALL: &'static [Self] = &[$( Self::$case, )+];
 
             fn case(self) -> Case {
                 match self { $(
-                    Self::$topic => {
-                        let requirements = vec![$($requirement),*];
+                    Self::$case => {
+                        let requirements = vec![$(Rule::from($requirement).id),*];
                         $( let requirements = of_area($area, CaseSubject::$subject, requirements); )?
                         Case {
                             id: $id.to_owned(),
@@ -46,54 +47,54 @@ macro_rules! topics {
     };
 }
 
-topics! {
+traffic_cases! {
     ClientFrames: CapturedClient, "cap-client-frames",
-        "Every request has the headers of a request", ["ADS-5"];
+        "Every request has the headers of a request", [ADS_5];
     ClientServices: CapturedClient, "cap-client-services",
-        "Every request has what its service takes, and no more", ["ADS-1", "ADS-2", "ADS-3"];
+        "Every request has what its service takes, and no more", [ADS_1, ADS_2, ADS_3];
     ClientPorts: CapturedClient, "cap-client-ports",
-        "Every function is asked at the port of its task", ["GEN-4"];
+        "Every function is asked at the port of its task", [GEN_4];
     ClientCom: CapturedClient, "cap-client-com",
-        "Requests for objects are as their function takes them", ["COM-3"] of "COM";
+        "Requests for objects are as their function takes them", [COM_3] of "COM";
     ClientSda: CapturedClient, "cap-client-sda",
         "Requests for instances and elements are as their function takes them", [] of "SDA";
     ClientDyn: CapturedClient, "cap-client-dyn",
         "Requests for dynamic parameters are as their function takes them", [] of "DYN";
     ClientVar: CapturedClient, "cap-client-var",
-        "Requests for variables are as their function takes them", ["VAR-20", "VAR-24"] of "VAR";
+        "Requests for variables are as their function takes them", [VAR_20, VAR_24] of "VAR";
     ClientStream: CapturedClient, "cap-client-stream",
         "What is streamed is whole lines, and refused data comes again",
-        ["STM-6", "STM-7", "STM-8", "STM-10", "STM-20"] of "STM";
+        [STM_6, STM_7, STM_8, STM_10, STM_20] of "STM";
     ClientService: CapturedClient, "cap-client-service",
         "A service answers what it was asked, in the order of the interface",
-        ["SVC-1", "SVC-2", "SVC-4", "SVC-5", "SVC-12"];
+        [SVC_1, SVC_2, SVC_4, SVC_5, SVC_12];
     CncFrames: CapturedCnc, "cap-cnc-frames",
-        "Every reply has the headers of the answer to its request", ["ADS-5", "ADS-6"];
+        "Every reply has the headers of the answer to its request", [ADS_5, ADS_6];
     CncServices: CapturedCnc, "cap-cnc-services",
         "Every reply has what its service gives, and no more than was asked for",
-        ["ADS-1", "ADS-2", "ADS-3", "ADS-4"];
+        [ADS_1, ADS_2, ADS_3, ADS_4];
     CncCom: CapturedCnc, "cap-cnc-com",
         "Numbers, descriptors and contents of objects hold together",
-        ["GEN-5", "COM-3"] of "COM";
+        [GEN_5, COM_3] of "COM";
     CncSda: CapturedCnc, "cap-cnc-sda",
         "Instances, elements and their attributes hold together",
-        ["SDA-2", "ADR-5", "ADR-7", "GEN-5"] of "SDA";
+        [SDA_2, ADR_5, ADR_7, GEN_5] of "SDA";
     CncDyn: CapturedCnc, "cap-cnc-dyn",
-        "Dynamic parameters hold together", ["DYN-5"] of "DYN";
+        "Dynamic parameters hold together", [DYN_5] of "DYN";
     CncVar: CapturedCnc, "cap-cnc-var",
         "Numbers, descriptions, handles and values of variables hold together",
         [
-            "VAR-1", "VAR-3", "VAR-7", "VAR-8", "VAR-9", "VAR-11", "VAR-14", "VAR-16", "VAR-17",
-            "VAR-18", "VAR-20", "VAR-24", "VAR-25", "GEN-1", "GEN-3"
+            VAR_1, VAR_3, VAR_7, VAR_8, VAR_9, VAR_11, VAR_14, VAR_16, VAR_17,
+            VAR_18, VAR_20, VAR_24, VAR_25, GEN_1, GEN_3
         ] of "VAR";
     CncStream: CapturedCnc, "cap-cnc-stream",
-        "The stream takes what it has to, and no more", ["STM-2", "STM-5"];
+        "The stream takes what it has to, and no more", [STM_2, STM_5];
     CncService: CapturedCnc, "cap-cnc-service",
         "The variables of the Service Interface are of their types, and follow one another",
-        ["SVC-1", "SVC-3"];
+        [SVC_1, SVC_3];
 }
 
-impl Topic {
+impl TrafficCase {
     pub(super) fn of_request(function: Function) -> Self {
         match function.spec().clause.get(..3) {
             Some("COM") => Self::ClientCom,
@@ -199,29 +200,30 @@ impl Observation<'_> {
 
 /// The records of all cases.
 #[derive(Debug)]
-pub(super) struct TopicRecords {
+pub(super) struct CaseRecords {
     records: Vec<(Case, Record, Vec<String>)>,
 }
 
-impl TopicRecords {
+impl CaseRecords {
     pub(super) fn new() -> Self {
-        let records = Topic::ALL.iter().map(|topic| (topic.case(), Record::default(), Vec::new()));
+        let records =
+            TrafficCase::ALL.iter().map(|case| (case.case(), Record::default(), Vec::new()));
         Self { records: records.collect() }
     }
 
     /// Where the checks of a topic are recorded.
     pub(super) fn on<'b>(
         &'b mut self,
-        topic: Topic,
+        case: TrafficCase,
         observation: &'b Observation<'b>,
-    ) -> TopicRecord<'b> {
-        let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
-        TopicRecord { topic: self.records.get_mut(place), observation }
+    ) -> CaseRecord<'b> {
+        let place = TrafficCase::ALL.iter().position(|one| *one == case).unwrap_or(0);
+        CaseRecord { case: self.records.get_mut(place), observation }
     }
 
     /// Adds a note for the reader to a case.
-    pub(super) fn note(&mut self, topic: Topic, note: impl Into<String>) {
-        let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
+    pub(super) fn note(&mut self, case: TrafficCase, note: impl Into<String>) {
+        let place = TrafficCase::ALL.iter().position(|one| *one == case).unwrap_or(0);
         if let Some((.., notes)) = self.records.get_mut(place) {
             notes.push(note.into());
         }
@@ -240,15 +242,15 @@ impl TopicRecords {
 
 /// The record of a case, and the frames that its next checks are about.
 #[derive(Debug)]
-pub(super) struct TopicRecord<'b> {
-    topic: Option<&'b mut (Case, Record, Vec<String>)>,
+pub(super) struct CaseRecord<'b> {
+    case: Option<&'b mut (Case, Record, Vec<String>)>,
     observation: &'b Observation<'b>,
 }
 
-impl TopicRecord<'_> {
+impl CaseRecord<'_> {
     /// Records an inconclusive check: the bytes it needs were not captured.
     pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
-        if let Some((_, record, _)) = &mut self.topic {
+        if let Some((_, record, _)) = &mut self.case {
             let (verdict, expected) = (Verdict::Inconclusive, "all of it in the capture");
             let evidence = || Some(self.observation.evidence());
             record.add(rule.into(), verdict, expected, found, evidence);
@@ -257,7 +259,7 @@ impl TopicRecord<'_> {
 
     /// Whether this requirement is one of the case.
     pub(super) fn knows(&self, requirement: &str) -> bool {
-        self.topic.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
+        self.case.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
     }
 
     /// Records a check that passed.
@@ -266,17 +268,17 @@ impl TopicRecord<'_> {
     }
 }
 
-impl Checks for TopicRecord<'_> {
+impl Checks for CaseRecord<'_> {
     fn check(
         &mut self,
         rules: impl Rules,
-        kept: bool,
+        passed: bool,
         expected: impl Describe,
         found: impl Describe,
     ) -> bool {
-        if let Some((_, record, _)) = &mut self.topic {
-            record.add_all(rules, kept, expected, found, || Some(self.observation.evidence()));
+        if let Some((_, record, _)) = &mut self.case {
+            record.add_all(rules, passed, expected, found, || Some(self.observation.evidence()));
         }
-        kept
+        passed
     }
 }

@@ -89,7 +89,7 @@ impl Frames {
         self.skipped = self.skipped.saturating_add(if self.is_lost { self.bytes.len() } else { 0 });
         self.bytes.clear();
         self.marks.clear();
-        self.tell_skipped(out);
+        self.emit_skipped(out);
     }
 
     /// Takes one piece off the buffer; returns whether there may be another.
@@ -139,7 +139,7 @@ impl Frames {
         match place {
             Some(place) => {
                 self.skip(place);
-                self.tell_skipped(out);
+                self.emit_skipped(out);
                 self.is_lost = false;
                 true
             }
@@ -151,7 +151,7 @@ impl Frames {
         }
     }
 
-    fn tell_skipped(&mut self, out: &mut impl FnMut(FramePiece)) {
+    fn emit_skipped(&mut self, out: &mut impl FnMut(FramePiece)) {
         match std::mem::take(&mut self.skipped) {
             0 => {}
             skipped => out(FramePiece::Skipped(skipped)),

@@ -7,14 +7,14 @@ use ads_cnc::Error;
 
 use super::frames::{FramePiece, Frames, Span};
 use super::link::TcpSegment;
-use super::tcp::{DirectedSegment, Half, Mark, ReassembledPiece};
+use super::tcp::{DirectedSegment, DirectionState, Mark, ReassembledPiece};
 
 /// Maximum number of connections followed at the same time; beyond it the one that was silent
 /// longest is ended.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
 
 /// Bytes of memory for all incomplete frames and early segments of all connections.
-pub(super) const HELD_MAX: usize = 0x200_0000;
+pub(super) const BUFFERED_MAX: usize = 0x200_0000;
 
 /// Which TCP ports are judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,10 +65,10 @@ pub(super) struct Ending {
 struct TcpConnection {
     number: u64,
     ends: [SocketAddr; 2],
-    halves: [Half; 2],
+    halves: [DirectionState; 2],
     frames: [Frames; 2],
     /// Whether it is known to carry AMS: by its port, or because a frame was found.
-    speaks: bool,
+    is_ams: bool,
     /// Whether its beginning was captured.
     is_whole: bool,
     /// Whether [`ConnectionEvent::Joined`] still has to be emitted.
@@ -106,10 +106,10 @@ impl ConnectionTable {
 
     /// Whether the sender's direction was captured up to this offset.
     pub(super) fn has(&self, way: &SegmentDirection, place: u64) -> bool {
-        self.half(way).is_some_and(|half| half.is_seen() && half.place() >= place)
+        self.half(way).is_some_and(|half| half.is_seen() && half.offset() >= place)
     }
 
-    fn half(&self, way: &SegmentDirection) -> Option<&Half> {
+    fn half(&self, way: &SegmentDirection) -> Option<&DirectionState> {
         let connection = self.open.get(&key(way.from, way.to))?;
         connection.halves.get(connection.side(way.from))
     }
@@ -143,8 +143,8 @@ impl ConnectionTable {
             self.make_room(out);
             self.connections = self.connections.saturating_add(1);
             let ends = [segment.from, segment.to];
-            let speaks = self.ports != Ports::Any;
-            self.open.insert(key, TcpConnection::new(self.connections, ends, speaks));
+            let is_ams = self.ports != Ports::Any;
+            self.open.insert(key, TcpConnection::new(self.connections, ends, is_ams));
         }
         let Some(connection) = self.open.get_mut(&key) else { return };
         connection.last = self.segments;
@@ -153,14 +153,14 @@ impl ConnectionTable {
         connection.push(segment, mark, self.ports == Ports::Any, out);
         self.buffered =
             self.buffered.saturating_sub(before).saturating_add(connection.memory_size());
-        let over = segment.rst || connection.halves.iter().all(Half::is_over);
-        if connection.speaks && std::mem::take(&mut connection.joined) {
+        let over = segment.rst || connection.halves.iter().all(DirectionState::is_over);
+        if connection.is_ams && std::mem::take(&mut connection.joined) {
             out.insert(events, ConnectionEvent::Joined(connection.number));
         }
         // The acknowledgement of the last FIN comes when the connection is gone already.
-        if over || self.buffered > HELD_MAX {
+        if over || self.buffered > BUFFERED_MAX {
             self.end(key, out);
-        } else if !connection.speaks {
+        } else if !connection.is_ams {
             // No events before the first AMS frame; a gap until then is remembered as a missing
             // beginning.
             let lost =
@@ -185,7 +185,7 @@ impl ConnectionTable {
         self.buffered = self.buffered.saturating_sub(connection.memory_size());
         let events = out.len();
         connection.finish(out);
-        if !connection.speaks {
+        if !connection.is_ams {
             out.truncate(events);
         }
         for half in &connection.halves {
@@ -207,13 +207,13 @@ fn key(one: SocketAddr, other: SocketAddr) -> (SocketAddr, SocketAddr) {
 }
 
 impl TcpConnection {
-    fn new(number: u64, ends: [SocketAddr; 2], speaks: bool) -> Self {
+    fn new(number: u64, ends: [SocketAddr; 2], is_ams: bool) -> Self {
         Self {
             number,
             ends,
             halves: Default::default(),
             frames: Default::default(),
-            speaks,
+            is_ams,
             is_whole: true,
             joined: false,
             last: 0,
@@ -222,7 +222,7 @@ impl TcpConnection {
     }
 
     fn memory_size(&self) -> usize {
-        let halves = self.halves.iter().map(Half::memory_size);
+        let halves = self.halves.iter().map(DirectionState::memory_size);
         halves.chain(self.frames.iter().map(Frames::memory_size)).fold(0, usize::saturating_add)
     }
 
@@ -248,7 +248,7 @@ impl TcpConnection {
         self.packet = self.packet.max(mark.packet);
         let acknowledged = segment.acknowledged.filter(|_| !segment.rst);
         let place = self.halves.get(other).zip(acknowledged);
-        let mark = Mark { acknowledged: place.and_then(|(half, at)| half.place_of(at)), ..mark };
+        let mark = Mark { acknowledged: place.and_then(|(half, at)| half.offset_of(at)), ..mark };
         let Some(half) = self.halves.get_mut(side) else { return };
         let Some(frames) = self.frames.get_mut(side) else { return };
         if half.is_new() && !segment.syn && !segment.payload.is_empty() {
@@ -265,8 +265,8 @@ impl TcpConnection {
             missing: segment.missing,
             mark,
         };
-        let speaks = &mut self.speaks;
-        half.push(part, &mut |piece| feed(frames, piece, way, speaks, out));
+        let is_ams = &mut self.is_ams;
+        half.push(part, &mut |piece| feed(frames, piece, way, is_ams, out));
         if segment.fin {
             let length = segment.payload.len().saturating_add(segment.missing);
             let length = u32::try_from(length).unwrap_or(u32::MAX);
@@ -289,9 +289,9 @@ impl TcpConnection {
             else {
                 continue;
             };
-            let speaks = &mut self.speaks;
-            half.flush(&mut |piece| feed(frames, piece, way, speaks, out));
-            frames.end(&mut |found| push_event(found, way, speaks, out));
+            let is_ams = &mut self.is_ams;
+            half.flush(&mut |piece| feed(frames, piece, way, is_ams, out));
+            frames.end(&mut |found| push_event(found, way, is_ams, out));
         }
         let (connection, last) = (self.number, self.packet);
         let mut ways = [(one, other), (other, one)].into_iter().zip(&self.halves);
@@ -305,15 +305,15 @@ fn feed(
     frames: &mut Frames,
     piece: ReassembledPiece<'_>,
     way: SegmentDirection,
-    speaks: &mut bool,
+    is_ams: &mut bool,
     out: &mut Vec<ConnectionEvent>,
 ) {
     match piece {
         ReassembledPiece::Data(bytes, mark) => {
-            frames.push(bytes, mark, &mut |found| push_event(found, way, speaks, out));
+            frames.push(bytes, mark, &mut |found| push_event(found, way, is_ams, out));
         }
         ReassembledPiece::Gap(length, mark) => {
-            frames.gap(length, &mut |found| push_event(found, way, speaks, out));
+            frames.gap(length, &mut |found| push_event(found, way, is_ams, out));
             out.push(ConnectionEvent::Gap(length, way, mark));
         }
     }
@@ -322,10 +322,10 @@ fn feed(
 fn push_event(
     found: FramePiece,
     way: SegmentDirection,
-    speaks: &mut bool,
+    is_ams: &mut bool,
     out: &mut Vec<ConnectionEvent>,
 ) {
-    *speaks |= matches!(found, FramePiece::Frame(..));
+    *is_ams |= matches!(found, FramePiece::Frame(..));
     out.push(match found {
         FramePiece::Frame(frame, span) => ConnectionEvent::Frame(frame, way, span),
         FramePiece::Router => ConnectionEvent::Router,

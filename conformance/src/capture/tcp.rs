@@ -17,7 +17,7 @@ const WINDOW: u32 = 0x4000_0000;
 
 /// Segments that may follow a gap whose bytes the other side has acknowledged: a capture made on
 /// several processors is out of order.
-const PATIENCE: u32 = 64;
+const REORDERED_SEGMENTS_MAX: u32 = 64;
 
 /// Bytes that may have been captured before the SYN that precedes them.
 const BEFORE_SYN: u32 = 0x1_0000;
@@ -52,7 +52,7 @@ pub(super) struct DirectedSegment<'a> {
 
 /// The state of one direction.
 #[derive(Debug, Default)]
-pub(super) struct Half {
+pub(super) struct DirectionState {
     /// Sequence number of the next byte, once one is known.
     next: Option<u32>,
     /// Sequence number of the SYN.
@@ -62,13 +62,13 @@ pub(super) struct Half {
     /// Offset of the FIN.
     end: Option<u64>,
     /// Offset of the next byte: the number of bytes emitted, which does not wrap around.
-    place: u64,
+    offset: u64,
     /// Segments that came too early, by offset.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
-    /// Offset acknowledged by the other side; `told` is the segment that did so.
+    /// Offset acknowledged by the other side; `acknowledged_by` is the segment that did so.
     acknowledged: u64,
-    told: Option<Mark>,
+    acknowledged_by: Option<Mark>,
     waiting: u32,
     /// Retransmitted segments.
     pub(super) repeated: u64,
@@ -83,7 +83,7 @@ struct EarlySegment {
     mark: Mark,
 }
 
-impl Half {
+impl DirectionState {
     /// Whether no sequence number is known yet.
     pub(super) const fn is_new(&self) -> bool {
         self.next.is_none()
@@ -101,19 +101,19 @@ impl Half {
             (None, None) => true,
             (None, Some(next)) => {
                 let sent = next.wrapping_sub(sequence.wrapping_add(1));
-                sent < BEFORE_SYN && u64::from(sent) >= self.place
+                sent < BEFORE_SYN && u64::from(sent) >= self.offset
             }
         }
     }
 
     /// The offset of a sequence number, if any sequence number of this direction is known.
-    pub(super) fn place_of(&self, sequence: u32) -> Option<u64> {
+    pub(super) fn offset_of(&self, sequence: u32) -> Option<u64> {
         let next = self.next?;
         let (after, before) = (sequence.wrapping_sub(next), next.wrapping_sub(sequence));
         Some(if after < before {
-            self.place.saturating_add(after.into())
+            self.offset.saturating_add(after.into())
         } else {
-            self.place.saturating_sub(before.into())
+            self.offset.saturating_sub(before.into())
         })
     }
 
@@ -123,13 +123,13 @@ impl Half {
     }
 
     /// The offset up to which bytes were emitted.
-    pub(super) const fn place(&self) -> u64 {
-        self.place
+    pub(super) const fn offset(&self) -> u64 {
+        self.offset
     }
 
     /// Whether all bytes up to the FIN were emitted.
     pub(super) fn is_over(&self) -> bool {
-        self.end.is_some_and(|end| self.place >= end)
+        self.end.is_some_and(|end| self.offset >= end)
     }
 
     /// Memory of the segments held back: for many small ones the map takes more than their bytes.
@@ -159,8 +159,8 @@ impl Half {
             self.take(part.payload, part.missing, part.mark, out);
         } else if after < WINDOW {
             self.early = self.early.saturating_add(1);
-            let place = self.place.saturating_add(after.into());
-            self.hold(place, part);
+            let offset = self.offset.saturating_add(after.into());
+            self.hold(offset, part);
         } else if before < WINDOW {
             self.repeated = self.repeated.saturating_add(1);
             let known = usize::try_from(before).unwrap_or(usize::MAX);
@@ -181,37 +181,37 @@ impl Half {
         }
         self.follow(out);
         if !self.ahead.is_empty() {
-            self.lose_patience(out);
+            self.give_up_gap(out);
         }
     }
 
     /// Sets the sequence number of the FIN.
     pub(super) fn end_at(&mut self, sequence: u32, mark: Mark) {
         self.begin_at(sequence);
-        self.end = self.place_of(sequence);
-        self.told.get_or_insert(mark);
+        self.end = self.offset_of(sequence);
+        self.acknowledged_by.get_or_insert(mark);
     }
 
     /// The other side has received all bytes before `sequence`.
     pub(super) fn acknowledge(&mut self, sequence: u32, mark: Mark) {
         let Some(next) = self.next else { return };
         let after = sequence.wrapping_sub(next);
-        let place = self.place.saturating_add(after.into());
-        if after < WINDOW && place > self.acknowledged {
-            self.acknowledged = place;
-            self.told = Some(mark);
+        let offset = self.offset.saturating_add(after.into());
+        if after < WINDOW && offset > self.acknowledged {
+            self.acknowledged = offset;
+            self.acknowledged_by = Some(mark);
         }
     }
 
     /// The direction has ended: emits the segments held back, with gaps.
     pub(super) fn flush(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while !self.ahead.is_empty() {
-            self.leap(out);
+            self.skip_gap(out);
         }
         // A FIN that was not captured is acknowledged like one byte.
         let got = self.acknowledged.saturating_sub(1);
-        let missing = self.end.unwrap_or(got).saturating_sub(self.place);
-        if let (true, Some(mark)) = (missing > 0 && self.seen, self.told) {
+        let missing = self.end.unwrap_or(got).saturating_sub(self.offset);
+        if let (true, Some(mark)) = (missing > 0 && self.seen, self.acknowledged_by) {
             out(ReassembledPiece::Gap(missing, mark));
             self.advance(usize::try_from(missing).unwrap_or(usize::MAX));
         }
@@ -236,27 +236,27 @@ impl Half {
 
     fn advance(&mut self, length: usize) {
         let length = u64::try_from(length).unwrap_or(u64::MAX);
-        self.place = self.place.saturating_add(length);
+        self.offset = self.offset.saturating_add(length);
         // Sequence numbers are modulo 2^32, so the length is too.
         let low = u32::try_from(length & u64::from(u32::MAX)).unwrap_or(0);
         self.next = self.next.map(|next| next.wrapping_add(low));
     }
 
-    fn hold(&mut self, place: u64, part: DirectedSegment<'_>) {
-        let known = self.ahead.get(&place).map_or(0, |early| early.bytes.len());
-        if self.ahead.contains_key(&place) && known >= part.payload.len() {
+    fn hold(&mut self, offset: u64, part: DirectedSegment<'_>) {
+        let known = self.ahead.get(&offset).map_or(0, |early| early.bytes.len());
+        if self.ahead.contains_key(&offset) && known >= part.payload.len() {
             return;
         }
         let bytes = part.payload.to_vec();
         self.buffered = self.buffered.saturating_sub(known).saturating_add(bytes.len());
-        self.ahead.insert(place, EarlySegment { bytes, missing: part.missing, mark: part.mark });
+        self.ahead.insert(offset, EarlySegment { bytes, missing: part.missing, mark: part.mark });
     }
 
     /// Emits segments held back that are next now.
     fn follow(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
-        while let Some((&place, _)) = self.ahead.first_key_value() {
-            let Some(overlap) = self.place.checked_sub(place) else { return };
-            let Some(early) = self.ahead.remove(&place) else { return };
+        while let Some((&offset, _)) = self.ahead.first_key_value() {
+            let Some(overlap) = self.offset.checked_sub(offset) else { return };
+            let Some(early) = self.ahead.remove(&offset) else { return };
             self.buffered = self.buffered.saturating_sub(early.bytes.len());
             let overlap = usize::try_from(overlap).unwrap_or(usize::MAX);
             let fresh = early.bytes.get(overlap..).unwrap_or_default();
@@ -270,21 +270,21 @@ impl Half {
     }
 
     /// Gives up missing bytes if the other side has acknowledged them, or if too much is held back.
-    fn lose_patience(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
+    fn give_up_gap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         self.waiting = self.waiting.saturating_add(1);
         let too_much = self.buffered > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;
-        let first = self.ahead.first_key_value().map_or(u64::MAX, |(&place, _)| place);
-        if too_much || (self.acknowledged >= first && self.waiting > PATIENCE) {
-            self.leap(out);
+        let first = self.ahead.first_key_value().map_or(u64::MAX, |(&offset, _)| offset);
+        if too_much || (self.acknowledged >= first && self.waiting > REORDERED_SEGMENTS_MAX) {
+            self.skip_gap(out);
         }
     }
 
     /// Emits the gap and continues after it.
-    fn leap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
-        let from = Bound::Included(self.place);
+    fn skip_gap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
+        let from = Bound::Included(self.offset);
         let first = self.ahead.range((from, Bound::Unbounded)).next();
-        if let Some((&place, early)) = first {
-            let gap = place.saturating_sub(self.place);
+        if let Some((&offset, early)) = first {
+            let gap = offset.saturating_sub(self.offset);
             out(ReassembledPiece::Gap(gap, early.mark));
             self.advance(usize::try_from(gap).unwrap_or(usize::MAX));
         }

@@ -9,6 +9,7 @@ use ads_cnc::Encode as _;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::layout::{Segment as Piece, Size, Stream, Type as FieldType};
 use ads_cnc::operation::{Call, Function, Request, Service};
+use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{
     Accept, Context, Direction, Expect, Hex, Provenance, ProvenanceKind, Segment,
     Service as VectorService, Type, VERSION, Vector, requirement,
@@ -129,7 +130,7 @@ impl Collector {
             Context::default(),
             bytes,
             segments,
-            &["ADS-5", wire_service::clause(service)],
+            &[ADS_5.as_str(), wire_service::clause(service).as_str()],
         );
     }
 

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write as _};
 use ads_cnc::address::Channel;
 use clap::{Args, ValueEnum};
 
-use super::message::complain;
+use super::message::print_error;
 use super::model::ModelArgs;
 use super::name::written;
 use super::progress::ProgressLine;
@@ -15,7 +15,7 @@ use crate::objects::{
     NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
     WalkResult, columns, csv, table, walk,
 };
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::text::{hex, json};
 use crate::values::plain;
 
@@ -117,7 +117,7 @@ impl Browse {
         self.target.end(self.run(), |_| None)
     }
 
-    fn run(&self) -> Result<Exit, Trouble> {
+    fn run(&self) -> Result<Exit, ToolError> {
         let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let options = Options {
             channels: self.channel.clone(),
@@ -140,10 +140,10 @@ impl Browse {
         drop(progress);
         self.write(&session, &found, contents.as_deref())?;
         for note in &found.notes {
-            complain(note);
+            print_error(note);
         }
         if found.objects.is_empty() {
-            complain(
+            print_error(
                 "nothing fits: --filter takes a part of a name, --of the whole name of a list",
             );
             return Ok(Exit::Nothing);
@@ -156,7 +156,7 @@ impl Browse {
         session: &Session,
         found: &WalkResult,
         contents: Option<&[ReadContent]>,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ToolError> {
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = match self.format {
             BrowseFormat::Json => {
@@ -196,7 +196,7 @@ fn read_all(
     session: &mut Session,
     found: &mut WalkResult,
     progress: &mut ProgressLine,
-) -> Result<Vec<ReadContent>, Trouble> {
+) -> Result<Vec<ReadContent>, ToolError> {
     let (objects, mut bytes) = (&found.objects, 0_usize);
     let mut contents = Vec::with_capacity(objects.len());
     let mut enough = None;
@@ -209,7 +209,7 @@ fn read_all(
         let size = object.size();
         let content = match size {
             0..=CONTENT_MAX => session.read(&object.address),
-            _ => Err(Trouble::Unable(format!("{size} bytes; get reads them"))),
+            _ => Err(ToolError::Unable(format!("{size} bytes; get reads them"))),
         };
         contents.push(match content {
             Ok(content) => {
@@ -219,19 +219,19 @@ fn read_all(
                 }
                 Ok(content)
             }
-            Err(Trouble::Enough(why)) => {
+            Err(ToolError::Enough(why)) => {
                 enough = Some(format!("not read: {why}"));
                 Err(format!("not read: {why}"))
             }
             // An unreadable list does not stop the others.
             Err(
-                why @ (Trouble::Ads { .. }
-                | Trouble::Reply(_)
-                | Trouble::Unable(_)
-                | Trouble::Unsendable(_)
-                | Trouble::Refused(_)),
+                why @ (ToolError::Ads { .. }
+                | ToolError::Reply(_)
+                | ToolError::Unable(_)
+                | ToolError::Unsendable(_)
+                | ToolError::Refused(_)),
             ) => Err(why.to_string()),
-            Err(trouble) => return Err(trouble),
+            Err(error) => return Err(error),
         });
     }
     if let Some(why) = enough {

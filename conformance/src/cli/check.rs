@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::report_output::Reports;
 use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
 use crate::edition::Edition;
@@ -93,7 +93,7 @@ impl CheckArguments {
     /// Reads and judges the file and writes the reports.
     pub(super) fn execute(&self) -> Exit {
         let usage = |why: String| {
-            complain(why);
+            print_error(why);
             Exit::Usage
         };
         let waivers = match self.reports.waivers() {
@@ -111,7 +111,7 @@ impl CheckArguments {
         let plan = match selection.plan(cases, 0) {
             Ok(plan) => plan,
             Err(why) => {
-                complain(why);
+                print_error(why);
                 return Exit::Nothing;
             }
         };
@@ -138,7 +138,7 @@ impl CheckArguments {
         let extracted = match self.extract(&checked) {
             Ok(extracted) => extracted,
             Err(error) => {
-                complain(format_args!("the vectors could not be written: {error}"));
+                print_error(format_args!("the vectors could not be written: {error}"));
                 return Exit::Usage;
             }
         };

@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::Args;
 use serde::Deserialize;
 
-use super::message::complain;
+use super::message::print_error;
 use crate::clients::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
@@ -42,7 +42,7 @@ enum Instruction {
 }
 
 /// Exit code of a process that is told to die.
-const DEAD: i32 = 134;
+const ABORT_EXIT_CODE: i32 = 134;
 
 impl ClientArguments {
     /// Answers until `bye` or the end of stdin.
@@ -52,7 +52,7 @@ impl ClientArguments {
         }
         let defect = match self.defect.as_deref().map(|id| (id, clients::find_defect(id))) {
             Some((id, None)) => {
-                complain(format_args!(
+                print_error(format_args!(
                     "no defect has the ID {id}; client --list-defects shows all"
                 ));
                 return Exit::Usage;
@@ -60,8 +60,8 @@ impl ClientArguments {
             Some((_, defect)) => defect,
             None => None,
         };
-        let flaw = defect.map(|defect| defect.flaw);
-        written(if self.once { once(flaw) } else { answer(flaw) })
+        let fault = defect.map(|defect| defect.fault);
+        written(if self.once { once(fault) } else { answer(fault) })
     }
 }
 
@@ -70,7 +70,7 @@ fn written(done: io::Result<()>) -> Exit {
         Ok(()) => Exit::Success,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
         Err(error) => {
-            complain(format_args!("stdin or stdout: {error}"));
+            print_error(format_args!("stdin or stdout: {error}"));
             Exit::Internal
         }
     }
@@ -83,7 +83,7 @@ fn list() -> io::Result<()> {
     })
 }
 
-fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
+fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
     let mut out = io::stdout().lock();
     let mut say = |line: String| {
         out.write_all(line.as_bytes())?;
@@ -103,17 +103,21 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
                 continue;
             }
         };
-        say(done(flaw, &place, &action)?)?;
+        say(done(fault, &place, &action)?)?;
     }
     Ok(())
 }
 
 /// The answer to an action; a client with such a defect exits or hangs here.
-fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io::Result<String> {
-    match clients::answer(flaw, place, action) {
+fn done(
+    fault: Option<clients::ClientFault>,
+    place: &CncAddress,
+    action: &Action,
+) -> io::Result<String> {
+    match clients::answer(fault, place, action) {
         ClientReaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),
         ClientReaction::Garbled(what) => Ok(what),
-        ClientReaction::Died(_) => std::process::exit(DEAD),
+        ClientReaction::Died(_) => std::process::exit(ABORT_EXIT_CODE),
         _ => loop {
             thread::sleep(Duration::from_secs(1));
         },
@@ -121,7 +125,7 @@ fn done(flaw: Option<clients::Flaw>, place: &CncAddress, action: &Action) -> io:
 }
 
 /// Does the action of the environment variable and ends.
-fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
+fn once(fault: Option<clients::ClientFault>) -> io::Result<()> {
     let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));
     let line = env_variable("ADS_CNC_DO")?;
@@ -136,7 +140,7 @@ fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
                 net_id: env_variable("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
                 port: env_variable("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,
             };
-            done(flaw, &place, &Action::parse(line).ok_or_else(wrong)?)?
+            done(fault, &place, &Action::parse(line).ok_or_else(wrong)?)?
         }
     };
     let mut out = io::stdout().lock();

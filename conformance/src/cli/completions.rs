@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::message::complain;
+use super::message::print_error;
 use crate::judge::Exit;
 
 /// Writes a script that lets a shell complete what is typed.
@@ -35,7 +35,7 @@ impl Completions {
         match out.write_all(&script).and_then(|()| out.flush()) {
             Ok(()) => Exit::Success,
             Err(error) => {
-                complain(format_args!("the script is not written: {error}"));
+                print_error(format_args!("the script is not written: {error}"));
                 Exit::Internal
             }
         }

@@ -31,19 +31,19 @@ const NEEDED: &str = "the number of a channel and a file are needed, as 1=execut
 
 /// The file, opened before a program is streamed so that an error is reported early.
 #[derive(Debug)]
-pub(super) struct Opened<'a>(&'a ExecutedTo, File);
+pub(super) struct ExecutedFile<'a>(&'a ExecutedTo, File);
 
 impl ExecutedTo {
-    pub(super) fn open(&self, cnc: &Cnc) -> Result<Opened<'_>, String> {
+    pub(super) fn open(&self, cnc: &Cnc) -> Result<ExecutedFile<'_>, String> {
         cnc.with_program(self.channel, |_| ()).map_err(|error| error.to_string())?;
         match File::create(&self.file) {
-            Ok(file) => Ok(Opened(self, file)),
+            Ok(file) => Ok(ExecutedFile(self, file)),
             Err(error) => Err(format!("{}: {error}", self.file.display())),
         }
     }
 }
 
-impl Opened<'_> {
+impl ExecutedFile<'_> {
     /// Writes the executed lines.
     pub(super) fn write(mut self, cnc: &Cnc) -> Result<(), String> {
         let executed = cnc.with_program(self.0.channel, |program| program.executed().clone());

@@ -11,7 +11,7 @@ use ads_cnc::operation::Service;
 use ads_cnc::value::DataType;
 use clap::{Args, ValueEnum};
 
-use super::message::complain;
+use super::message::print_error;
 use super::name::number;
 use crate::explain::{
     ExplainQuery, ExplainSubject, Paint, ServiceAddress, ValueFormat, candidates, explain,
@@ -125,7 +125,7 @@ impl Explain {
     pub(super) fn execute(&self) -> Exit {
         let done = if self.list { self.list() } else { self.run() };
         done.unwrap_or_else(|(exit, why)| {
-            complain(why);
+            print_error(why);
             exit
         })
     }
@@ -165,7 +165,7 @@ impl Explain {
             Some(place) if !self.frame => Ok(ExplainSubject::Place(place)),
             place if self.frame => Ok(ExplainSubject::Frames(place)),
             place => match bytes.unwrap_or_default() {
-                [] => Err(format!("no bytes are given\n{SAY}")),
+                [] => Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
                 bytes if looks_like_frame(bytes) => Ok(ExplainSubject::Frames(place)),
                 bytes => Err(unknown(bytes)),
             },
@@ -184,7 +184,7 @@ impl Explain {
             }
             (None, [stdin]) if stdin == "-" => text(read(io::stdin().lock(), "stdin")?)?,
             (None, []) if self.group.is_some() && !self.frame => return Ok(None),
-            (None, []) => return Err(format!("no bytes are given\n{SAY}")),
+            (None, []) => return Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
             (None, words) => words.join(" "),
         };
         parse_hex(&text).map(Some).map_err(|error| error.to_string())
@@ -225,7 +225,7 @@ impl From<ServiceName> for Service {
     }
 }
 
-const SAY: &str = "\
+const EXPLAIN_HELP: &str = "\
 say what they are:
   --stream NAME                    a stream; --list shows all
   --group NUMBER --offset NUMBER   data of a service, with --reply what came back
@@ -237,7 +237,7 @@ fn unknown(bytes: &[u8]) -> String {
         [] => "no stream takes them whole".to_owned(),
         fits => format!("streams that take them whole: {}", fits.join(" ")),
     };
-    format!("the bytes are no AMS/TCP frame; {SAY}\n{fits}")
+    format!("the bytes are no AMS/TCP frame; {EXPLAIN_HELP}\n{fits}")
 }
 
 fn text(bytes: Vec<u8>) -> Result<String, String> {

@@ -4,14 +4,14 @@ use std::io::{self, BufWriter, Write};
 
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::model::ModelArgs;
 use super::name::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use crate::judge::Exit;
 use crate::named::find;
 use crate::objects::{Object, ObjectReport, ObjectsReport};
-use crate::session::Trouble;
+use crate::session::ToolError;
 use crate::text::{hex, json};
 use crate::values::{lines, plain};
 
@@ -66,10 +66,10 @@ error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {
-        self.target.end(self.run(), |trouble| self.name.advice(trouble))
+        self.target.end(self.run(), |error| self.name.advice(error))
     }
 
-    fn run(&self) -> Result<Exit, Trouble> {
+    fn run(&self) -> Result<Exit, ToolError> {
         let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let mut object = find(&mut session, &self.name.question())?;
         let bytes = session.read(&object.address)?;
@@ -103,11 +103,11 @@ impl Get {
                     "" => "the CNC does not say its type".to_owned(),
                     name => format!("{name} is not a type of the manuals"),
                 };
-                complain(format_args!("{ty}; --type TYPE reads the bytes as one"));
+                print_error(format_args!("{ty}; --type TYPE reads the bytes as one"));
                 if self.plain { Exit::Failure } else { Exit::Success }
             }
             Err(error) => {
-                complain(format_args!("what was read is no {}: {error}", object.ty));
+                print_error(format_args!("what was read is no {}: {error}", object.ty));
                 Exit::Failure
             }
         }

@@ -6,14 +6,14 @@ use std::process::ExitCode;
 use crate::judge::Exit;
 
 /// Writes an error to stderr; a failure to do so is ignored.
-pub(super) fn complain(why: impl std::fmt::Display) {
+pub(super) fn print_error(why: impl std::fmt::Display) {
     // The text may quote a device, a file or a testee.
     let why = crate::text::escape_lines(&why.to_string());
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
 }
 
 /// Writes an error to stderr and returns the exit code.
-pub(super) fn refuse(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
-    complain(why);
+pub(super) fn exit_with_error(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
+    print_error(why);
     exit.into()
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::target::TargetArgs;
 use crate::edition::{CncVersion, Edition};
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
 
 /// The heading of these options in the help.
@@ -28,14 +28,14 @@ pub(super) struct ModelArgs {
 
 impl ModelArgs {
     /// Connects to the device, or starts the simulated CNC with this model and connects to it.
-    pub(super) fn open(&self, target: &TargetArgs) -> Result<Session, Trouble> {
+    pub(super) fn open(&self, target: &TargetArgs) -> Result<Session, ToolError> {
         let is_given = self.model.is_some() || self.edition.is_some() || self.cnc_version.is_some();
         if is_given && target.is_device() {
             let why =
                 "--model, --edition and --cnc-version are of the simulated CNC, not of --target";
-            return Err(Trouble::Usage(why.to_owned()));
+            return Err(ToolError::Usage(why.to_owned()));
         }
-        target.open_or(|| self.cnc().map_err(|error| Trouble::Usage(error.to_string())))
+        target.open_or(|| self.cnc().map_err(|error| ToolError::Usage(error.to_string())))
     }
 
     pub(super) fn cnc(&self) -> Result<Cnc, ModelError> {

@@ -11,7 +11,7 @@ use super::target::ChannelArgs;
 use crate::explain::type_by_name;
 use crate::named::Lookup;
 use crate::objects::{Object, Pattern};
-use crate::session::Trouble;
+use crate::session::ToolError;
 
 /// Which value is meant.
 #[derive(Args, Clone, Debug)]
@@ -54,8 +54,8 @@ impl NameArgs {
     }
 
     /// Advice for the user if the name was not found.
-    pub(super) fn advice(&self, trouble: &Trouble) -> Option<String> {
-        trouble.ads_error()?;
+    pub(super) fn advice(&self, error: &ToolError) -> Option<String> {
+        error.ads_error()?;
         if self.name.starts_with("V.CYC.") {
             return Some("V.CYC variables are known by their names only: no CNC lists them".into());
         }
@@ -64,8 +64,8 @@ impl NameArgs {
         let browse = format!(
             "ads-cnc browse --variables --channel {channel} --filter \"{part}\" shows what there is"
         );
-        Some(match trouble {
-            Trouble::Ads { function: Function::WriteByName, .. }
+        Some(match error {
+            ToolError::Ads { function: Function::WriteByName, .. }
                 if ["V.P.", "V.L.", "V.S."].iter().any(|kind| name.starts_with(kind)) =>
             {
                 format!(
@@ -113,10 +113,10 @@ fn axis(text: &str) -> Result<ChannelAxis, String> {
 }
 
 /// A broken pipe is not an error: the reader has seen enough.
-pub(super) fn written(result: io::Result<()>) -> Result<(), Trouble> {
+pub(super) fn written(result: io::Result<()>) -> Result<(), ToolError> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Trouble::Internal(format!("the output could not be written: {error}")))
+            Err(ToolError::Internal(format!("the output could not be written: {error}")))
         }
         _ => Ok(()),
     }

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
 /// The line of a terminal changes at most this often.
-pub(super) const EVERY: Duration = Duration::from_millis(100);
+pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Short enough not to wrap: the rest of a wrapped line would stay on the screen.
 pub(super) const WIDTH: usize = 76;
 
@@ -23,7 +23,7 @@ impl ProgressLine {
 
     /// Shows a text on a terminal, unless the line was updated a moment ago.
     pub(super) fn update(&mut self, text: impl FnOnce() -> String) {
-        if self.live && self.is_due(EVERY) {
+        if self.live && self.is_due(UPDATE_INTERVAL) {
             self.show(&text());
         }
     }

@@ -3,8 +3,8 @@
 use std::io::{self, Read as _};
 use std::path::PathBuf;
 
-use super::message::complain;
-use super::report_output::{Forms, is_stdout, lost, show};
+use super::message::print_error;
+use super::report_output::{ReportFormats, is_stdout, lost, show};
 use crate::judge::Exit;
 use crate::report::{self, Report};
 
@@ -19,7 +19,7 @@ pub(super) struct ReportArgs {
     file: PathBuf,
 
     #[command(flatten)]
-    forms: Forms,
+    forms: ReportFormats,
 
     /// Show the cases made of vectors one by one
     #[arg(long, short)]
@@ -31,7 +31,7 @@ impl ReportArgs {
         let report = match self.forms.check(None).and_then(|()| self.read()) {
             Ok(report) => report,
             Err(why) => {
-                complain(why);
+                print_error(why);
                 return Exit::Usage;
             }
         };

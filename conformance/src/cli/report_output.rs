@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use crate::judge::{Exit, Waivers};
 use crate::report::{self, Report};
 
@@ -15,7 +15,7 @@ pub(super) const HEADING: &str = "Reports";
 
 /// Formats that are made from the JSON report.
 #[derive(Args, Clone, Debug)]
-pub(super) struct Forms {
+pub(super) struct ReportFormats {
     /// Write the report as one HTML file that needs nothing else
     #[arg(long, help_heading = HEADING, value_name = "FILE")]
     html: Option<PathBuf>,
@@ -34,11 +34,11 @@ pub(super) struct Forms {
 }
 
 /// A function that writes a format.
-type Maker = fn(&Report, &mut dyn Write) -> io::Result<()>;
+type FormatWriter = fn(&Report, &mut dyn Write) -> io::Result<()>;
 
-impl Forms {
-    fn requested(&self) -> impl Iterator<Item = (&Path, Maker)> {
-        let all: [(&Option<PathBuf>, Maker); 4] = [
+impl ReportFormats {
+    fn requested(&self) -> impl Iterator<Item = (&Path, FormatWriter)> {
+        let all: [(&Option<PathBuf>, FormatWriter); 4] = [
             (&self.html, report::to_html),
             (&self.junit, report::to_junit),
             (&self.markdown, report::to_markdown),
@@ -88,7 +88,7 @@ pub(super) struct Reports {
     json: Option<PathBuf>,
 
     #[command(flatten)]
-    forms: Forms,
+    forms: ReportFormats,
 }
 
 impl Reports {
@@ -169,7 +169,7 @@ pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::R
 
 /// Exit code for a report that cannot be written.
 pub(super) fn lost(error: io::Error) -> Exit {
-    complain(format_args!("the report could not be written: {error}"));
+    print_error(format_args!("the report could not be written: {error}"));
     Exit::Internal
 }
 

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write as _};
 
-use super::message::complain;
+use super::message::print_error;
 use crate::judge::{Exit, names};
 use crate::matrix::{self, RequirementRow};
 
@@ -36,7 +36,7 @@ impl Requirements {
         let mut rows = matrix::matrix();
         rows.retain(|row| self.matches(row));
         if rows.is_empty() {
-            complain(format_args!("no requirement is {}", self.only.join(" or ")));
+            print_error(format_args!("no requirement is {}", self.only.join(" or ")));
             return Exit::Nothing;
         }
         let text = match self.format {
@@ -54,7 +54,7 @@ impl Requirements {
             // A broken pipe: the reader has seen enough.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
             Err(error) => {
-                complain(format_args!("the matrix is not printed: {error}"));
+                print_error(format_args!("the matrix is not printed: {error}"));
                 Exit::Internal
             }
         }

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::list;
-use super::message::complain;
+use super::message::print_error;
 use super::report_output::{Reports, show, write};
 use super::run_client::ClientArgs;
 use super::run_testee;
@@ -25,7 +25,7 @@ use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, W
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
-use crate::session::Trouble;
+use crate::session::ToolError;
 use crate::simulator::Model;
 use crate::suite::{self, Changes};
 use crate::text::Moment;
@@ -153,7 +153,7 @@ Exit codes, the first that holds:
 }
 
 /// Prints what could not be restored; returns whether there is any.
-fn tell_left(changes: &Changes) -> bool {
+fn print_left_changed(changes: &Changes) -> bool {
     let left = changes.left();
     for one in &left {
         let _unprinted = writeln!(io::stderr(), "{one}");
@@ -164,13 +164,13 @@ fn tell_left(changes: &Changes) -> bool {
 /// Why there is no report.
 enum Stopped {
     Usage(String),
-    Target(Trouble),
+    Target(ToolError),
     Unmatched(Unmatched),
 }
 
-impl From<Trouble> for Stopped {
-    fn from(trouble: Trouble) -> Self {
-        Self::Target(trouble)
+impl From<ToolError> for Stopped {
+    fn from(error: ToolError) -> Self {
+        Self::Target(error)
     }
 }
 
@@ -189,19 +189,19 @@ impl Run {
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
             // An invalid file is an error even without a target.
-            self.target.allowed().map_err(|trouble| trouble.to_string())?;
+            self.target.allowed().map_err(|error| error.to_string())?;
             Ok((defect, self.reports.waivers()?, self.profile()?))
         });
         let (defect, waivers, profile) = match checked {
             Ok(checked) => checked,
             Err(why) => {
-                complain(why);
+                print_error(why);
                 return Exit::Usage;
             }
         };
         if let (Some(command), true) = (&self.testee, self.check_protocol) {
             if let Err(error) = Interrupt::catch() {
-                complain(Trouble::uncaught(&error));
+                print_error(ToolError::uncaught(&error));
                 return Exit::Internal;
             }
             let mut exit = Exit::Success;
@@ -217,7 +217,7 @@ impl Run {
         }
         let changes = Changes::default();
         let exit = self.judged(seed, waivers, profile, defect, &changes);
-        let is_left = tell_left(&changes);
+        let is_left = print_left_changed(&changes);
         match exit {
             Exit::Internal => exit,
             _ if is_left => Exit::LeftChanged,
@@ -237,21 +237,23 @@ impl Run {
         let (first, last) = (changes.clone(), changes.clone());
         let first_words = move || {
             if !first.left().is_empty() {
-                complain("interrupted: what was changed is restored; a second signal ends at once");
+                print_error(
+                    "interrupted: what was changed is restored; a second signal ends at once",
+                );
             }
         };
-        let last_words = move || tell_left(&last).then_some(Exit::LeftChanged);
-        let interrupt = match Interrupt::catch_telling(first_words, last_words) {
+        let last_words = move || print_left_changed(&last).then_some(Exit::LeftChanged);
+        let interrupt = match Interrupt::catch_with(first_words, last_words) {
             Ok(interrupt) => interrupt,
             Err(error) => {
-                complain(Trouble::uncaught(&error));
+                print_error(ToolError::uncaught(&error));
                 return Exit::Internal;
             }
         };
         // With a client that connects by itself, the address is printed before.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         if asks && !self.client.waits() {
-            complain(self.deadline);
+            print_error(self.deadline);
         }
         let report = match &self.testee {
             _ if self.client.is_wanted() => self.of_client(seed, waivers, &interrupt),
@@ -260,20 +262,20 @@ impl Run {
             None => self.device(seed, waivers, profile, changes),
         };
         if interrupt.is_requested() && !self.client.waits() {
-            complain("interrupted: the reports have what was done until then");
+            print_error("interrupted: the reports have what was done until then");
         }
         match report {
             Ok(report) => self.write(&report),
             Err(Stopped::Usage(why)) => {
-                complain(why);
+                print_error(why);
                 Exit::Usage
             }
-            Err(Stopped::Target(trouble)) => {
-                complain(&trouble);
-                trouble.exit()
+            Err(Stopped::Target(error)) => {
+                print_error(&error);
+                error.exit()
             }
             Err(Stopped::Unmatched(why)) => {
-                complain(why);
+                print_error(why);
                 Exit::Nothing
             }
         }
@@ -336,7 +338,7 @@ impl Run {
         let plan = match self.plan(seed) {
             Ok(plan) => plan,
             Err(why) => {
-                complain(why);
+                print_error(why);
                 return Exit::Nothing;
             }
         };
@@ -347,9 +349,9 @@ impl Run {
             .then(|| self.target.clone().with_malformed(self.malformed).gate());
         let gate = match gate.transpose() {
             Ok(gate) => gate,
-            Err(trouble) => {
-                complain(&trouble);
-                return trouble.exit();
+            Err(error) => {
+                print_error(&error);
+                return error.exit();
             }
         };
         let unmet = |needs: Needs| {

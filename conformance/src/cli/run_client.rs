@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::serve::check_address;
 use crate::clients::{self, ClientProcess, JudgedClient, Scenario, TestServer};
 use crate::deadline::Deadline;
@@ -107,7 +107,7 @@ impl ClientArgs {
         let mut process = ClientProcess::new(command, timeout).with_deadline(deadline);
         let JudgedClient { hello, outcomes, requests } =
             clients::judge(&mut process, server, &wanted);
-        let stderr = clients::Actor::stderr(&process);
+        let stderr = clients::ClientUnderTest::stderr(&process);
         let identity = hello.map(|hello| hello.client);
         let target = super::run_testee::target("client", command, identity, &stderr);
         OfClient { target, outcomes, frames: requests }
@@ -125,7 +125,7 @@ fn wait_for_client(
     // Called for the first time when the server listens.
     let go_on = || {
         if !told {
-            complain(format_args!(
+            print_error(format_args!(
                 "waiting for a client on {addr}, AMS NetId {net_id}, until it has closed or Ctrl-C"
             ));
             told = true;
@@ -134,7 +134,7 @@ fn wait_for_client(
     };
     let (outcome, frames) = clients::listen(server, go_on).map_err(|error| error.to_string())?;
     if deadline.is_over() {
-        complain(deadline);
+        print_error(deadline);
     }
     let target = TargetReport {
         name: "client".to_owned(),

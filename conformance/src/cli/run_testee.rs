@@ -22,7 +22,7 @@ use crate::text::shorten;
 const STDERR_SHOWN: usize = 4000;
 
 /// Maximum number of characters of a name in a report.
-const GIVEN_MAX: usize = 200;
+const NAME_MAX: usize = 200;
 
 pub(super) struct OfTestee {
     pub(super) target: TargetReport,
@@ -53,7 +53,7 @@ pub(super) fn target(
     stderr: &str,
 ) -> TargetReport {
     let given = identity.map(|Identity { name, version, language }| [name, version, language]);
-    let given = given.unwrap_or_default().map(|text| shorten(&text, GIVEN_MAX));
+    let given = given.unwrap_or_default().map(|text| shorten(&text, NAME_MAX));
     let [name, version, language] = given.map(|text| Some(text).filter(|text| !text.is_empty()));
     let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
     let last: String = stderr.chars().skip(skipped).collect();

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::report_output::{is_stdout, lost, show, write};
 use crate::judge::{Exit, any_seed};
 use crate::selftest;
@@ -67,7 +67,7 @@ impl SelfTestArguments {
         let scope = if self.all || self.renew.is_some() {
             Scope::All
         } else {
-            complain(format_args!("sample by --seed {seed}"));
+            print_error(format_args!("sample by --seed {seed}"));
             Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
@@ -77,7 +77,7 @@ impl SelfTestArguments {
             for (name, text) in files {
                 let file = folder.join(name);
                 if let Err(error) = std::fs::write(&file, text) {
-                    complain(format_args!("{}: {error}", file.display()));
+                    print_error(format_args!("{}: {error}", file.display()));
                     return Exit::Internal;
                 }
             }

@@ -9,20 +9,20 @@ use std::time::Duration;
 use ads_cnc::ads::AmsNetId;
 
 use super::executed::{self, ExecutedTo};
-use super::message::{complain, refuse};
+use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
 use crate::faults::{self, Faulty, Seed};
 use crate::judge::Exit;
 use crate::net;
 use crate::process::interrupt::Interrupt;
-use crate::session::Trouble;
+use crate::session::ToolError;
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
 use crate::simulator::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
 
 /// The end of the help.
-const MORE: &str = "\
+const AFTER_HELP: &str = "\
 Examples:
   ads-cnc serve
   ads-cnc serve --print-model > mine.toml
@@ -47,7 +47,7 @@ const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 
 /// Options of `serve`.
 #[derive(Debug, clap::Args)]
-#[command(after_help = MORE)]
+#[command(after_help = AFTER_HELP)]
 pub(super) struct Args {
     /// Address and port to listen on; with port 0 the system picks one.
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898", value_parser = address)]
@@ -104,46 +104,49 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         return print_model();
     }
     if let Err(why) = check_address(args.listen, args.allow_remote) {
-        return refuse(Exit::Usage, why);
+        return exit_with_error(Exit::Usage, why);
     }
     let defect = match find_defect(args.defect.as_deref()) {
         Ok(defect) => defect,
-        Err(why) => return refuse(Exit::Usage, why),
+        Err(why) => return exit_with_error(Exit::Usage, why),
     };
     if let Some(seed) = defect.as_ref().filter(|seed| !seed.is_for_cnc()) {
-        return refuse(
+        return exit_with_error(
             Exit::Usage,
             format_args!("{} is a defect of a codec, not of a CNC", seed.id),
         );
     }
     let faulty = match args.model.cnc() {
         Ok(cnc) => Faulty::new(cnc, defect.as_ref()),
-        Err(why) => return refuse(Exit::Usage, why),
+        Err(why) => return exit_with_error(Exit::Usage, why),
     };
     let cnc = Arc::clone(faulty.cnc());
     if let Err(why) = programs(&cnc, args) {
-        return refuse(Exit::Internal, why);
+        return exit_with_error(Exit::Internal, why);
     }
     let executed: Result<Vec<_>, _> = args.executed.iter().map(|one| one.open(&cnc)).collect();
     let executed = match executed {
         Ok(executed) => executed,
-        Err(why) => return refuse(Exit::Usage, format_args!("--executed: {why}")),
+        Err(why) => return exit_with_error(Exit::Usage, format_args!("--executed: {why}")),
     };
     let interrupt = match Interrupt::catch() {
         Ok(interrupt) => interrupt,
-        Err(error) => return refuse(Exit::Internal, Trouble::uncaught(&error)),
+        Err(error) => return exit_with_error(Exit::Internal, ToolError::uncaught(&error)),
     };
     if let Some(defect) = &defect {
         tracing::warn!("serving with a seeded defect: {defect}");
     }
     let server = match start(args.listen, faulty, args.options()) {
         Ok(server) => server,
-        Err(why) => return refuse(Exit::Internal, why),
+        Err(why) => return exit_with_error(Exit::Internal, why),
     };
     let line = format!("listening on {}, AMS NetId {}\n", server.addr(), server.net_id());
     let mut out = io::stdout().lock();
     if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
-        return refuse(Exit::Internal, format_args!("the address cannot be printed: {error}"));
+        return exit_with_error(
+            Exit::Internal,
+            format_args!("the address cannot be printed: {error}"),
+        );
     }
     drop(out);
     // The threads of the server do the work.
@@ -153,7 +156,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     executed::log(&cnc);
     match executed.into_iter().try_for_each(|one| one.write(&cnc)) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(why) => refuse(Exit::Internal, why),
+        Err(why) => exit_with_error(Exit::Internal, why),
     }
 }
 
@@ -177,7 +180,7 @@ pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), 
     }
     let open = "the simulated CNC does not authenticate clients";
     if allow_remote {
-        complain(format_args!(
+        print_error(format_args!(
             "warning: {addr} is not a loopback address: {open}, and whoever reaches it can read \
              and write"
         ));
@@ -229,7 +232,9 @@ fn print_model() -> ExitCode {
     let mut out = io::stdout().lock();
     match out.write_all(DEFAULT_MODEL.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => refuse(Exit::Internal, format_args!("the model is not written: {error}")),
+        Err(error) => {
+            exit_with_error(Exit::Internal, format_args!("the model is not written: {error}"))
+        }
     }
 }
 

@@ -12,14 +12,14 @@ use std::io::{self, Write as _};
 use ads_cnc::dynamic::DynamicKind;
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, simulator_gate};
 use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
 use crate::objects::{Object, ReportedAccess, ValueAddress};
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::values::{Type, parse, plain};
 
 /// Writes a variable, an object or an element by its name, reads it back and shows both.
@@ -69,13 +69,13 @@ not fit; 3 no answer; 4 refused for safety; 70 internal error.";
 
 impl Set {
     pub(super) fn execute(&self) -> Exit {
-        self.target.end(self.run(), |trouble| match trouble {
-            Trouble::NotSent => Some("with --type TYPE the write itself is shown".to_owned()),
-            trouble => self.name.advice(trouble),
+        self.target.end(self.run(), |error| match error {
+            ToolError::NotSent => Some("with --type TYPE the write itself is shown".to_owned()),
+            error => self.name.advice(error),
         })
     }
 
-    fn run(&self) -> Result<Exit, Trouble> {
+    fn run(&self) -> Result<Exit, ToolError> {
         let question = self.name.question();
         let alone = by_name_alone(&question)?;
         if let Some(object) = &alone {
@@ -92,15 +92,15 @@ impl Set {
         let old = match session.read(&object.address) {
             Ok(old) => Some(old),
             // A value that cannot be read may be writable.
-            Err(Trouble::Ads { .. }) => None,
-            Err(Trouble::NotSent) if session.is_dry() => None,
-            Err(trouble) => return Err(trouble),
+            Err(ToolError::Ads { .. }) => None,
+            Err(ToolError::NotSent) if session.is_dry() => None,
+            Err(error) => return Err(error),
         };
         let ty = match &old {
             Some(old) => object.ty.clone().fitted(u32::try_from(old.len()).unwrap_or(u32::MAX)),
             None => object.ty.clone(),
         };
-        let mut bytes = parse(&ty, &self.value).map_err(|why| Trouble::Usage(why.to_string()))?;
+        let mut bytes = parse(&ty, &self.value).map_err(|why| ToolError::Usage(why.to_string()))?;
         if object.address.content().is_some() {
             // A content has a fixed size: the rest of a text is filled with zeros.
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
@@ -114,12 +114,12 @@ impl Set {
         }
         let new = match session.read(&object.address) {
             Ok(new) => Some(new),
-            Err(Trouble::Ads { .. }) => None,
-            Err(trouble) => return Err(trouble),
+            Err(ToolError::Ads { .. }) => None,
+            Err(error) => return Err(error),
         };
         self.show(&object, &ty, old.as_deref(), new.as_deref())?;
         if session.is_simulated() {
-            complain(
+            print_error(
                 "the simulated CNC ends here and keeps nothing; --target writes to one that stays",
             );
         }
@@ -127,7 +127,7 @@ impl Set {
     }
 
     /// Asks the gate before connecting, if the name alone determines the address.
-    fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), Trouble> {
+    fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), ToolError> {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
@@ -141,7 +141,7 @@ impl Set {
     }
 
     /// For the simulated CNC the gate allows exactly this write, in a dry run too.
-    fn open(&self, alone: Option<&Object>) -> Result<Session, Trouble> {
+    fn open(&self, alone: Option<&Object>) -> Result<Session, ToolError> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
             Some(object) if simulated && self.target.is_dry() => {
@@ -157,7 +157,7 @@ impl Set {
         ty: &Type,
         old: Option<&[u8]>,
         new: Option<&[u8]>,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ToolError> {
         let text = |bytes: Option<&[u8]>| match bytes {
             Some(bytes) => plain(ty, bytes).unwrap_or_else(|| crate::text::hex::spaced(bytes)),
             None => "(not readable)".to_owned(),
@@ -172,14 +172,14 @@ impl Set {
 }
 
 /// Checks that the CNC describes the object as writable.
-fn check(object: &Object) -> Result<(), Trouble> {
+fn check(object: &Object) -> Result<(), ToolError> {
     let name = &object.name;
     if matches!(object.address, ValueAddress::Parameter { kind: DynamicKind::P, .. }) {
         let why = format!("{name} is a P parameter, and no documented function writes those");
-        return Err(Trouble::Unable(why));
+        return Err(ToolError::Unable(why));
     }
     match object.access {
-        ReportedAccess::Read => Err(Trouble::Unable(format!(
+        ReportedAccess::Read => Err(ToolError::Unable(format!(
             "{name} is read only, as the CNC says; nothing was written"
         ))),
         _ => Ok(()),
@@ -189,7 +189,7 @@ fn check(object: &Object) -> Result<(), Trouble> {
 /// Whether the value read back is the one written; a text is compared up to its end.
 fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let Some(new) = new else {
-        complain("it was written, and the CNC does not let it be read back");
+        print_error("it was written, and the CNC does not let it be read back");
         return Exit::Success;
     };
     let same = written == new
@@ -198,6 +198,6 @@ fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
         return Exit::Success;
     }
     let wrote = plain(ty, written).unwrap_or_default();
-    complain(format_args!("the CNC took {wrote}, and reads another value now"));
+    print_error(format_args!("the CNC took {wrote}, and reads another value now"));
     Exit::Failure
 }

@@ -12,13 +12,13 @@ use ads_cnc::address::Channel;
 use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::deadline::Deadline;
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::Exit;
-use crate::session::{Session, TIMEOUT, Trouble};
+use crate::session::{Session, TIMEOUT, ToolError};
 use crate::simulator::{Cnc, NET_ID};
 
 /// The heading of these options in the help.
@@ -156,7 +156,7 @@ impl TargetArgs {
     }
 
     /// Connects to the device, or to a simulated CNC that is started here.
-    pub(super) fn open(&self) -> Result<Session, Trouble> {
+    pub(super) fn open(&self) -> Result<Session, ToolError> {
         self.open_or(default_cnc)
     }
 
@@ -165,8 +165,8 @@ impl TargetArgs {
     pub(super) fn open_to_write(
         &self,
         entry: Entry,
-        cnc: impl FnOnce() -> Result<Cnc, Trouble>,
-    ) -> Result<Session, Trouble> {
+        cnc: impl FnOnce() -> Result<Cnc, ToolError>,
+    ) -> Result<Session, ToolError> {
         match (self.is_device() || self.has_file(), self.dry_run) {
             (true, _) => self.open_or(cnc),
             (false, true) => Session::dry_simulated(simulator_gate(entry)),
@@ -178,8 +178,8 @@ impl TargetArgs {
     /// run shows the rejected write instead.
     pub(super) fn ask_gate(
         &self,
-        check: impl FnOnce(&Session) -> Result<(), Trouble>,
-    ) -> Result<(), Trouble> {
+        check: impl FnOnce(&Session) -> Result<(), ToolError>,
+    ) -> Result<(), ToolError> {
         match self.device()? {
             Some(target) if !self.dry_run => check(&Session::dry(target, self.gate()?)?),
             _ => Ok(()),
@@ -187,19 +187,19 @@ impl TargetArgs {
     }
 
     /// The content of the file for --allow-write, with or without a target.
-    pub(super) fn allowed(&self) -> Result<Option<Allowed>, Trouble> {
+    pub(super) fn allowed(&self) -> Result<Option<Allowed>, ToolError> {
         let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
-        allowed.map_err(|error| Trouble::Usage(error.to_string()))
+        allowed.map_err(|error| ToolError::Usage(error.to_string()))
     }
 
     /// The gate in front of the device.
-    pub(super) fn gate(&self) -> Result<Gate, Trouble> {
+    pub(super) fn gate(&self) -> Result<Gate, ToolError> {
         let gate = Gate::queries().with_allowed(self.allowed()?);
         match (self.device()?, self.malformed) {
             (Some(target), true) => {
                 let gate = gate.and_malformed().to_address(target.addr.ip());
                 let checked = gate.check_malformed(target.net_id, Moment::now());
-                checked.map_err(|refusal| Trouble::Refused(Box::new(refusal)))?;
+                checked.map_err(|refusal| ToolError::Refused(Box::new(refusal)))?;
                 Ok(gate)
             }
             _ => Ok(gate),
@@ -209,8 +209,8 @@ impl TargetArgs {
     /// Connects to the device, or starts this CNC.
     pub(super) fn open_or(
         &self,
-        cnc: impl FnOnce() -> Result<Cnc, Trouble>,
-    ) -> Result<Session, Trouble> {
+        cnc: impl FnOnce() -> Result<Cnc, ToolError>,
+    ) -> Result<Session, ToolError> {
         let gate = self.gate()?;
         match (self.device()?, self.dry_run) {
             (None, false) => self.recorded(Session::simulated(cnc()?, gate)?),
@@ -226,12 +226,12 @@ impl TargetArgs {
     }
 
     /// The session, captured if the option says so.
-    pub(super) fn recorded(&self, session: Session) -> Result<Session, Trouble> {
+    pub(super) fn recorded(&self, session: Session) -> Result<Session, ToolError> {
         let Some(file) = &self.capture else { return Ok(session) };
-        let failed = |error| Trouble::Internal(format!("{}: {error}", file.display()));
+        let failed = |error| ToolError::Internal(format!("{}: {error}", file.display()));
         let (lost, name) = (Arc::clone(&self.lost), file.display().to_string());
         let capture = Capture::create(file).map_err(failed)?.or_tell(move |error| {
-            complain(format_args!("{name}: {error}: the capture is not whole"));
+            print_error(format_args!("{name}: {error}: the capture is not whole"));
             lost.store(true, Ordering::Relaxed);
         });
         Ok(session.with_capture(capture))
@@ -241,15 +241,15 @@ impl TargetArgs {
     /// capture is an error.
     pub(super) fn end(
         &self,
-        done: Result<Exit, Trouble>,
-        advice: impl FnOnce(&Trouble) -> Option<String>,
+        done: Result<Exit, ToolError>,
+        advice: impl FnOnce(&ToolError) -> Option<String>,
     ) -> Exit {
-        let exit = done.unwrap_or_else(|trouble| {
-            complain(&trouble);
-            if let Some(advice) = advice(&trouble) {
-                complain(advice);
+        let exit = done.unwrap_or_else(|error| {
+            print_error(&error);
+            if let Some(advice) = advice(&error) {
+                print_error(advice);
             }
-            trouble.exit()
+            error.exit()
         });
         match exit {
             Exit::Success if self.lost.load(Ordering::Relaxed) => Exit::Internal,
@@ -257,9 +257,9 @@ impl TargetArgs {
         }
     }
 
-    fn device(&self) -> Result<Option<Target>, Trouble> {
+    fn device(&self) -> Result<Option<Target>, ToolError> {
         let Some(host) = &self.target else { return Ok(None) };
-        let usage = |why: String| Trouble::Usage(why);
+        let usage = |why: String| ToolError::Usage(why);
         let net_id = self.net_id.ok_or_else(|| usage("--target needs --net-id".to_owned()))?;
         Ok(Some(Target {
             addr: resolve(host).map_err(|error| usage(format!("{host}: {error}")))?,
@@ -272,8 +272,8 @@ impl TargetArgs {
 }
 
 /// The default model of the simulated CNC.
-pub(super) fn default_cnc() -> Result<Cnc, Trouble> {
-    let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+pub(super) fn default_cnc() -> Result<Cnc, ToolError> {
+    let internal = |error| ToolError::Internal(format!("the default model: {error}"));
     Cnc::with_default_model().map_err(internal)
 }
 

@@ -4,10 +4,10 @@ use std::io::{self, BufRead as _, Write as _};
 
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::serve::find_defect;
 use crate::judge::Exit;
-use crate::testee::{Act, Answer, Miniature, Own, Reply, TesteeCommand};
+use crate::testee::{Answer, CodecTestee, Miniature, MiniatureAction, Reply, TesteeCommand};
 
 /// Answers the protocol of `run --testee` with this project's codec, on stdin and stdout.
 ///
@@ -30,15 +30,15 @@ impl TesteeArguments {
         let defect = match find_defect(self.defect.as_deref()) {
             Ok(defect) => defect,
             Err(why) => {
-                complain(why);
+                print_error(why);
                 return Exit::Usage;
             }
         };
         if let Some(seed) = defect.as_ref().filter(|seed| !seed.is_for_codec()) {
-            complain(format_args!("{} is a defect of a CNC, not of a codec", seed.id));
+            print_error(format_args!("{} is a defect of a CNC, not of a codec", seed.id));
             return Exit::Usage;
         }
-        let own = Own { defect };
+        let own = CodecTestee { defect };
         let done = match self.miniature {
             None => answer(&own),
             Some(miniature) => misbehave(miniature, &own),
@@ -46,14 +46,14 @@ impl TesteeArguments {
         match done {
             Ok(()) => Exit::Success,
             Err(error) => {
-                complain(format_args!("stdin or stdout: {error}"));
+                print_error(format_args!("stdin or stdout: {error}"));
                 Exit::Internal
             }
         }
     }
 }
 
-fn answer(own: &Own) -> io::Result<()> {
+fn answer(own: &CodecTestee) -> io::Result<()> {
     let mut out = io::stdout().lock();
     for line in io::stdin().lock().lines() {
         match serde_json::from_str::<TesteeCommand>(&line?) {
@@ -74,7 +74,7 @@ fn answer(own: &Own) -> io::Result<()> {
     Ok(())
 }
 
-fn misbehave(miniature: Miniature, own: &Own) -> io::Result<()> {
+fn misbehave(miniature: Miniature, own: &CodecTestee) -> io::Result<()> {
     let mut out = io::stdout().lock();
     let mut seq = 0;
     for line in io::stdin().lock().lines() {
@@ -94,9 +94,9 @@ fn misbehave(miniature: Miniature, own: &Own) -> io::Result<()> {
                     seq = given;
                 }
                 match miniature.act(own, &line, seq) {
-                    Act::Say(line) => writeln!(out, "{line}")?,
-                    Act::Hang => stay(),
-                    Act::Crash => std::process::exit(i32::from(Exit::Internal.code())),
+                    MiniatureAction::Say(line) => writeln!(out, "{line}")?,
+                    MiniatureAction::Hang => stay(),
+                    MiniatureAction::Crash => std::process::exit(i32::from(Exit::Internal.code())),
                 }
             }
         }

@@ -6,6 +6,8 @@ use ads_cnc::Decode;
 use ads_cnc::ads::{
     AdsError, AmsHeader, AmsPort, Command, DeviceInfoReply, DeviceStateReply, FrameRef, WriteReply,
 };
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use super::Client;
 use crate::exchange::{ExchangeError, Violation, violations};
@@ -16,7 +18,7 @@ pub trait Inquiry: for<'a> Decode<'a> {
     const COMMAND: Command;
     const NAME: &'static str;
     /// The requirement of its reply.
-    const CLAUSE: &'static str;
+    const CLAUSE: ClauseId;
 
     /// The ADS error number.
     fn result(&self) -> AdsError;
@@ -25,7 +27,7 @@ pub trait Inquiry: for<'a> Decode<'a> {
 impl Inquiry for DeviceInfoReply {
     const COMMAND: Command = Command::READ_DEVICE_INFO;
     const NAME: &'static str = "ReadDeviceInfo";
-    const CLAUSE: &'static str = "ADS-8";
+    const CLAUSE: ClauseId = ADS_8;
 
     fn result(&self) -> AdsError {
         self.result
@@ -35,7 +37,7 @@ impl Inquiry for DeviceInfoReply {
 impl Inquiry for DeviceStateReply {
     const COMMAND: Command = Command::READ_STATE;
     const NAME: &'static str = "ReadState";
-    const CLAUSE: &'static str = "ADS-9";
+    const CLAUSE: ClauseId = ADS_9;
 
     fn result(&self) -> AdsError {
         self.result
@@ -114,7 +116,7 @@ impl Client {
                 // An error in the reply's stream breaks the requirement of the reply, any other
                 // that of the headers.
                 let own = error.field().stream() == Some(R::STREAM);
-                let requirement = if own { R::CLAUSE } else { "ADS-5" };
+                let requirement = if own { R::CLAUSE } else { ADS_5 };
                 inquired.violations.push(Violation { requirement, what: error.to_string() });
             }
             self.disconnect();

@@ -1,6 +1,7 @@
 //! Checks the headers of received frames.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
+use ads_cnc_vectors::ids::*;
 
 use super::Client;
 use crate::exchange::{Exchange, ExchangeError, Violation, violations};
@@ -27,7 +28,7 @@ impl Client {
                 let payload = exchange.received.len() > FrameRef::HEADERS_LEN;
                 if payload && !answer.ams_error.is_ok() && answer.result.is_ok() {
                     let error = answer.ams_error;
-                    add("ADS-5", format!("AMS error {error:#x} before a reply of success"));
+                    add(ADS_5, format!("AMS error {error:#x} before a reply of success"));
                 }
             }
             Err(fault) => {
@@ -38,12 +39,12 @@ impl Client {
                     if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
                         // A length is wrong, so the fields after it have other offsets.
-                        add("ADS-4", error.to_string());
+                        add(ADS_4, error.to_string());
                     } else {
-                        add("ADS-5", error.to_string());
+                        add(ADS_5, error.to_string());
                     }
                     if exchange.received.len() == FrameRef::HEADERS_LEN {
-                        add("ADS-5", "no data, and no error in the AMS header".to_owned());
+                        add(ADS_5, "no data, and no error in the AMS header".to_owned());
                     }
                 }
                 // The beginning of the next frame on this connection is unknown.

@@ -3,7 +3,7 @@
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
 
-use super::test_server::Turn;
+use super::test_server::RecordedExchange;
 use crate::judge::{Describe, Evidence, Record, Rules};
 use crate::wire_service::{decode_reply, service_of};
 
@@ -18,28 +18,30 @@ impl Findings {
     pub(super) fn check(
         &mut self,
         rules: impl Rules,
-        kept: bool,
-        turn: Option<&Turn>,
+        passed: bool,
+        exchange: Option<&RecordedExchange>,
         expected: impl Describe,
         found: impl Describe,
     ) {
-        self.record.add_all(rules, kept, expected, found, || turn.map(evidence));
+        self.record.add_all(rules, passed, expected, found, || exchange.map(evidence));
     }
 }
 
 /// The evidence of an exchange in a report.
-pub(super) fn evidence(turn: &Turn) -> Evidence {
+pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
     // The client's request is judged, so the evidence shows the request.
-    let fault = turn.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
+    let fault = exchange.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
         call: format!("bytes that are no request{fault}"),
-        sent: Evidence::start(&turn.request).to_vec(),
-        result: format!("{} bytes", turn.sent.len()),
-        frame_sent: Evidence::start(&turn.request).to_vec(),
-        frame_received: Evidence::start(&turn.sent).to_vec(),
+        sent: Evidence::start(&exchange.request).to_vec(),
+        result: format!("{} bytes", exchange.sent.len()),
+        frame_sent: Evidence::start(&exchange.request).to_vec(),
+        frame_received: Evidence::start(&exchange.sent).to_vec(),
         ..Evidence::default()
     };
-    let Ok(Some((frame, _))) = FrameRef::split(&turn.request, u32::MAX) else { return evidence };
+    let Ok(Some((frame, _))) = FrameRef::split(&exchange.request, u32::MAX) else {
+        return evidence;
+    };
     let header = frame.header();
     evidence.call = format!("command {} to port {}{fault}", header.command.0, header.target.port);
     evidence.sent = Evidence::start(frame.data()).to_vec();
@@ -55,8 +57,8 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
         evidence.reply_stream =
             function.and_then(|spec| spec.reply).map(|stream| stream.layout().name);
     }
-    if let Ok(Some((reply, len))) = FrameRef::split(&turn.sent, u32::MAX)
-        && len == turn.sent.len()
+    if let Ok(Some((reply, len))) = FrameRef::split(&exchange.sent, u32::MAX)
+        && len == exchange.sent.len()
     {
         let service = service_of(reply.header().command);
         let decoded = service.and_then(|service| decode_reply(service, reply.data()).ok());
@@ -75,7 +77,11 @@ mod tests {
     fn garbage_is_shown() {
         let request = b"GET / HTTP/1.0\r\n\r\n".to_vec();
         let fault = Some("a frame of 539959386 bytes".to_owned());
-        let shown = evidence(&Turn { request: request.clone(), fault, ..Turn::default() });
+        let shown = evidence(&RecordedExchange {
+            request: request.clone(),
+            fault,
+            ..RecordedExchange::default()
+        });
         assert_eq!(shown.call, "bytes that are no request: a frame of 539959386 bytes");
         assert_eq!((shown.sent, shown.result.as_str()), (request, "0 bytes"));
     }
@@ -86,7 +92,11 @@ mod tests {
         let mut request =
             vec![0, 0, 36, 0, 0, 0, 127, 0, 0, 1, 1, 1, 0x29, 2, 10, 0, 0, 9, 1, 1, 0, 0x80];
         request.extend([77, 0, 4, 0, 4, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0xDE, 0xAD, 0xBE, 0xEF]);
-        let shown = evidence(&Turn { request, sent: vec![0; 38], ..Turn::default() });
+        let shown = evidence(&RecordedExchange {
+            request,
+            sent: vec![0; 38],
+            ..RecordedExchange::default()
+        });
         assert_eq!(shown.call, "command 77 to port 553");
         assert_eq!(shown.sent, [0xDE, 0xAD, 0xBE, 0xEF]);
         assert_eq!(shown.result, "38 bytes");

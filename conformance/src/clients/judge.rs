@@ -11,10 +11,12 @@ use serde_json::Value;
 use super::findings::Findings;
 use super::message::{ActionResult, ClientHello, ClientReaction, CncAddress};
 use super::result::same;
-use super::scenario::{Expect, Scenario};
+use super::scenario::{ExpectedAnswer, Scenario};
 use super::script::ScenarioScript;
-use super::test_server::{TestServer, Turn};
-use super::{Actor, ClientDefect, ReferenceClient, ordering, request_match, requests, scenarios};
+use super::test_server::{RecordedExchange, TestServer};
+use super::{
+    ClientDefect, ClientUnderTest, ReferenceClient, ordering, request_match, requests, scenarios,
+};
 use crate::judge::{
     Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Record, Rule, Stop, Verdict, caught,
 };
@@ -22,7 +24,7 @@ use crate::process::interrupt;
 use crate::simulator::Cnc;
 
 /// Maximum number of consecutive scenarios without an answer; after them the rest is not tried.
-const LOST_MAX: usize = 12;
+const UNANSWERED_MAX: usize = 12;
 
 #[derive(Debug)]
 pub struct JudgedClient {
@@ -33,8 +35,12 @@ pub struct JudgedClient {
 }
 
 /// Runs a client through scenarios in their order.
-pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario]) -> JudgedClient {
-    let mut manners = Findings::default();
+pub fn judge(
+    actor: &mut dyn ClientUnderTest,
+    server: &TestServer,
+    scenarios: &[Scenario],
+) -> JudgedClient {
+    let mut protocol = Findings::default();
     let mut requests = 0_usize;
     let place = |port| CncAddress { addr: server.addr(), net_id: server.net_id(), port };
     let hello = match actor.hello(&place(552)) {
@@ -55,13 +61,13 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
                 |one: &Scenario| CaseOutcome::untried(one.case(), verdict, why.to_owned());
             let mut outcomes: Vec<CaseOutcome> = scenarios.iter().map(untried).collect();
             if over.is_none() {
-                manners.check(CLIENT, false, None, "an answer to hello", || reaction);
-                outcomes.push(of_manners(manners));
+                protocol.check(Rule::CLIENT, false, None, "an answer to hello", || reaction);
+                outcomes.push(protocol_outcome(protocol));
             }
             return JudgedClient { hello: None, outcomes, requests };
         }
     };
-    manners.check(CLIENT, true, None, "", "");
+    protocol.check(Rule::CLIENT, true, None, "", "");
     let mut outcomes = Vec::new();
     let mut lost = 0_usize;
     for scenario in scenarios {
@@ -80,8 +86,9 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
             outcomes.push(CaseOutcome::untried(case, Verdict::Inconclusive, why));
             continue;
         }
-        if lost >= LOST_MAX {
-            let note = format!("the client is gone: {LOST_MAX} times in a row without an answer");
+        if lost >= UNANSWERED_MAX {
+            let note =
+                format!("the client is gone: {UNANSWERED_MAX} times in a row without an answer");
             outcomes.push(CaseOutcome::untried(case, Verdict::Inconclusive, note));
             continue;
         }
@@ -112,36 +119,37 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
         lost = if is_lost { lost.saturating_add(1) } else { 0 };
         requests = requests.saturating_add(count);
         outcomes.push(outcome);
-        one_line(actor, &mut manners);
+        one_line(actor, &mut protocol);
     }
     if interrupt::is_requested() {
-        outcomes.push(CaseOutcome::interrupted(of_manners(manners).case));
+        outcomes.push(CaseOutcome::interrupted(protocol_outcome(protocol).case));
         return JudgedClient { hello: Some(hello), outcomes, requests };
     }
-    if lost < LOST_MAX && actor.over().is_none() {
+    if lost < UNANSWERED_MAX && actor.over().is_none() {
         let bye = actor.bye();
-        let kept = bye.is_ok();
+        let passed = bye.is_ok();
         let found = || bye.err().unwrap_or_default();
-        manners.check(CLIENT, kept, None, "its end with exit code 0 after bye", found);
+        protocol.check(Rule::CLIENT, passed, None, "its end with exit code 0 after bye", found);
     }
-    one_line(actor, &mut manners);
-    outcomes.push(of_manners(manners));
+    one_line(actor, &mut protocol);
+    outcomes.push(protocol_outcome(protocol));
     JudgedClient { hello: Some(hello), outcomes, requests }
 }
 
 /// Checks that the client prints one line per action.
-fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
+fn one_line(actor: &mut dyn ClientUnderTest, protocol: &mut Findings) {
     for line in actor.unasked() {
-        manners
-            .check(CLIENT, false, None, "one line for each action", || format!("{line} as well"));
+        protocol.check(Rule::CLIENT, false, None, "one line for each action", || {
+            format!("{line} as well")
+        });
     }
 }
 
 /// Runs this project's client with a defect through the scenarios with the requirement that it
 /// breaks, until it fails; a valid variant runs through all of them.
 pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
-    let mut own = ReferenceClient { flaw: Some(defect.flaw) };
-    let wanted = Rule::from(defect.requirement).id;
+    let mut own = ReferenceClient { fault: Some(defect.fault) };
+    let wanted = Rule::of(defect.requirement).id;
     let judges = |scenario: &Scenario| {
         let whole = wanted.is_empty() || wanted == CLIENT;
         whole || scenario.case().requirements.contains(&wanted)
@@ -160,7 +168,7 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
 /// Runs one scenario; returns its outcome, whether the client was lost, and how many requests it
 /// sent.
 fn play(
-    actor: &mut dyn Actor,
+    actor: &mut dyn ClientUnderTest,
     server: &TestServer,
     scenario: &Scenario,
     place: &CncAddress,
@@ -180,17 +188,17 @@ fn play(
     }
     server.begin(script);
     let reaction = actor.act(place, &scenario.id, &action);
-    let (turns, beyond, script) = server.end();
+    let (exchanges, beyond, script) = server.end();
     let script = script.ok_or("the CNC of the scenario is still in use")?;
     let mut findings = Findings::default();
-    requests::judge(&turns, &mut None, &mut findings);
+    requests::judge(&exchanges, &mut None, &mut findings);
     // A client may reject a program with a loop word, or detect an inconsistent reply, without a
     // request.
-    request_match::judge(&scenario.asks, &turns, may_write(scenario), &mut findings);
+    request_match::judge(&scenario.asks, &exchanges, may_write(scenario), &mut findings);
     if let Some(watch) = scenario.watch {
-        ordering::judge(watch, scenario, &script, &turns, &mut findings);
+        ordering::judge(watch, scenario, &script, &exchanges, &mut findings);
     }
-    let stop = judge_reaction(scenario, &script, &reaction, turns.last(), &mut findings);
+    let stop = judge_reaction(scenario, &script, &reaction, exchanges.last(), &mut findings);
     let stop = stop.or(beyond.stop());
     let is_lost = matches!(
         reaction,
@@ -204,7 +212,7 @@ fn play(
         }
     }
     let Record { judgements, checks } = findings.record;
-    Ok((CaseOutcome::tried(case, judgements, checks, stop), is_lost, turns.len()))
+    Ok((CaseOutcome::tried(case, judgements, checks, stop), is_lost, exchanges.len()))
 }
 
 fn may_write(scenario: &Scenario) -> bool {
@@ -217,24 +225,28 @@ fn judge_reaction(
     scenario: &Scenario,
     script: &ScenarioScript,
     reaction: &ClientReaction,
-    last: Option<&Turn>,
+    last: Option<&RecordedExchange>,
     findings: &mut Findings,
 ) -> Option<Stop> {
     let expected = match &scenario.expect {
-        Expect::Result(value) => Expected::result(value.clone()),
-        Expect::Asked(ask) => Expected::result(ask(script)?),
-        Expect::ResultOrError(value) => Expected { error: true, ..Expected::result(value.clone()) },
-        Expect::AskedOrError(ask) => Expected { error: true, ..Expected::result(ask(script)?) },
-        Expect::Done => Expected { result: None, any: true, error: false },
-        Expect::DoneOrError => Expected { result: None, any: true, error: true },
-        Expect::Error => Expected { result: None, any: false, error: true },
+        ExpectedAnswer::Result(value) => Expected::result(value.clone()),
+        ExpectedAnswer::Asked(ask) => Expected::result(ask(script)?),
+        ExpectedAnswer::ResultOrError(value) => {
+            Expected { error: true, ..Expected::result(value.clone()) }
+        }
+        ExpectedAnswer::AskedOrError(ask) => {
+            Expected { error: true, ..Expected::result(ask(script)?) }
+        }
+        ExpectedAnswer::Done => Expected { result: None, any: true, error: false },
+        ExpectedAnswer::DoneOrError => Expected { result: None, any: true, error: true },
+        ExpectedAnswer::Error => Expected { result: None, any: false, error: true },
     };
     let rules = scenario.rules();
-    let kept = match reaction {
+    let passed = match reaction {
         ClientReaction::Answer(ActionResult::Unsupported(what)) => {
             // The client listed this action in its hello.
             let found = || format!("unsupported: {what}");
-            findings.check(CLIENT, false, last, "what its hello claims", found);
+            findings.check(Rule::CLIENT, false, last, "what its hello claims", found);
             return Some(Stop::NotApplicable(format!("the client has no {what}")));
         }
         ClientReaction::Answer(ActionResult::Result(value)) => {
@@ -252,12 +264,12 @@ fn judge_reaction(
         ClientReaction::Answer(_) => rules,
         // A missing or garbled answer breaks a must, even if the scenario's rules are assumed.
         ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
-            let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
-            rules.into_iter().map(must).chain([CLIENT.into()]).collect()
+            let must = |rule: Rule| rule.at(Level::Must);
+            rules.into_iter().map(must).chain([Rule::CLIENT]).collect()
         }
         ClientReaction::Broken(why) => return Some(Stop::Inconclusive(why.clone())),
     };
-    findings.check(&rules, kept, last, || &expected, || reaction);
+    findings.check(&rules, passed, last, || &expected, || reaction);
     None
 }
 
@@ -298,7 +310,7 @@ impl std::fmt::Display for Expected {
 }
 
 /// The outcome of the case about the client protocol.
-fn of_manners(findings: Findings) -> CaseOutcome {
+fn protocol_outcome(findings: Findings) -> CaseOutcome {
     let case = Case {
         id: "client-manners".to_owned(),
         title: "It says who it is, one line to each action, and ends when told to".to_owned(),
@@ -338,9 +350,9 @@ mod tests {
     #[derive(Default)]
     struct PanickingClient(ReferenceClient, usize);
 
-    impl Actor for PanickingClient {
+    impl ClientUnderTest for PanickingClient {
         fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction> {
-            Actor::hello(&mut self.0, place)
+            ClientUnderTest::hello(&mut self.0, place)
         }
 
         fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {

@@ -30,14 +30,14 @@ pub use message::{ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCO
 pub use passive::{listen, requests_case};
 pub use process::ClientProcess;
 pub use reference_client::{
-    ClientDefect, Flaw, ReferenceClient, answer, defects, find_defect, habits,
+    ClientDefect, ClientFault, ReferenceClient, answer, defects, find_defect, variants,
 };
 pub use scenario::Scenario;
 pub use scenarios::scenarios;
 pub use test_server::TestServer;
 
 /// A client under test.
-pub trait Actor {
+pub trait ClientUnderTest {
     /// Asks for its name and the actions it implements.
     fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction>;
 

@@ -1,11 +1,12 @@
 //! Judges the requests of a client that is not told what to do.
 
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::ids::*;
 
 use super::findings::Findings;
 use super::requests;
 use super::script::ScenarioScript;
-use super::test_server::{TestServer, Turn};
+use super::test_server::{RecordedExchange, TestServer};
 use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
 use crate::simulator::{Cnc, ModelError};
 
@@ -13,7 +14,7 @@ use crate::simulator::{Cnc, ModelError};
 pub fn requests_case() -> Case {
     let functions = Function::ALL.iter().map(|function| function.spec().clause);
     let mut requirements: Vec<&'static str> =
-        ["ADS-1", "ADS-2", "ADS-3", "ADS-5", "GEN-4"].into_iter().chain(functions).collect();
+        [ADS_1, ADS_2, ADS_3, ADS_5, GEN_4].iter().map(|id| id.as_str()).chain(functions).collect();
     requirements.sort_unstable();
     requirements.dedup();
     Case {
@@ -37,16 +38,16 @@ pub fn listen(
 ) -> Result<(CaseOutcome, usize), ModelError> {
     server.begin(ScenarioScript::new(Cnc::with_default_model()?));
     let (mut findings, mut before, mut count) = (Findings::default(), None, 0_usize);
-    let mut judge = |turns: &[Turn]| {
-        count = count.saturating_add(turns.len());
-        requests::judge(turns, &mut before, &mut findings);
+    let mut judge = |exchanges: &[RecordedExchange]| {
+        count = count.saturating_add(exchanges.len());
+        requests::judge(exchanges, &mut before, &mut findings);
     };
     server.watch(|| {
-        judge(&server.turns());
+        judge(&server.exchanges());
         go_on()
     });
-    let (turns, beyond, _) = server.end();
-    judge(&turns);
+    let (exchanges, beyond, _) = server.end();
+    judge(&exchanges);
     let mut requirements = Vec::new();
     for judgement in &findings.record.judgements {
         if !requirements.contains(&judgement.requirement) {

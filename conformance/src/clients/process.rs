@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::message::{
     ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL, action_command, environment,
 };
-use super::{Action, Actor};
+use super::{Action, ClientUnderTest};
 use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, cut};
 
@@ -75,7 +75,7 @@ impl ClientProcess {
     }
 }
 
-impl Actor for ClientProcess {
+impl ClientUnderTest for ClientProcess {
     fn over(&self) -> Option<String> {
         self.process.over()
     }

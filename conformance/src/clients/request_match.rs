@@ -2,16 +2,17 @@
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::findings::Findings;
 use super::requests::writes;
-use super::scenario::{Ask, Length};
-use super::test_server::Turn;
+use super::scenario::{ExpectedRequest, ReadLength};
+use super::test_server::RecordedExchange;
 use crate::judge::assumed;
 
 /// A request as raw bytes; the codec is used only to find the end of the frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Sent {
+struct RawRequest {
     command: u16,
     port: u16,
     group: u32,
@@ -20,9 +21,9 @@ struct Sent {
     data: Vec<u8>,
 }
 
-impl Sent {
-    fn of(turn: &Turn) -> Option<Self> {
-        let frame = turn.request.as_slice();
+impl RawRequest {
+    fn of(exchange: &RecordedExchange) -> Option<Self> {
+        let frame = exchange.request.as_slice();
         let word = |at: usize| {
             let bytes: [u8; 4] = frame.get(at..at.checked_add(4)?)?.try_into().ok()?;
             Some(u32::from_le_bytes(bytes))
@@ -56,28 +57,40 @@ pub(super) const fn logical(group: u32) -> u32 {
 }
 
 /// Checks that all requests of the scenario were sent, and no other write.
-pub(super) fn judge(asks: &[Ask], turns: &[Turn], may_write: bool, findings: &mut Findings) {
-    let sent: Vec<(Sent, &Turn)> =
-        turns.iter().filter_map(|turn| Some((Sent::of(turn)?, turn))).collect();
+pub(super) fn judge(
+    asks: &[ExpectedRequest],
+    exchanges: &[RecordedExchange],
+    may_write: bool,
+    findings: &mut Findings,
+) {
+    let sent: Vec<(RawRequest, &RecordedExchange)> = exchanges
+        .iter()
+        .filter_map(|exchange| Some((RawRequest::of(exchange)?, exchange)))
+        .collect();
     for ask in asks {
-        one(ask, &sent, turns, findings);
+        one(ask, &sent, exchanges, findings);
     }
     if may_write {
         return;
     }
-    for turn in turns {
-        let Some(clause) = writes(turn) else { continue };
-        let told = Sent::of(turn).is_some_and(|sent| {
+    for exchange in exchanges {
+        let Some(clause) = writes(exchange) else { continue };
+        let told = RawRequest::of(exchange).is_some_and(|sent| {
             asks.iter().any(|ask| (ask.group, ask.offset) == (sent.group, sent.offset))
         });
-        findings.check(clause, told, Some(turn), "nothing else to be written", "a write");
+        findings.check(clause, told, Some(exchange), "nothing else to be written", "a write");
     }
 }
 
-fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Findings) {
-    let place = |one: &Sent| (one.group, one.offset) == (ask.group, ask.offset);
-    let is_data = |one: &Sent| one.data == ask.data || ask.also.contains(&one.data);
-    let service = |one: &Sent| one.command == ask.command;
+fn one(
+    ask: &ExpectedRequest,
+    sent: &[(RawRequest, &RecordedExchange)],
+    exchanges: &[RecordedExchange],
+    findings: &mut Findings,
+) {
+    let place = |one: &RawRequest| (one.group, one.offset) == (ask.group, ask.offset);
+    let is_data = |one: &RawRequest| one.data == ask.data || ask.also.contains(&one.data);
+    let service = |one: &RawRequest| one.command == ask.command;
     // The request to report: the one with the same address, or else with the same data.
     let nearest = sent.iter().max_by_key(|(one, _)| {
         let alike = [
@@ -92,74 +105,74 @@ fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Finding
         ];
         alike.iter().position(|alike| *alike).map_or(0, |at| alike.len().saturating_sub(at))
     });
-    let Some((one, turn)) = nearest else {
-        let found = match turns.last() {
+    let Some((one, exchange)) = nearest else {
+        let found = match exchanges.last() {
             None => "no request at all",
             Some(_) => "nothing that could be it",
         };
-        findings.check(ask.place, false, turns.last(), || describe(ask), found);
+        findings.check(ask.place, false, exchanges.last(), || describe(ask), found);
         return;
     };
-    let turn = Some(*turn);
+    let exchange = Some(*exchange);
     let hex = |number: u32| move || format!("{number:#x}");
     let found = || format!("command {}", one.command);
     findings.check(
         ask.service_rule(),
         service(one),
-        turn,
+        exchange,
         || format!("command {}: {}", ask.command, describe(ask)),
         found,
     );
     if !service(one) {
-        findings.check(ask.place, false, turn, || describe(ask), found);
+        findings.check(ask.place, false, exchange, || describe(ask), found);
         return;
     }
     // Only for the decoder it is specified which of SDA and GEO serves a class.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
-    findings.check("GEN-4", port, turn, || format!("port {}", ask.port), || one.port);
+    findings.check(GEN_4, port, exchange, || format!("port {}", ask.port), || one.port);
     let group = one.group == ask.group;
-    findings.check(ask.group_rule(), group, turn, hex(ask.group), hex(one.group));
+    findings.check(ask.group_rule(), group, exchange, hex(ask.group), hex(one.group));
     let offset = one.offset == ask.offset;
     findings.check(
         ask.place,
         group && offset,
-        turn,
+        exchange,
         || format!("index group {:#x}, index offset {:#x}", ask.group, ask.offset),
         || format!("{:#x}, {:#x}", one.group, one.offset),
     );
     let (expected, found) = (|| Hex(ask.data.clone()), || Hex(one.data.clone()));
     if ask.tolerated.contains(&one.data) {
-        findings.check(assumed(ask.stream), false, turn, expected, found);
+        findings.check(assumed(ask.stream), false, exchange, expected, found);
     } else if !ask.data.is_empty() || !one.data.is_empty() {
-        findings.check(ask.stream, is_data(one), turn, expected, found);
+        findings.check(ask.stream, is_data(one), exchange, expected, found);
     }
     let enough = match ask.length {
-        Length::AtLeast(least) => one.length >= least,
-        Length::Times(size) => one.length > 0 && one.length.checked_rem(size) == Some(0),
+        ReadLength::AtLeast(least) => one.length >= least,
+        ReadLength::Times(size) => one.length > 0 && one.length.checked_rem(size) == Some(0),
     };
     let expected = || match ask.length {
-        Length::AtLeast(least) => format!("at least {least} bytes read"),
-        Length::Times(size) => format!("a read length of {size} or a multiple"),
+        ReadLength::AtLeast(least) => format!("at least {least} bytes read"),
+        ReadLength::Times(size) => format!("a read length of {size} or a multiple"),
     };
-    let rule = if matches!(ask.length, Length::Times(_)) { "COM-3" } else { ask.service_rule() };
-    findings.check(rule, enough, turn, expected, || format!("a read length of {}", one.length));
+    let rule = if matches!(ask.length, ReadLength::Times(_)) { COM_3 } else { ask.service_rule() };
+    findings.check(rule, enough, exchange, expected, || format!("a read length of {}", one.length));
 }
 
-fn describe(ask: &Ask) -> String {
+fn describe(ask: &ExpectedRequest) -> String {
     let service = match ask.command {
         2 => "Read",
         3 => "Write",
         _ => "ReadWrite",
     };
-    let Ask { group, offset, port, data, .. } = ask;
+    let ExpectedRequest { group, offset, port, data, .. } = ask;
     let data = if data.is_empty() { String::new() } else { format!(" of {}", Hex(data.clone())) };
     format!("{service} {group:#x}, {offset:#x} at port {port}{data}")
 }
 
 /// The result in the reply to a Write.
-pub(super) fn result_of(turn: &Turn) -> Option<u32> {
-    let (frame, _) = FrameRef::split(&turn.sent, u32::MAX).ok()??;
+pub(super) fn result_of(exchange: &RecordedExchange) -> Option<u32> {
+    let (frame, _) = FrameRef::split(&exchange.sent, u32::MAX).ok()??;
     let bytes: [u8; 4] = frame.data().get(..4)?.try_into().ok()?;
     Some(u32::from_le_bytes(bytes))
 }

@@ -5,47 +5,52 @@ use std::fmt;
 use ads_cnc::Error;
 use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
+use ads_cnc_vectors::ids::*;
 
 use super::findings::Findings;
-use super::test_server::Turn;
-use crate::judge::{CLIENT, assumed};
+use super::test_server::RecordedExchange;
+use crate::judge::{Rule, assumed};
 use crate::simulator::{DATA_MAX, NET_ID};
 use crate::wire_service::{self, service_of};
 
 /// Connection and invoke ID of the previous request.
-pub(super) type Before = Option<(usize, Option<Vec<u8>>)>;
+pub(super) type PreviousRequest = Option<(usize, Option<Vec<u8>>)>;
 
 /// Judges each request, and its invoke ID together with that of the previous request.
-pub(super) fn judge(turns: &[Turn], before: &mut Before, findings: &mut Findings) {
-    for turn in turns {
-        one(turn, findings);
-        let id = turn.request.get(34..38).map(<[u8]>::to_vec);
-        if let Some((_, last)) = before.take().filter(|(of, _)| *of == turn.connection) {
+pub(super) fn judge(
+    exchanges: &[RecordedExchange],
+    before: &mut PreviousRequest,
+    findings: &mut Findings,
+) {
+    for exchange in exchanges {
+        one(exchange, findings);
+        let id = exchange.request.get(34..38).map(<[u8]>::to_vec);
+        if let Some((_, last)) = before.take().filter(|(of, _)| *of == exchange.connection) {
             // With a constant invoke ID a client cannot detect a late reply.
-            let kept = last.is_none() || last != id;
+            let passed = last.is_none() || last != id;
             let expected = "another invoke ID than that of the request before";
-            findings.check(assumed("ADS-5"), kept, Some(turn), expected, "the same");
+            findings.check(assumed(ADS_5), passed, Some(exchange), expected, "the same");
         }
-        *before = Some((turn.connection, id));
+        *before = Some((exchange.connection, id));
     }
 }
 
-fn one(turn: &Turn, findings: &mut Findings) {
-    let frame = match FrameRef::split(&turn.request, DATA_MAX) {
+fn one(exchange: &RecordedExchange, findings: &mut Findings) {
+    let frame = match FrameRef::split(&exchange.request, DATA_MAX) {
         Ok(Some((frame, _))) => frame,
         Ok(None) => {
-            let found = || format!("{} bytes of a frame, and no more", turn.request.len());
-            findings.check("ADS-5", false, Some(turn), "a whole frame", found);
+            let found = || format!("{} bytes of a frame, and no more", exchange.request.len());
+            findings.check(ADS_5, false, Some(exchange), "a whole frame", found);
             return;
         }
         Err(error) => {
-            findings.check("ADS-5", false, Some(turn), "a frame", error);
+            findings.check(ADS_5, false, Some(exchange), "a frame", error);
             return;
         }
     };
     let header = frame.header();
-    let mut check = |kept: bool, expected: &str, found: fmt::Arguments<'_>| {
-        findings.check("ADS-5", kept, Some(turn), expected, found);
+    let mut check = |passed: bool, expected: &str, found: fmt::Arguments<'_>| {
+        findings.check(ADS_5, passed, Some(exchange), expected, found);
     };
     let flags = header.state_flags;
     check(flags == StateFlags::REQUEST, "state flags 0x0004", format_args!("{:#06x}", flags.0));
@@ -57,32 +62,39 @@ fn one(turn: &Turn, findings: &mut Findings) {
     check((1..=9).contains(&command), "a command from 1 to 9", format_args!("{command}"));
     let port = header.target.port;
     let has_task = Task::from_port(port).is_some();
-    findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", || port);
+    findings.check(GEN_4, has_task, Some(exchange), "port 551, 552 or 553", || port);
     let service = service_of(header.command).map(wire_service::clause);
+    let service = service.map_or(Rule::CLIENT, Rule::from);
     match Call::from_frame(&frame) {
         Err(error) => {
             let expected = || format!("a request of {}", name(header.command));
-            findings.check(service.unwrap_or(CLIENT), false, Some(turn), expected, error);
+            findings.check(service, false, Some(exchange), expected, error);
         }
         Ok(None) => {
             let harmless = [Command::READ_DEVICE_INFO, Command::READ_STATE];
             let expected = "Read, Write, ReadWrite, ReadDeviceInfo or ReadState";
-            let kept = harmless.contains(&header.command);
-            findings.check(CLIENT, kept, Some(turn), expected, || name(header.command));
+            let passed = harmless.contains(&header.command);
+            findings.check(Rule::CLIENT, passed, Some(exchange), expected, || name(header.command));
         }
         Ok(Some(call)) => {
-            findings.check(service.unwrap_or(CLIENT), true, Some(turn), "", "");
+            findings.check(service, true, Some(exchange), "", "");
             if !has_task {
                 return;
             }
             match call.dispatch() {
                 Ok(request) => {
-                    findings.check(request.function().spec().clause, true, Some(turn), "", "");
+                    let rule = Rule::of(request.function().spec().clause);
+                    findings.check(rule, true, Some(exchange), "", "");
                 }
                 Err(refusal) => {
                     let rule = clause(&call, refusal);
-                    findings
-                        .check(rule, false, Some(turn), "a request that a CNC knows", || refusal);
+                    findings.check(
+                        rule,
+                        false,
+                        Some(exchange),
+                        "a request that a CNC knows",
+                        || refusal,
+                    );
                 }
             }
         }
@@ -97,9 +109,9 @@ fn name(command: Command) -> String {
 }
 
 /// The requirement that is broken by a request without a function.
-pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> &'static str {
+pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> Rule {
     match refusal {
-        DispatchError::Port(_) => "GEN-4",
+        DispatchError::Port(_) => GEN_4.into(),
         DispatchError::Group(_) => {
             let other = match call.port {
                 AmsPort::COM => AmsPort::SDA,
@@ -109,46 +121,51 @@ pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> &'static str {
             match (elsewhere, call.port) {
                 // The request would be valid for another task.
                 (Ok(_) | Err(DispatchError::Stream(_) | DispatchError::Service { .. }), _) => {
-                    "GEN-4"
+                    GEN_4.into()
                 }
-                (_, AmsPort::COM) => "ADR-3",
-                _ => "ADR-5",
+                (_, AmsPort::COM) => ADR_3.into(),
+                _ => ADR_5.into(),
             }
         }
         DispatchError::Offset(_) => match call.port {
-            AmsPort::COM => "COM-5",
-            _ => "SDA-4",
+            AmsPort::COM => COM_5.into(),
+            _ => SDA_4.into(),
         },
-        DispatchError::Service { .. } => at(call).unwrap_or("ADS-4"),
-        DispatchError::Stream(error) => of_field(&error).or_else(|| at(call)).unwrap_or("ADS-4"),
-        _ => CLIENT,
+        DispatchError::Service { .. } => at(call).unwrap_or(ADS_4.into()),
+        DispatchError::Stream(error) => {
+            of_field(&error).or_else(|| at(call)).unwrap_or(ADS_4.into())
+        }
+        _ => Rule::CLIENT,
     }
 }
 
-fn of_field(error: &Error) -> Option<&'static str> {
-    error.field().spec().map(|spec| spec.clause)
+fn of_field(error: &Error) -> Option<Rule> {
+    error.field().spec().map(|spec| Rule::of(spec.clause))
 }
 
 /// The requirement of the function at an address.
-fn at(call: &Call<'_>) -> Option<&'static str> {
+fn at(call: &Call<'_>) -> Option<Rule> {
     let group = call.index_group.parts()?;
     let here = Function::ALL.iter().map(|function| function.spec()).find(|spec| {
         !spec.is_content() && spec.group.contains(group) && spec.offset.contains(call.index_offset)
     });
-    here.map(|spec| spec.clause)
+    here.map(|spec| Rule::of(spec.clause))
 }
 
 /// Calls a function with the decoded request of an exchange, if it is one.
-pub(super) fn with_request<T>(turn: &Turn, then: impl FnOnce(&Request<'_>) -> T) -> Option<T> {
-    let (frame, _) = FrameRef::split(&turn.request, DATA_MAX).ok()??;
+pub(super) fn with_request<T>(
+    exchange: &RecordedExchange,
+    then: impl FnOnce(&Request<'_>) -> T,
+) -> Option<T> {
+    let (frame, _) = FrameRef::split(&exchange.request, DATA_MAX).ok()??;
     let request = Call::from_frame(&frame).ok()??.dispatch().ok()?;
     Some(then(&request))
 }
 
 /// The function of a request that changes the state of the CNC.
-pub(super) fn writes(turn: &Turn) -> Option<&'static str> {
-    with_request(turn, |request| {
+pub(super) fn writes(exchange: &RecordedExchange) -> Option<Rule> {
+    with_request(exchange, |request| {
         let spec = request.function().spec();
-        (spec.effect != Effect::Query).then_some(spec.clause)
+        (spec.effect != Effect::Query).then(|| Rule::of(spec.clause))
     })?
 }

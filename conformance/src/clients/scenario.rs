@@ -2,17 +2,19 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 use serde_json::Value;
 
 use super::Action;
 use super::literal::Literal;
 use super::script::ScenarioScript;
 use super::tamper::Tamper;
-use crate::judge::{Body, CLIENT, Case, CaseSubject, Needs, Rule};
+use crate::judge::{Body, Case, CaseSubject, Needs, Rule};
 
 /// A request that a client has to send, as raw bytes independent of the codec.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Ask {
+pub(super) struct ExpectedRequest {
     /// The number of its command: 2 Read, 3 Write, 9 ReadWrite.
     pub(super) command: u16,
     pub(super) port: u16,
@@ -20,27 +22,27 @@ pub(super) struct Ask {
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
     /// The read length.
-    pub(super) length: Length,
+    pub(super) length: ReadLength,
     /// Equivalent data.
     pub(super) also: Vec<Vec<u8>>,
     /// Data that differs from the assumed one, but is not wrong.
     pub(super) tolerated: Vec<Vec<u8>>,
     /// Name of the function.
-    pub(super) place: &'static str,
-    pub(super) stream: &'static str,
+    pub(super) place: Rule,
+    pub(super) stream: Rule,
 }
 
 /// The read length that a request has to have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Length {
+pub(super) enum ReadLength {
     AtLeast(u32),
     /// A positive multiple.
     Times(u32),
 }
 
-impl Ask {
-    pub(super) fn of(mut self, place: &'static str, stream: &'static str) -> Self {
-        (self.place, self.stream) = (place, stream);
+impl ExpectedRequest {
+    pub(super) fn of(mut self, place: impl Into<Rule>, stream: impl Into<Rule>) -> Self {
+        (self.place, self.stream) = (place.into(), stream.into());
         self
     }
 
@@ -55,59 +57,66 @@ impl Ask {
     }
 
     /// The requirement of its index group.
-    pub(super) const fn group_rule(&self) -> &'static str {
+    pub(super) const fn group_rule(&self) -> ClauseId {
         let table = self.group & 0xF00;
         match self.group & 0xFF_FF00 {
-            0x13_0100 | 0x13_0200 => "ADR-4",
-            0x12_0100 | 0x12_0200 => "ADR-3",
-            _ if table == 0x900 => "SDA-1",
-            _ if self.group & 0xF000 == 0x5000 => "ADR-2",
-            _ if table != 0x300 => "ADR-6",
-            _ => "ADR-5",
+            0x13_0100 | 0x13_0200 => ADR_4,
+            0x12_0100 | 0x12_0200 => ADR_3,
+            _ if table == 0x900 => SDA_1,
+            _ if self.group & 0xF000 == 0x5000 => ADR_2,
+            _ if table != 0x300 => ADR_6,
+            _ => ADR_5,
         }
     }
 
-    pub(super) const fn service_rule(&self) -> &'static str {
+    pub(super) const fn service_rule(&self) -> ClauseId {
         match self.command {
-            2 => "ADS-1",
-            3 => "ADS-2",
-            _ => "ADS-3",
+            2 => ADS_1,
+            3 => ADS_2,
+            _ => ADS_3,
         }
     }
 }
 
-const fn ask(command: u16, port: u16, group: u32, offset: u32, data: Vec<u8>, least: u32) -> Ask {
-    Ask {
+const fn ask(
+    command: u16,
+    port: u16,
+    group: u32,
+    offset: u32,
+    data: Vec<u8>,
+    least: u32,
+) -> ExpectedRequest {
+    ExpectedRequest {
         command,
         port,
         group,
         offset,
         data,
-        length: Length::AtLeast(least),
+        length: ReadLength::AtLeast(least),
         also: Vec::new(),
         tolerated: Vec::new(),
-        place: CLIENT,
-        stream: CLIENT,
+        place: Rule::CLIENT,
+        stream: Rule::CLIENT,
     }
 }
 
 /// A Read of at least this many bytes.
-pub(super) const fn read(port: u16, group: u32, offset: u32, least: u32) -> Ask {
+pub(super) const fn read(port: u16, group: u32, offset: u32, least: u32) -> ExpectedRequest {
     ask(2, port, group, offset, Vec::new(), least)
 }
 
 /// A ReadWrite to the SDA task.
-pub(super) fn both(group: u32, offset: u32, data: &[u8], least: u32) -> Ask {
+pub(super) fn both(group: u32, offset: u32, data: &[u8], least: u32) -> ExpectedRequest {
     ask(9, 552, group, offset, data.to_vec(), least)
 }
 
-pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Ask {
+pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> ExpectedRequest {
     ask(3, port, group, offset, data.to_vec(), 0)
 }
 
 /// The answer that a client has to give.
 #[derive(Clone, Debug)]
-pub(super) enum Expect {
+pub(super) enum ExpectedAnswer {
     /// This result.
     Result(Value),
     /// The result that the simulated CNC gives.
@@ -126,11 +135,11 @@ pub(super) enum Expect {
 
 /// The order of requests that is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
+pub(super) enum RequestOrder {
     /// The whole program in packets.
     Stream,
     /// No part of a program that cannot be streamed is sent, for this reason.
-    NoStream(&'static str),
+    NoStream(ClauseId),
     /// The service answers the request of the program.
     Host,
     /// The service does not answer without a request.
@@ -148,18 +157,18 @@ pub struct Scenario {
     pub title: String,
     /// The action; for `stream` the file name is appended.
     pub(super) action: String,
-    pub(super) asks: Vec<Ask>,
-    pub(super) expect: Expect,
+    pub(super) asks: Vec<ExpectedRequest>,
+    pub(super) expect: ExpectedAnswer,
     /// The rules of the client's answer.
     pub(super) rules: Vec<Rule>,
     /// Further requirements that the answer may break.
-    pub(super) more: Vec<&'static str>,
+    pub(super) more: Vec<ClauseId>,
     pub(super) tamper: Option<(Function, Tamper)>,
     pub(super) refused: Vec<(usize, AdsError)>,
     pub(super) literal: Option<Literal>,
     pub(super) response: Option<&'static str>,
     pub(super) prepare: Option<fn(&ScenarioScript)>,
-    pub(super) watch: Option<Order>,
+    pub(super) watch: Option<RequestOrder>,
     pub(super) program: Option<Vec<u8>>,
 }
 
@@ -174,7 +183,7 @@ impl Scenario {
             title: title.into(),
             action: action.into(),
             asks: Vec::new(),
-            expect: Expect::Done,
+            expect: ExpectedAnswer::Done,
             rules: Vec::new(),
             more: Vec::new(),
             tamper: None,
@@ -187,18 +196,18 @@ impl Scenario {
         }
     }
 
-    pub(super) fn asks(mut self, ask: Ask) -> Self {
+    pub(super) fn asks(mut self, ask: ExpectedRequest) -> Self {
         self.asks.push(ask);
         self
     }
 
-    pub(super) fn expect(mut self, expect: Expect) -> Self {
+    pub(super) fn expect(mut self, expect: ExpectedAnswer) -> Self {
         self.expect = expect;
         self
     }
 
     pub(super) fn gives(self, result: impl Into<Value>) -> Self {
-        self.expect(Expect::Result(result.into()))
+        self.expect(ExpectedAnswer::Result(result.into()))
     }
 
     pub(super) fn by(mut self, rule: impl Into<Rule>) -> Self {
@@ -211,7 +220,7 @@ impl Scenario {
         self
     }
 
-    pub(super) fn ordered(mut self, watch: Order, more: &[&'static str]) -> Self {
+    pub(super) fn ordered(mut self, watch: RequestOrder, more: &[ClauseId]) -> Self {
         self.watch = Some(watch);
         self.more.extend(more);
         self
@@ -220,8 +229,8 @@ impl Scenario {
     /// The rules for the client's answer: by default the requirement of its first request.
     pub(super) fn rules(&self) -> Vec<Rule> {
         match (self.rules.as_slice(), self.asks.first()) {
-            ([], Some(ask)) => vec![ask.place.into()],
-            ([], None) => vec![CLIENT.into()],
+            ([], Some(ask)) => vec![ask.place],
+            ([], None) => vec![Rule::CLIENT],
             (rules, _) => rules.to_vec(),
         }
     }
@@ -229,15 +238,18 @@ impl Scenario {
     /// The scenario as a case of the suite.
     pub fn case(&self) -> Case {
         // A request that must not be sent has no service to judge.
-        let silent = matches!(self.watch, Some(Order::NoStream(_)));
-        let mut requirements = if silent { Vec::new() } else { vec!["ADS-5", "GEN-4"] };
+        let silent = matches!(self.watch, Some(RequestOrder::NoStream(_)));
+        let mut requirements =
+            if silent { Vec::new() } else { vec![ADS_5.as_str(), GEN_4.as_str()] };
         requirements.extend(self.rules().iter().map(|rule| rule.id));
         for ask in &self.asks {
-            requirements.extend([ask.service_rule(), ask.group_rule(), ask.place]);
-            requirements.extend((!ask.data.is_empty()).then_some(ask.stream));
-            requirements.extend(matches!(ask.length, Length::Times(_)).then_some("COM-3"));
+            requirements.extend([ask.service_rule().as_str(), ask.group_rule().as_str()]);
+            requirements.push(ask.place.id);
+            requirements.extend((!ask.data.is_empty()).then_some(ask.stream.id));
+            requirements
+                .extend(matches!(ask.length, ReadLength::Times(_)).then_some(COM_3.as_str()));
         }
-        requirements.extend(&self.more);
+        requirements.extend(self.more.iter().map(|id| id.as_str()));
         let mut seen = Vec::new();
         requirements.retain(|id| {
             let new = !seen.contains(id);

@@ -13,7 +13,7 @@ use super::tamper::{SendStep, Tamper};
 use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
 /// Number of reads of RESPONSE_STATE before a simulated host has its response.
-const LOOKS: usize = 2;
+const POLLS: usize = 2;
 
 /// The replies of the CNC in a scenario.
 #[derive(Debug)]
@@ -97,7 +97,7 @@ impl ScenarioScript {
             Some((ServiceVariable::ResponseState, None)) => {
                 let Some(looks) = self.looks.as_mut() else { return };
                 *looks = looks.saturating_add(1);
-                if *looks >= LOOKS {
+                if *looks >= POLLS {
                     self.looks = None;
                     self.write_variable(ServiceVariable::Response, response.as_bytes());
                     self.write_variable(ServiceVariable::RequestState, &[0; 4]);

@@ -93,7 +93,7 @@ pub(super) enum SendStep {
 }
 
 /// Long enough for a client to read what was sent before.
-const MOMENT: Duration = Duration::from_millis(40);
+const PAUSE: Duration = Duration::from_millis(40);
 
 /// The AMS error of a router for an unknown port.
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
@@ -103,7 +103,7 @@ impl Tamper {
     pub(super) fn steps(self, reply: &[u8], before: Option<&[u8]>) -> Vec<SendStep> {
         let send = |bytes: Vec<u8>| vec![SendStep::Send(bytes)];
         let then_close =
-            |bytes: Vec<u8>| vec![SendStep::Send(bytes), SendStep::Pause(MOMENT), SendStep::Close];
+            |bytes: Vec<u8>| vec![SendStep::Send(bytes), SendStep::Pause(PAUSE), SendStep::Close];
         let all = || reply.to_vec();
         match self {
             Self::Bytewise => reply.iter().map(|&byte| SendStep::Send(vec![byte])).collect(),
@@ -111,7 +111,7 @@ impl Tamper {
                 let (front, rest) = reply.split_at(at.min(reply.len()));
                 vec![
                     SendStep::Send(front.to_vec()),
-                    SendStep::Pause(MOMENT),
+                    SendStep::Pause(PAUSE),
                     SendStep::Send(rest.to_vec()),
                 ]
             }

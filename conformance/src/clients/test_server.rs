@@ -19,7 +19,7 @@ use crate::simulator::{FRAME_MAX, NET_ID};
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
 /// Maximum number of recorded bytes of requests and replies, and overhead of a recorded request.
-pub(super) const KEPT_MAX: usize = 8 << 20;
+pub(super) const RECORDED_BYTES_MAX: usize = 8 << 20;
 const TURN: usize = 128;
 
 /// How long to wait for a connection that the client has closed.
@@ -27,7 +27,7 @@ const LINGER: Duration = Duration::from_millis(200);
 
 /// A request and all bytes sent in return.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Turn {
+pub(super) struct RecordedExchange {
     pub(super) connection: usize,
     /// The request; the last one of a connection may be incomplete.
     pub(super) request: Vec<u8>,
@@ -39,8 +39,8 @@ pub(super) struct Turn {
 
 /// The recorded exchanges of a scenario.
 #[derive(Debug, Default)]
-struct Turns {
-    kept: Vec<Turn>,
+struct Recording {
+    kept: Vec<RecordedExchange>,
     /// How many were taken to be judged already.
     taken: usize,
     bytes: usize,
@@ -48,15 +48,15 @@ struct Turns {
     beyond: usize,
 }
 
-impl Turns {
+impl Recording {
     /// Records an exchange; returns its number, or `None` beyond the limit.
-    fn record(&mut self, turn: Turn) -> Option<usize> {
-        self.grow(turn.request.len().saturating_add(TURN));
-        if self.bytes > KEPT_MAX {
+    fn record(&mut self, exchange: RecordedExchange) -> Option<usize> {
+        self.grow(exchange.request.len().saturating_add(TURN));
+        if self.bytes > RECORDED_BYTES_MAX {
             self.beyond = self.beyond.saturating_add(1);
             return None;
         }
-        self.kept.push(turn);
+        self.kept.push(exchange);
         Some(self.taken.saturating_add(self.kept.len()).saturating_sub(1))
     }
 
@@ -64,47 +64,47 @@ impl Turns {
         self.bytes = self.bytes.saturating_add(by);
     }
 
-    fn of_number(&mut self, number: usize) -> Option<&mut Turn> {
+    fn of_number(&mut self, number: usize) -> Option<&mut RecordedExchange> {
         self.kept.get_mut(number.checked_sub(self.taken)?)
     }
 
-    fn take_answered(&mut self) -> Vec<Turn> {
+    fn take_answered(&mut self) -> Vec<RecordedExchange> {
         let last = self.kept.pop();
-        let turns = self.take();
+        let exchanges = self.take();
         self.bytes = last.as_ref().map_or(0, |last| last.request.len().saturating_add(TURN));
         self.kept.extend(last);
-        turns
+        exchanges
     }
 
     /// Takes all recorded exchanges in their order.
-    fn take(&mut self) -> Vec<Turn> {
-        let turns = std::mem::take(&mut self.kept);
-        self.taken = self.taken.saturating_add(turns.len());
+    fn take(&mut self) -> Vec<RecordedExchange> {
+        let exchanges = std::mem::take(&mut self.kept);
+        self.taken = self.taken.saturating_add(exchanges.len());
         self.bytes = 0;
-        turns
+        exchanges
     }
 }
 
 /// How much exceeded the limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Beyond {
+pub(super) struct Overflow {
     /// Requests that were answered, but not judged.
     pub(super) requests: usize,
     /// Connections that were closed at once.
     pub(super) connections: usize,
 }
 
-impl Beyond {
+impl Overflow {
     /// Why the case cannot pass.
     pub(super) fn stop(self) -> Option<Stop> {
         (self != Self::default()).then(|| Stop::Inconclusive(self.to_string()))
     }
 }
 
-impl std::fmt::Display for Beyond {
+impl std::fmt::Display for Overflow {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { requests, connections } = self;
-        let mebibytes = KEPT_MAX >> 20;
+        let mebibytes = RECORDED_BYTES_MAX >> 20;
         match (requests, connections) {
             (0, _) => {}
             (_, 0) => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged")?,
@@ -128,7 +128,7 @@ pub struct TestServer {
 #[derive(Debug)]
 struct TestRun {
     script: Mutex<ScenarioScript>,
-    turns: Mutex<Turns>,
+    exchanges: Mutex<Recording>,
     /// Open connections, and how many there have been.
     streams: Mutex<Vec<TcpStream>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
@@ -168,7 +168,7 @@ impl TestServer {
     pub(super) fn begin(&self, script: ScenarioScript) {
         *lock(&self.run) = Some(Arc::new(TestRun {
             script: Mutex::new(script),
-            turns: Mutex::default(),
+            exchanges: Mutex::default(),
             streams: Mutex::default(),
             threads: Mutex::default(),
             count: AtomicUsize::new(0),
@@ -197,15 +197,15 @@ impl TestServer {
 
     /// Takes the requests recorded since the last call, except for the last one, whose reply may
     /// not be sent yet.
-    pub(super) fn turns(&self) -> Vec<Turn> {
+    pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
-        lock(&run.turns).take_answered()
+        lock(&run.exchanges).take_answered()
     }
 
     /// Ends the scenario and closes every connection.
-    pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<ScenarioScript>) {
+    pub(super) fn end(&self) -> (Vec<RecordedExchange>, Overflow, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
-            return (Vec::new(), Beyond::default(), None);
+            return (Vec::new(), Overflow::default(), None);
         };
         // Bytes that a client sent just before it closed may still arrive.
         drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
@@ -215,12 +215,12 @@ impl TestServer {
         for thread in lock(&run.threads).drain(..) {
             let _panicked = thread.join();
         }
-        let turns = lock(&run.turns).take();
+        let exchanges = lock(&run.exchanges).take();
         let connections = run.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
-        let beyond = Beyond { requests: lock(&run.turns).beyond, connections };
+        let beyond = Overflow { requests: lock(&run.exchanges).beyond, connections };
         let script = Arc::into_inner(run)
             .map(|run| run.script.into_inner().unwrap_or_else(PoisonError::into_inner));
-        (turns, beyond, script)
+        (exchanges, beyond, script)
     }
 }
 
@@ -268,7 +268,12 @@ impl TestRun {
             while let Some(len) = frame_len(&received) {
                 if len > FRAME_MAX {
                     let fault = Some(format!("a frame of {len} bytes"));
-                    self.record(Turn { connection, request: received, fault, ..Turn::default() });
+                    self.record(RecordedExchange {
+                        connection,
+                        request: received,
+                        fault,
+                        ..RecordedExchange::default()
+                    });
                     return Ok(());
                 }
                 if received.len() < len {
@@ -276,7 +281,7 @@ impl TestRun {
                 }
                 let rest = received.split_off(len);
                 let request = std::mem::replace(&mut received, rest);
-                if !self.turn(connection, request, stream)? {
+                if !self.exchange(connection, request, stream)? {
                     return Ok(());
                 }
             }
@@ -284,8 +289,13 @@ impl TestRun {
                 Ok(0) | Err(_) => {
                     if !received.is_empty() {
                         let fault = Some("closed within a frame".to_owned());
-                        let turn = Turn { connection, request: received, fault, ..Turn::default() };
-                        self.record(turn);
+                        let exchange = RecordedExchange {
+                            connection,
+                            request: received,
+                            fault,
+                            ..RecordedExchange::default()
+                        };
+                        self.record(exchange);
                     }
                     return Ok(());
                 }
@@ -295,20 +305,24 @@ impl TestRun {
     }
 
     /// Answers a frame; returns whether the connection stays open.
-    fn turn(
+    fn exchange(
         &self,
         connection: usize,
         request: Vec<u8>,
         mut stream: &TcpStream,
     ) -> io::Result<bool> {
         // Recorded before it is answered: with the answer the client may close the connection.
-        let place = self.record(Turn { connection, request: request.clone(), ..Turn::default() });
+        let place = self.record(RecordedExchange {
+            connection,
+            request: request.clone(),
+            ..RecordedExchange::default()
+        });
         let steps = match lock(&self.script).answer(connection, &request) {
             Ok(steps) => steps,
             Err(fault) => {
-                let mut turns = lock(&self.turns);
-                if let Some(turn) = place.and_then(|place| turns.of_number(place)) {
-                    turn.fault = Some(fault);
+                let mut exchanges = lock(&self.exchanges);
+                if let Some(exchange) = place.and_then(|place| exchanges.of_number(place)) {
+                    exchange.fault = Some(fault);
                 }
                 return Ok(false);
             }
@@ -316,12 +330,12 @@ impl TestRun {
         for deed in steps {
             match deed {
                 SendStep::Send(bytes) => {
-                    let mut turns = lock(&self.turns);
-                    if let Some(turn) = place.and_then(|place| turns.of_number(place)) {
-                        turn.sent.extend(&bytes);
-                        turns.grow(bytes.len());
+                    let mut exchanges = lock(&self.exchanges);
+                    if let Some(exchange) = place.and_then(|place| exchanges.of_number(place)) {
+                        exchange.sent.extend(&bytes);
+                        exchanges.grow(bytes.len());
                     }
-                    drop(turns);
+                    drop(exchanges);
                     stream.write_all(&bytes)?;
                 }
                 SendStep::Pause(time) => thread::sleep(time),
@@ -331,8 +345,8 @@ impl TestRun {
         Ok(true)
     }
 
-    fn record(&self, turn: Turn) -> Option<usize> {
-        lock(&self.turns).record(turn)
+    fn record(&self, exchange: RecordedExchange) -> Option<usize> {
+        lock(&self.exchanges).record(exchange)
     }
 }
 

@@ -7,7 +7,7 @@ use ads_cnc::address::{
 use ads_cnc::{Decode, Encode as _, Error, ObjectCount};
 use ads_cnc_vectors::{Context, Type};
 
-use super::given::Given;
+use super::field_reader::FieldReader;
 use super::{Decoded, Refused, collect, name, one, uns32};
 
 /// The number in the bytes of an index group or offset.
@@ -115,18 +115,18 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, R
 }
 
 /// Encodes a group from its parts if they are given, and checks the number against them.
-pub(super) fn encode_group(of: Given<'_>) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode_group(of: FieldReader<'_>) -> Result<Vec<u8>, Refused> {
     let number = of.number("index_group")?;
     let group = if of.has("task") { parts(of)?.index_group() } else { IndexGroup::new(number) };
     if group.get() == number {
         Ok(ObjectCount(number).encode_to_vec()?)
     } else {
-        Err(Refused::Unfit(format!("{number:#x}, but its parts are {group}")))
+        Err(Refused::InvalidFields(format!("{number:#x}, but its parts are {group}")))
     }
 }
 
-fn parts(of: Given<'_>) -> Result<Group, Refused> {
-    let no = |what: &str, word: &str| Refused::Unfit(format!("no {what} {word}"));
+fn parts(of: FieldReader<'_>) -> Result<Group, Refused> {
+    let no = |what: &str, word: &str| Refused::InvalidFields(format!("no {what} {word}"));
     let addressings = [Addressing::Logical, Addressing::Index];
     let word = of.word("addressing")?;
     let addressing = addressings.into_iter().find(|&one| addressing(one) == word);
@@ -158,7 +158,7 @@ fn parts(of: Given<'_>) -> Result<Group, Refused> {
     }
 }
 
-pub(super) fn encode_offset(of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode_offset(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
     let stride = stride(context)?;
     let offset = IndexOffset::for_axis(stride, of.number("axis")?, of.number("element")?)?;
     Ok(ObjectCount(offset.get()).encode_to_vec()?)

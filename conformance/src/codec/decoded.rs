@@ -18,7 +18,7 @@ pub enum Refused {
     /// The codec rejects the bytes.
     Error(Error),
     /// The fields are not a value of the stream.
-    Unfit(String),
+    InvalidFields(String),
     /// The stream is unknown, or the context is incomplete.
     Unsupported(String),
 }

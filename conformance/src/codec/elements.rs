@@ -5,8 +5,8 @@ use ads_cnc::{CncStr, Elements, U32List};
 use ads_cnc_vectors::{Context, Tagged, Type, Value};
 
 use super::Refused;
+use super::field_reader::{bits, hex, integer, invalid, text};
 use super::fields::{data, element};
-use super::given::{bits, hex, integer, text, unfit};
 
 /// Whether a field has a type: a value always has one, a content may have one.
 fn is_typed(field: &str, context: &Context) -> bool {
@@ -39,14 +39,14 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
 /// Encodes a field as the number of elements that the dimensions give.
 pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Vec<u8>, Refused> {
     if !is_typed(field, context) {
-        let plain = || unfit(format_args!("{field} is not a single value"));
+        let plain = || invalid(format_args!("{field} is not a single value"));
         return Ok(hex(value.tagged().ok_or_else(plain)?)?.to_vec());
     }
     let (kind, data_type, dimensions) = type_of(context)?;
-    let given = value.list().ok_or_else(|| unfit(format_args!("{field} is not a list")))?;
+    let given = value.list().ok_or_else(|| invalid(format_args!("{field} is not a list")))?;
     let items = given.iter().map(|value| match value.tagged() {
         Some(tagged) if tagged.kind == kind => Ok(tagged),
-        _ => Err(unfit(format_args!("{field} has an element that is no {}", kind.name()))),
+        _ => Err(invalid(format_args!("{field} has an element that is no {}", kind.name()))),
     });
     let items: Vec<&Tagged> = items.collect::<Result<_, _>>()?;
     let count = dimensions.iter().try_fold(1_usize, |count, &len| {
@@ -54,7 +54,7 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
     });
     if count != Some(items.len()) {
         let dimensions = U32List::from(dimensions);
-        return Err(unfit(format_args!("{} elements for {dimensions:?}", items.len())));
+        return Err(invalid(format_args!("{} elements for {dimensions:?}", items.len())));
     }
     encode_elements(data_type, &items)
 }
@@ -74,7 +74,7 @@ fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Re
             DataType::Lword => integer::<u64>(one)?.value_to_vec()?,
             DataType::Real64 => f64::from_bits(bits(one)?).value_to_vec()?,
             DataType::Real32 => {
-                let bits = u32::try_from(bits(one)?).map_err(|_| unfit("more than 32 bits"))?;
+                let bits = u32::try_from(bits(one)?).map_err(|_| invalid("more than 32 bits"))?;
                 f32::from_bits(bits).value_to_vec()?
             }
             DataType::String => text(one)?.value_to_vec()?,
@@ -85,7 +85,7 @@ fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Re
     let bytes = each.concat();
     if data_type == DataType::String && items.len() != 1 {
         if each.windows(2).any(|two| two.first().map(Vec::len) != two.last().map(Vec::len)) {
-            return Err(unfit("texts of an array have the same room each"));
+            return Err(invalid("texts of an array have the same room each"));
         }
         let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
         Elements::new(data_type, U32List::from(&count), &bytes)?;

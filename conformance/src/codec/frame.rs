@@ -5,7 +5,7 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::{Decode, Encode};
 use ads_cnc_vectors::{Context, Value};
 
-use super::given::Given;
+use super::field_reader::FieldReader;
 use super::stream::{from_fields, to_fields};
 use super::{Decoded, Refused, collect, data, stream, uns16, uns32};
 
@@ -43,7 +43,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         fields.insert(name, value);
     }
     if len != bytes.len() {
-        return Err(Refused::Unfit("a frame and more".to_owned()));
+        return Err(Refused::InvalidFields("a frame and more".to_owned()));
     }
     let bytes = FrameRef::new(header, frame.data())?.encode_to_vec()?;
     Ok(Decoded { fields, bytes })
@@ -59,7 +59,7 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
         Ok(())
     };
     // Only the length in the header shows that data of another command is truncated.
-    let rest = || Refused::Unfit("less data than the header says".to_owned());
+    let rest = || Refused::InvalidFields("less data than the header says".to_owned());
     parts().err().unwrap_or_else(rest)
 }
 
@@ -85,10 +85,12 @@ fn service(
     Ok(Some((field_of(name), Value::Record(decoded.fields))))
 }
 
-pub(super) fn encode(of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
     let tcp = of.record("ams_tcp_header")?;
     if tcp.number::<u16>("reserved")? != 0 {
-        return Err(Refused::Unfit("a frame with a reserved number other than 0".to_owned()));
+        return Err(Refused::InvalidFields(
+            "a frame with a reserved number other than 0".to_owned(),
+        ));
     }
     let mut header = of.record("ams_header")?.0.clone();
     header.insert(LENGTH.to_owned(), uns32(0));

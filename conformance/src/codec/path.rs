@@ -4,7 +4,7 @@ use ads_cnc::text::CncStr;
 use ads_cnc::{Kind, PathPart, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::{Tagged, Value};
 
-use super::given::Given;
+use super::field_reader::FieldReader;
 use super::{Decoded, Refused, collect, numbers, record, text_tagged};
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, Refused> {
@@ -22,7 +22,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, Refused> {
     Ok(Decoded { fields: collect(fields), bytes: again.text().bytes().collect() })
 }
 
-pub(super) fn encode(of: Given<'_>) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode(of: FieldReader<'_>) -> Result<Vec<u8>, Refused> {
     let parts = of
         .records("parts")?
         .into_iter()

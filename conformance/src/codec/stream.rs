@@ -11,8 +11,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value as Json, from_value, json, to_value};
 
+use super::field_reader::{bits, invalid, text};
 use super::fields::{element, one, text_tagged};
-use super::given::{bits, text, unfit};
 use super::{Decoded, Refused, elements};
 
 macro_rules! dispatch {
@@ -64,7 +64,7 @@ where
     T: for<'a> Decode<'a> + Serialize,
 {
     let layout = T::STREAM.layout();
-    let json = to_value(value).map_err(unfit)?;
+    let json = to_value(value).map_err(invalid)?;
     match json.as_array() {
         Some(records) if layout.repeats => {
             let records = records.iter().map(|one| record(layout, context, one).map(Value::Record));
@@ -83,17 +83,17 @@ where
     if layout.repeats {
         let name = records_of(layout);
         let records = fields.get(name).and_then(Value::list);
-        let records = records.ok_or_else(|| unfit(format_args!("{name} is not a list")))?;
+        let records = records.ok_or_else(|| invalid(format_args!("{name} is not a list")))?;
         let record = |one: &Value| match one {
             Value::Record(fields) => Ok(Json::Object(json_record(layout, context, fields)?)),
-            _ => Err(unfit("no record where one has to be")),
+            _ => Err(invalid("no record where one has to be")),
         };
         let records = records.iter().map(record).collect::<Result<_, Refused>>()?;
-        return from_value(Json::Array(records)).map_err(unfit);
+        return from_value(Json::Array(records)).map_err(invalid);
     }
     let record = json_record(layout, context, fields)?;
     if record.is_empty() {
-        return from_value(Json::Null).map_err(unfit);
+        return from_value(Json::Null).map_err(invalid);
     }
     let single = match layout.fields {
         [row] => record.get(row.name).cloned(),
@@ -101,7 +101,7 @@ where
     };
     from_value(Json::Object(record))
         .or_else(|error| single.and_then(|single| from_value(single).ok()).ok_or(error))
-        .map_err(unfit)
+        .map_err(invalid)
 }
 
 /// The name of the records of a stream in the vectors: the last word of the stream's name.
@@ -143,7 +143,7 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refus
     }
     let tagged = match (row.ty, json) {
         (FieldType::String, _) => {
-            let text: Text = from_value(json.clone()).map_err(unfit)?;
+            let text: Text = from_value(json.clone()).map_err(invalid)?;
             let tagged = text_tagged(text.as_ref());
             let is_full = |size| usize::try_from(size) == Ok(text.text.as_bytes().len());
             Tagged {
@@ -152,17 +152,17 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refus
             }
         }
         (FieldType::Real64, _) => {
-            let number: DynamicValue = from_value(json.clone()).map_err(unfit)?;
+            let number: DynamicValue = from_value(json.clone()).map_err(invalid)?;
             element(Element::Real64(number.get()))
         }
         (FieldType::Bytes, _) => {
-            let bytes: Vec<u8> = from_value(json.clone()).map_err(unfit)?;
+            let bytes: Vec<u8> = from_value(json.clone()).map_err(invalid)?;
             return elements::decode(row.name, context, &bytes);
         }
         (FieldType::NetId, Json::String(id)) => return Ok(one(Type::NetId, id)),
         (FieldType::Unsigned, Json::Object(length)) => match length.iter().next() {
             Some((name, number)) => return Ok(one(kind(name)?, number)),
-            None => return Err(unfit(format_args!("{} is empty", row.name))),
+            None => return Err(invalid(format_args!("{} is empty", row.name))),
         },
         (ty, number) => return Ok(one(kind(&ty.to_string())?, number)),
     };
@@ -170,20 +170,22 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refus
 }
 
 fn kind(name: &str) -> Result<Type, Refused> {
-    from_value(name.into()).map_err(unfit)
+    from_value(name.into()).map_err(invalid)
 }
 
 /// A field in the JSON of its Rust type.
 fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json, Refused> {
     if row.ty == FieldType::Bytes {
-        return to_value(elements::encode(row.name, context, value)?).map_err(unfit);
+        return to_value(elements::encode(row.name, context, value)?).map_err(invalid);
     }
     let tagged = match value {
         Value::One(tagged) => tagged,
         Value::List(items) => {
             return items.iter().map(|item| json_field(row, context, item)).collect();
         }
-        Value::Record(_) => return Err(unfit(format_args!("{} is not a single value", row.name))),
+        Value::Record(_) => {
+            return Err(invalid(format_args!("{} is not a single value", row.name)));
+        }
     };
     let json = match row.ty {
         FieldType::String => to_value(Text::from(text(tagged)?)),
@@ -198,5 +200,5 @@ fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json,
         },
         _ => to_value(tagged.integer()),
     };
-    json.map_err(unfit)
+    json.map_err(invalid)
 }

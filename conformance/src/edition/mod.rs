@@ -33,6 +33,7 @@ use std::fmt;
 use ads_cnc::Kind;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Function, OffsetRule};
+use ads_cnc_vectors::ids::*;
 
 pub use support::Support;
 pub use version::{CncVersion, Feature, VersionError};
@@ -64,11 +65,11 @@ pub enum Edition {
 
 /// The kinds that a request by index can carry.
 const INDEXED: &[Kind<'static>] = &[Kind::V_E, Kind::V_G, Kind::V_A];
-const KIND_REQUIREMENT: &str = "VAR-1";
+const KIND_REQUIREMENT: &str = VAR_1.as_str();
 
 /// The kinds that are by name only in either edition.
 const BY_NAME_ONLY: &[Kind<'static>] = &[Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S];
-const BY_NAME_ONLY_REQUIREMENT: &str = "VAR-18";
+const BY_NAME_ONLY_REQUIREMENT: &str = VAR_18.as_str();
 
 impl Edition {
     /// Both editions.

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::ids::*;
 
 use super::Support;
 
@@ -219,9 +220,9 @@ impl Feature {
     /// The requirement that lists the versions.
     pub const fn requirement(self) -> &'static str {
         match self {
-            Self::DynamicVariables => "VAR-19",
-            Self::DescriptionByName => "VAR-28",
-            Self::ServiceInterface => "SVC-11",
+            Self::DynamicVariables => VAR_19.as_str(),
+            Self::DescriptionByName => VAR_28.as_str(),
+            Self::ServiceInterface => SVC_11.as_str(),
         }
     }
 }

@@ -6,7 +6,7 @@ use ads_cnc::{Error, U32List};
 use super::codes::text_of;
 
 /// An element of a value.
-pub(super) struct Typed {
+pub(super) struct TypedElement {
     /// Its number of bytes.
     pub(super) len: usize,
     /// Its indices in brackets, or empty.
@@ -18,12 +18,16 @@ pub(super) fn elements(
     ty: DataType,
     dimensions: &[u32],
     bytes: &[u8],
-) -> Result<Vec<Typed>, Error> {
+) -> Result<Vec<TypedElement>, Error> {
     let elements = Elements::new(ty, U32List::from(dimensions), bytes)?;
     let len = super::model::size(elements.shape().element_size());
     let placed = (0_u32..).zip(elements);
     Ok(placed
-        .map(|(item, one)| Typed { len, place: place(item, dimensions), value: element(one) })
+        .map(|(item, one)| TypedElement {
+            len,
+            place: place(item, dimensions),
+            value: element(one),
+        })
         .collect())
 }
 

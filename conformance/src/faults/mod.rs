@@ -22,6 +22,9 @@ mod tests;
 
 use std::sync::OnceLock;
 
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
+
 pub use cnc::Faulty;
 pub use field::{FieldChange, FieldDefect};
 pub use seed::{Seed, SeedKind};
@@ -43,15 +46,15 @@ pub fn by_id(id: &str) -> Option<&'static Seed> {
 /// Requirements of level must that no seed breaks, with the reason.
 ///
 /// Requirements of clients alone are broken by [defects of a client](crate::clients::defects).
-pub const fn without() -> &'static [(&'static str, &'static str)] {
+pub const fn without() -> &'static [(ClauseId, &'static str)] {
     &[
         (
-            "VAR-29",
+            VAR_29,
             "The offsets of the functions: each of them has defects of its own, by the requirement that \
              says what it answers.",
         ),
         (
-            "STM-21",
+            STM_21,
             "The simulated CNC does not interpret NC lines, so it has no other syntax errors to report; \
          how a CNC reports one shows on its screen.",
         ),

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use ads_cnc_vectors::ids::*;
+
 use super::cnc::{CncFault, CncSeed};
 use super::codec::CodecFault;
 use super::field::{FieldChange, FieldDefect};
@@ -56,7 +58,7 @@ impl From<FieldDefect> for Seed {
         // Zero turns an error into a success, which ADS-7 forbids; other error numbers are not
         // specified.
         if defect.field.name() == "result" && defect.change == FieldChange::Zero {
-            requirements.push("ADS-7");
+            requirements.push(ADS_7.as_str());
         }
         Self {
             id: defect.id.clone(),
@@ -74,7 +76,7 @@ impl Seed {
     pub(super) fn of_row(row: &CncSeed, kind: SeedKind) -> Self {
         Self {
             id: row.id.to_owned(),
-            requirements: row.breaks.to_vec(),
+            requirements: row.breaks.iter().map(|id| id.as_str()).collect(),
             what: row.what.to_owned(),
             kind,
             edition: row.edition,

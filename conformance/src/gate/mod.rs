@@ -8,7 +8,7 @@
 //!
 //! A file contains names, a write contains a handle or an address, and only the device knows which
 //! name belongs to it. So the gate observes the names in replies, and rejects a write by a handle
-//! or address to which any reply gives a name that is not in the file: see [`Doubt`].
+//! or address to which any reply gives a name that is not in the file: see [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -34,7 +34,7 @@ pub use crate::text::Moment;
 pub use allowed::{Allowed, NET_ID};
 pub use entry::{AllowedList, Entry};
 pub use file::AllowFileError;
-pub use refusal::{Doubt, Reason, Refusal};
+pub use refusal::{Ambiguity, Reason, Refusal};
 
 use std::net::{IpAddr, SocketAddr};
 use std::ops::RangeInclusive;
@@ -206,9 +206,9 @@ impl Gate {
 
     /// Records the handles and object addresses in a reply, to check later whether a write by one
     /// of them is to a name in the file.
-    pub fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
+    pub fn observe(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
-            self.observed.learn(allowed, call, reply);
+            self.observed.observe(allowed, call, reply);
         }
     }
 
@@ -259,17 +259,17 @@ impl Gate {
         let Some(allowed) = &self.allowed else {
             return Err(Refusal::needing(Reason::NoFile(function, to), needed));
         };
-        let mut doubt = None;
+        let mut ambiguity = None;
         let mut named = false;
         for entry in &allowed.entries {
             match entry.allows(request, &self.observed) {
                 Ok(allows) => named |= allows,
-                Err(why) => doubt = Some(why),
+                Err(why) => ambiguity = Some(why),
             }
         }
-        match (named, doubt) {
+        match (named, ambiguity) {
             (true, _) => self.check_target(to, now),
-            (false, Some(doubt)) => Err(Reason::Doubtful(function, doubt).into()),
+            (false, Some(ambiguity)) => Err(Reason::Ambiguous(function, ambiguity).into()),
             (false, None) => Err(Refusal::needing(Reason::NoEntry(function), needed)),
         }
     }

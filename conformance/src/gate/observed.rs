@@ -6,8 +6,8 @@ use ads_cnc::address::{Addressing, Channel, ChannelAxis, Group, IndexGroup, Inde
 use ads_cnc::operation::{Call, ObjectList, Operation as _, Reply, Request};
 use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 
-use super::refusal::LEARNT_MAX;
-use super::{Allowed, Doubt, Entry};
+use super::refusal::OBSERVATIONS_MAX;
+use super::{Allowed, Ambiguity, Entry};
 
 /// Facts from the replies of a connection: those that allow a write and those that forbid it.
 #[derive(Clone, Debug, Default)]
@@ -77,14 +77,14 @@ impl Observed {
     ///
     /// # Errors
     /// Why the handle may belong to another variable too.
-    pub(super) fn is_variable(&self, channel: Channel, handle: Handle) -> Result<bool, Doubt> {
+    pub(super) fn is_variable(&self, channel: Channel, handle: Handle) -> Result<bool, Ambiguity> {
         let Some(named) = self.handles.get(&(channel, handle.0)) else { return Ok(false) };
         let Some(name) = named.allowed.keys().next() else { return Ok(false) };
         if self.full {
-            return Err(Doubt::TooMuch);
+            return Err(Ambiguity::TooMuch);
         }
         if let Some(foreign) = &named.foreign {
-            return Err(Doubt::Shared(foreign.clone()));
+            return Err(Ambiguity::Shared(foreign.clone()));
         }
         // The axis interface has the same variable without the axis in its name.
         let without_axis = |name: &CncString| {
@@ -93,18 +93,18 @@ impl Observed {
         if let Some((_, of_axis)) = &named.of_axis
             && !named.allowed.keys().any(|name| without_axis(name).as_ref() == Some(of_axis))
         {
-            return Err(Doubt::Shared(of_axis.clone()));
+            return Err(Ambiguity::Shared(of_axis.clone()));
         }
         let several = |name: &&CncString| {
             self.variables.get(&(channel, (*name).clone())) != Some(&Some(handle.0))
         };
         if let Some(name) = named.allowed.keys().find(several) {
-            return Err(Doubt::Several(name.clone()));
+            return Err(Ambiguity::Several(name.clone()));
         }
         if named.allowed.values().any(|from| from.handle_by_name && from.description) {
             Ok(true)
         } else {
-            Err(Doubt::Unconfirmed(name.clone()))
+            Err(Ambiguity::Unconfirmed(name.clone()))
         }
     }
 
@@ -118,29 +118,29 @@ impl Observed {
         list: ObjectList,
         name: &CncString,
         address: (IndexGroup, IndexOffset),
-    ) -> Result<bool, Doubt> {
+    ) -> Result<bool, Ambiguity> {
         let Some(objects) = self.lists.get(&list.index_group()) else { return Ok(false) };
         let addresses = objects.addresses.get(name);
         let Some(addresses) = addresses.filter(|all| all.contains(&address)) else {
             return Ok(false);
         };
         if self.full {
-            return Err(Doubt::TooMuch);
+            return Err(Ambiguity::TooMuch);
         }
         if !objects.is_whole() {
             return Ok(false);
         }
         if addresses.len() > 1 {
-            return Err(Doubt::Several(name.clone()));
+            return Err(Ambiguity::Several(name.clone()));
         }
         if !is_of(list, address.0) {
-            return Err(Doubt::Elsewhere(name.clone()));
+            return Err(Ambiguity::Elsewhere(name.clone()));
         }
         match self.contents.get(&address) {
             Some((one, None)) if one == name => Ok(true),
             Some((one, other)) => {
                 let other = other.as_ref().filter(|_| one == name).unwrap_or(one);
-                Err(Doubt::Shared(other.clone()))
+                Err(Ambiguity::Shared(other.clone()))
             }
             None => Ok(false),
         }
@@ -150,14 +150,14 @@ impl Observed {
     ///
     /// # Errors
     /// The second name.
-    pub(super) fn has_one_name(&self, address: (IndexGroup, IndexOffset)) -> Result<(), Doubt> {
+    pub(super) fn has_one_name(&self, address: (IndexGroup, IndexOffset)) -> Result<(), Ambiguity> {
         match self.contents.get(&address) {
-            Some((_, Some(other))) => Err(Doubt::Shared(other.clone())),
+            Some((_, Some(other))) => Err(Ambiguity::Shared(other.clone())),
             _ => Ok(()),
         }
     }
 
-    pub(super) fn learn(&mut self, allowed: &Allowed, call: &Call<'_>, reply: &[u8]) {
+    pub(super) fn observe(&mut self, allowed: &Allowed, call: &Call<'_>, reply: &[u8]) {
         let Ok(request) = call.dispatch() else { return };
         let Ok(reply) = request.decode_reply(reply) else { return };
         match (request, reply) {
@@ -195,7 +195,7 @@ impl Observed {
 
     /// Counts an entry; returns whether it is within the limit.
     fn has_room(&mut self) -> bool {
-        self.full |= self.kept >= LEARNT_MAX;
+        self.full |= self.kept >= OBSERVATIONS_MAX;
         self.kept = self.kept.saturating_add(1);
         !self.full
     }
@@ -323,7 +323,11 @@ impl Entry {
     ///
     /// # Errors
     /// Why the value written may be another than the entry names.
-    pub(super) fn allows(&self, request: &Request<'_>, observed: &Observed) -> Result<bool, Doubt> {
+    pub(super) fn allows(
+        &self,
+        request: &Request<'_>,
+        observed: &Observed,
+    ) -> Result<bool, Ambiguity> {
         match (self, request) {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
                 observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))

@@ -12,7 +12,7 @@ use super::{Entry, Moment};
 
 /// Maximum number of handles, names and addresses stored for a connection. Beyond it every write by
 /// a handle or to a named object is rejected.
-pub(super) const LEARNT_MAX: usize = 65_536;
+pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 
 /// A frame that the gate rejects.
 #[derive(Clone, Debug)]
@@ -64,14 +64,14 @@ pub enum Reason {
     /// The file has expired at this time.
     Expired(Moment),
     /// The name is in the file, but the handle or the address may belong to another name too.
-    Doubtful(Function, Doubt),
+    Ambiguous(Function, Ambiguity),
     /// The file does not permit malformed requests.
     NoMalformed(AmsNetId),
 }
 
 /// Why a handle or an address may belong to a name that is not in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Doubt {
+pub enum Ambiguity {
     /// The device gives it to this name too.
     Shared(CncString),
     /// The device gives several handles to this name.
@@ -84,7 +84,7 @@ pub enum Doubt {
     TooMuch,
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for Ambiguity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Shared(name) => {
@@ -98,7 +98,7 @@ impl fmt::Display for Doubt {
                 write!(f, "it is in another channel or axis than the list that has {name}")
             }
             Self::TooMuch => {
-                write!(f, "the device has more names than the {LEARNT_MAX} that are compared")
+                write!(f, "the device has more names than the {OBSERVATIONS_MAX} that are compared")
             }
         }
     }
@@ -140,13 +140,13 @@ impl Refusal {
                  expires = …  # a date and time such as 2026-05-04T17:30:00+02:00\n\
                  malformed = true"
             ),
-            (Reason::Doubtful(Function::WriteObject, Doubt::Shared(_)), _) => {
+            (Reason::Ambiguous(Function::WriteObject, Ambiguity::Shared(_)), _) => {
                 "An object that shares its address with another one cannot be written.".to_owned()
             }
-            (Reason::Doubtful(Function::WriteObject, _), _) => {
+            (Reason::Ambiguous(Function::WriteObject, _), _) => {
                 "An object can be written by its group and offset, if the file has them.".to_owned()
             }
-            (Reason::Doubtful(..), _) => "A variable can be written by its name.".to_owned(),
+            (Reason::Ambiguous(..), _) => "A variable can be written by its name.".to_owned(),
             (Reason::Expired(_), _) => {
                 "See whether nothing can come to harm, and set another time.".to_owned()
             }
@@ -206,9 +206,9 @@ impl fmt::Display for Refusal {
                  machine is asked, and {} is not this one",
                 address_text(address)
             ),
-            Reason::Doubtful(function, doubt) => write!(
+            Reason::Ambiguous(function, ambiguity) => write!(
                 f,
-                "\"{}\" may reach what the file of --allow-write does not name: {doubt}",
+                "\"{}\" may reach what the file of --allow-write does not name: {ambiguity}",
                 name(function)
             ),
             Reason::NoMalformed(target) => {

@@ -240,10 +240,10 @@ fn a_variable_stands_for_its_elements_only() {
     assert!(list.check(&request(other), now()).is_err());
 }
 
-fn learn<'a>(gate: &mut Gate, request: impl Into<Request<'a>>, reply: &[u8]) {
+fn observe<'a>(gate: &mut Gate, request: impl Into<Request<'a>>, reply: &[u8]) {
     let request = request.into();
     let mut buf = vec![0; request.encoded_len()];
-    gate.learn(&request.encode(&mut buf).unwrap(), reply);
+    gate.observe(&request.encode(&mut buf).unwrap(), reply);
 }
 
 fn by_handle(handle: u32) -> Vec<u8> {
@@ -251,7 +251,7 @@ fn by_handle(handle: u32) -> Vec<u8> {
 }
 
 fn give_handle(gate: &mut Gate, name: &str, handle: u32) {
-    learn(gate, HandleByName::new(channel(1), name).unwrap(), &handle.to_le_bytes());
+    observe(gate, HandleByName::new(channel(1), name).unwrap(), &handle.to_le_bytes());
 }
 
 /// A description by index.
@@ -264,16 +264,16 @@ fn describe(gate: &mut Gate, name: &str, handle: u32) {
         dimensions: Vec::new(),
         name: name.parse().unwrap(),
     };
-    learn(
+    observe(
         gate,
         DescribeByIndex::new(channel(1), 0, Kind::V_E),
         &description.encode_to_vec().unwrap(),
     );
 }
 
-fn doubt(gate: &Gate, frame: &[u8]) -> Option<Doubt> {
+fn ambiguity(gate: &Gate, frame: &[u8]) -> Option<Ambiguity> {
     match gate.check(frame, now()) {
-        Err(Refusal { reason: Reason::Doubtful(_, doubt), .. }) => Some(doubt),
+        Err(Refusal { reason: Reason::Ambiguous(_, ambiguity), .. }) => Some(ambiguity),
         _ => None,
     }
 }
@@ -289,8 +289,8 @@ fn a_handle_is_good_for_what_was_asked() {
     for (name, handle) in [("V.E.a", 7_u32), ("V.E.other", 8), ("V.E.b[1]", 9)] {
         give_handle(&mut gate, name, handle);
     }
-    let unconfirmed = || Some(Doubt::Unconfirmed("V.E.a".parse().unwrap()));
-    assert_eq!(doubt(&gate, &by_handle(7)), unconfirmed());
+    let unconfirmed = || Some(Ambiguity::Unconfirmed("V.E.a".parse().unwrap()));
+    assert_eq!(ambiguity(&gate, &by_handle(7)), unconfirmed());
     for (name, handle) in [("V.E.a", 7_u32), ("V.E.other", 8), ("V.E.b", 9)] {
         describe(&mut gate, name, handle);
     }
@@ -301,7 +301,7 @@ fn a_handle_is_good_for_what_was_asked() {
     gate.forget();
     assert!(gate.check(&by_handle(7), now()).is_err());
     describe(&mut gate, "V.E.a", 7);
-    assert_eq!(doubt(&gate, &by_handle(7)), unconfirmed());
+    assert_eq!(ambiguity(&gate, &by_handle(7)), unconfirmed());
 }
 
 /// A write by a handle is rejected if any reply gives it to another name too.
@@ -316,14 +316,14 @@ fn a_handle_of_several_names_is_not_written_by() {
         assert!(gate.check(&by_handle(7), now()).is_ok(), "{name}");
         gate
     };
-    let shared = |name: &str| Some(Doubt::Shared(name.parse().unwrap()));
+    let shared = |name: &str| Some(Ambiguity::Shared(name.parse().unwrap()));
     let mut by_name = confirmed("V.E.a");
     give_handle(&mut by_name, "V.E.b", 7);
-    assert_eq!(doubt(&by_name, &by_handle(7)), shared("V.E.b"));
+    assert_eq!(ambiguity(&by_name, &by_handle(7)), shared("V.E.b"));
 
     let mut by_index = confirmed("V.E.a");
     describe(&mut by_index, "V.E.b", 7);
-    assert_eq!(doubt(&by_index, &by_handle(7)), shared("V.E.b"));
+    assert_eq!(ambiguity(&by_index, &by_handle(7)), shared("V.E.b"));
 
     let mut described = confirmed("V.E.a");
     let reply = DescriptionByName {
@@ -334,13 +334,13 @@ fn a_handle_of_several_names_is_not_written_by() {
         dimensions: Vec::new(),
     };
     let reply = reply.encode_to_vec().unwrap();
-    learn(&mut described, DescribeByName::new(channel(1), "V.E.b").unwrap(), &reply);
-    assert_eq!(doubt(&described, &by_handle(7)), shared("V.E.b"));
+    observe(&mut described, DescribeByName::new(channel(1), "V.E.b").unwrap(), &reply);
+    assert_eq!(ambiguity(&described, &by_handle(7)), shared("V.E.b"));
 
     // Handles of different channels are independent.
     let mut other = confirmed("V.E.a");
     let of_other = HandleByName::new(channel(2), "V.E.b").unwrap();
-    learn(&mut other, of_other, &7_u32.to_le_bytes());
+    observe(&mut other, of_other, &7_u32.to_le_bytes());
     assert!(other.check(&by_handle(7), now()).is_ok());
 
     // Another name in the file may have the same handle; several handles for one name are rejected.
@@ -348,23 +348,23 @@ fn a_handle_of_several_names_is_not_written_by() {
     give_handle(&mut both, "V.A.p.X", 7);
     assert!(both.check(&by_handle(7), now()).is_ok());
     give_handle(&mut both, "V.E.a", 8);
-    assert_eq!(doubt(&both, &by_handle(7)), Some(Doubt::Several("V.E.a".parse().unwrap())));
-    assert_eq!(doubt(&both, &by_handle(8)), Some(Doubt::Several("V.E.a".parse().unwrap())));
+    assert_eq!(ambiguity(&both, &by_handle(7)), Some(Ambiguity::Several("V.E.a".parse().unwrap())));
+    assert_eq!(ambiguity(&both, &by_handle(8)), Some(Ambiguity::Several("V.E.a".parse().unwrap())));
 
     // On the axis interface the name does not contain the axis.
     let of_axis = |gate: &mut Gate, axis: u32, name: &str| {
         let axis = ChannelAxis::new(axis).unwrap();
         let ask = AxisHandleByName::new(channel(1), axis, name).unwrap();
-        learn(gate, ask, &7_u32.to_le_bytes());
+        observe(gate, ask, &7_u32.to_le_bytes());
     };
     let mut axis = confirmed("V.A.p.X");
     of_axis(&mut axis, 1, "V.A.p");
     assert!(axis.check(&by_handle(7), now()).is_ok());
     of_axis(&mut axis, 2, "V.A.p");
-    assert_eq!(doubt(&axis, &by_handle(7)), shared("V.A.p"));
+    assert_eq!(ambiguity(&axis, &by_handle(7)), shared("V.A.p"));
     let mut axis = confirmed("V.A.p.X");
     of_axis(&mut axis, 1, "V.A.q");
-    assert_eq!(doubt(&axis, &by_handle(7)), shared("V.A.q"));
+    assert_eq!(ambiguity(&axis, &by_handle(7)), shared("V.A.q"));
 }
 
 /// Beyond the limit the gate rejects every write by handle; later observations do not change that.
@@ -375,14 +375,14 @@ fn what_is_learnt_is_bounded() {
     let mut gate = gate(table);
     give_handle(&mut gate, "V.E.a", 7);
     describe(&mut gate, "V.E.a", 7);
-    let kept = u32::try_from(refusal::LEARNT_MAX).unwrap();
+    let kept = u32::try_from(refusal::OBSERVATIONS_MAX).unwrap();
     for handle in 100..98 + kept {
         give_handle(&mut gate, "V.E.other", handle);
     }
     assert!(gate.check(&by_handle(7), now()).is_ok());
     for _ in 0..2 {
         give_handle(&mut gate, "V.E.other", 1);
-        assert_eq!(doubt(&gate, &by_handle(7)), Some(Doubt::TooMuch));
+        assert_eq!(ambiguity(&gate, &by_handle(7)), Some(Ambiguity::TooMuch));
     }
     assert!(gate.check(&by_name("V.E.a"), now()).is_ok());
     assert!(gate.knows_handle(channel(1), Handle(2)));
@@ -412,7 +412,10 @@ fn another_connection_forgets_what_lets_writes_pass() {
     assert!(gate.check(&by_handle(7), now()).is_ok());
     gate.forget();
     confirm(&mut gate, 8);
-    assert_eq!(doubt(&gate, &by_handle(8)), Some(Doubt::Shared("V.E.other".parse().unwrap())));
+    assert_eq!(
+        ambiguity(&gate, &by_handle(8)),
+        Some(Ambiguity::Shared("V.E.other".parse().unwrap()))
+    );
 }
 
 #[test]
@@ -431,41 +434,48 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     let table = "[[object]]\nchannel = 1\nname = \"b_w\"";
 
     let mut known = gate(table);
-    learn(&mut known, CountObjects::new(channel(1)), &three);
-    learn(&mut known, ask(2, 1), &object("b_w", 2));
+    observe(&mut known, CountObjects::new(channel(1)), &three);
+    observe(&mut known, ask(2, 1), &object("b_w", 2));
     // There might be another object with the same name.
     assert!(known.check(&write(2), now()).is_err());
-    learn(&mut known, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("c_w", 3)]));
+    observe(&mut known, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("c_w", 3)]));
     assert!(known.check(&write(2), now()).is_ok());
     assert!(known.check(&write(1), now()).is_err() && known.check(&write(3), now()).is_err());
 
     let mut twice = gate(table);
-    learn(&mut twice, CountObjects::new(channel(1)), &three);
-    learn(&mut twice, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("b_w", 3)]));
+    observe(&mut twice, CountObjects::new(channel(1)), &three);
+    observe(&mut twice, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("b_w", 3)]));
     assert!(twice.check(&write(2), now()).is_err() && twice.check(&write(3), now()).is_err());
 
     // A descriptor for an index after the last does not complete the list.
     let mut beyond = gate(table);
-    learn(&mut beyond, CountObjects::new(channel(1)), &three);
-    learn(&mut beyond, ask(2, 3), &list([("b_w", 2), ("c_w", 3), ("d_w", 4)]));
+    observe(&mut beyond, CountObjects::new(channel(1)), &three);
+    observe(&mut beyond, ask(2, 3), &list([("b_w", 2), ("c_w", 3), ("d_w", 4)]));
     assert!(beyond.check(&write(2), now()).is_err());
 
     // Two names at one address, in one list or in two.
-    let shared = Some(Doubt::Shared("c_w".parse().unwrap()));
+    let shared = Some(Ambiguity::Shared("c_w".parse().unwrap()));
     let mut same = gate(table);
-    learn(&mut same, CountObjects::new(channel(1)), &three);
-    learn(&mut same, ask(1, 3), &list([("c_w", 2), ("b_w", 2), ("a_w", 3)]));
-    assert_eq!(doubt(&same, &write(2)), shared);
+    observe(&mut same, CountObjects::new(channel(1)), &three);
+    observe(&mut same, ask(1, 3), &list([("c_w", 2), ("b_w", 2), ("a_w", 3)]));
+    assert_eq!(ambiguity(&same, &write(2)), shared);
     let mut other = known.clone();
-    learn(&mut other, ReadDescriptors::new(ObjectList::PLATFORM, 1, 1).unwrap(), &object("c_w", 2));
-    assert_eq!(doubt(&other, &write(2)), shared);
+    observe(
+        &mut other,
+        ReadDescriptors::new(ObjectList::PLATFORM, 1, 1).unwrap(),
+        &object("c_w", 2),
+    );
+    assert_eq!(ambiguity(&other, &write(2)), shared);
 
     // An address in another channel.
     let mut elsewhere = gate(&table.replace("channel = 1", "channel = 2"));
-    learn(&mut elsewhere, CountObjects::new(channel(2)), &[1, 0, 0, 0]);
+    observe(&mut elsewhere, CountObjects::new(channel(2)), &[1, 0, 0, 0]);
     let of_other = ReadDescriptors::new(channel(2), 1, 1).unwrap();
-    learn(&mut elsewhere, of_other, &object("b_w", 2));
-    assert_eq!(doubt(&elsewhere, &write(2)), Some(Doubt::Elsewhere("b_w".parse().unwrap())));
+    observe(&mut elsewhere, of_other, &object("b_w", 2));
+    assert_eq!(
+        ambiguity(&elsewhere, &write(2)),
+        Some(Ambiguity::Elsewhere("b_w".parse().unwrap()))
+    );
 }
 
 /// A file may require an IP address, and must require a loopback address for the NetId

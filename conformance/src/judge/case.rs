@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ads_cnc_vectors::{Sequence, Vector, is_requirement};
+use ads_cnc_vectors::{Sequence, Vector};
 use serde::{Deserialize, Serialize};
 
 use crate::text::named;
@@ -87,14 +87,4 @@ pub enum Body {
     Client,
     /// By checking captured traffic.
     Traffic,
-}
-
-/// Checks at compile time that all IDs are in the catalogue.
-pub(crate) const fn in_catalogue(ids: &'static [&'static str]) -> &'static [&'static str] {
-    let mut rest = ids;
-    while let [id, others @ ..] = rest {
-        assert!(is_requirement(id), "no requirement has this ID");
-        rest = others;
-    }
-    ids
 }

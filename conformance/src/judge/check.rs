@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Display};
 
-use ads_cnc_vectors::{Hex, Level, clause};
+use ads_cnc_vectors::{ClauseId, Hex, Level, clause};
 
 use super::{CLIENT, Evidence, Verdict};
 use crate::text::shorten;
@@ -72,7 +72,7 @@ impl<T> OrStop<T> for Option<T> {
 }
 
 /// Continues a case without a value.
-pub(crate) trait IfThere<T> {
+pub(crate) trait IfPresent<T> {
     /// The value; `None` if the target does not have it.
     fn if_applicable(self) -> Step<Option<T>>;
 
@@ -81,7 +81,7 @@ pub(crate) trait IfThere<T> {
     fn if_known(self) -> Step<Option<T>>;
 }
 
-impl<T> IfThere<T> for Step<T> {
+impl<T> IfPresent<T> for Step<T> {
     fn if_applicable(self) -> Step<Option<T>> {
         match self {
             Err(Stop::NotApplicable(_)) => Ok(None),
@@ -98,33 +98,27 @@ impl<T> IfThere<T> for Step<T> {
 }
 
 /// A requirement at a level: that of the catalogue, or of an assumed part.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     pub id: &'static str,
     /// The level, if it is not that of the catalogue.
     pub level: Option<Level>,
 }
 
-impl From<&'static str> for Rule {
-    fn from(id: &'static str) -> Self {
-        if id == CLIENT {
-            // Rules of the client protocol are not in the catalogue and have no level there.
-            return Self { id, level: Some(Level::Must) };
-        }
-        let clause = clause(id);
-        let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
-        Self { id, level: clause.map(|clause| clause.level()) }
+impl From<ClauseId> for Rule {
+    fn from(id: ClauseId) -> Self {
+        Self::of(id.as_str())
     }
 }
 
 /// A part of a requirement that is assumed, even if the rest is stated.
-pub const fn assumed(id: &'static str) -> Rule {
-    Rule { id, level: Some(Level::Info) }
+pub fn assumed(rule: impl Into<Rule>) -> Rule {
+    rule.into().at(Level::Info)
 }
 
 /// A part of a requirement that is documented in online help only.
-pub const fn online(id: &'static str) -> Rule {
-    Rule { id, level: Some(Level::Should) }
+pub fn online(rule: impl Into<Rule>) -> Rule {
+    rule.into().at(Level::Should)
 }
 
 /// The requirements of a check.
@@ -139,7 +133,7 @@ impl Rules for Rule {
     }
 }
 
-impl Rules for &'static str {
+impl Rules for ClauseId {
     fn rules(self) -> impl Iterator<Item = Rule> {
         [self.into()].into_iter()
     }
@@ -211,7 +205,7 @@ pub struct Judgement {
 }
 
 /// Maximum number of failed checks stored for a requirement of a case; the others are counted.
-const KEPT: usize = 3;
+const STORED_MAX: usize = 3;
 
 /// Maximum number of characters of the expected, and of the actual result.
 pub(crate) const TEXT_MAX: usize = 1024;
@@ -225,21 +219,36 @@ pub(crate) struct Record {
 
 /// Records the checks of a case or of captured traffic.
 pub(crate) trait Checks {
-    /// Records a check for each of the rules; returns `kept`. The texts are formatted only if it
+    /// Records a check for each of the rules; returns `passed`. The texts are formatted only if it
     /// fails.
     fn check(
         &mut self,
         rules: impl Rules,
-        kept: bool,
+        passed: bool,
         expected: impl Describe,
         found: impl Describe,
     ) -> bool;
 }
 
 impl Rule {
+    /// The protocol between the suite and a client, which is not of the catalogue.
+    pub(crate) const CLIENT: Self = Self { id: CLIENT, level: Some(Level::Must) };
+
+    /// The rule of an ID that is no constant: one of the codec's tables or of a vector.
+    pub(crate) fn of(id: &'static str) -> Self {
+        let clause = clause(id);
+        let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
+        Self { id, level: clause.map(|clause| clause.level()) }
+    }
+
+    /// At another level.
+    pub(crate) const fn at(self, level: Level) -> Self {
+        Self { id: self.id, level: Some(level) }
+    }
+
     /// The verdict for a check that passed or failed.
-    pub(crate) const fn verdict(self, kept: bool) -> Verdict {
-        match (kept, self.level) {
+    pub(crate) const fn verdict(self, passed: bool) -> Verdict {
+        match (passed, self.level) {
             (true, _) => Verdict::Pass,
             (false, Some(level)) => Verdict::missed(level),
             (false, None) => Verdict::HarnessError,
@@ -252,15 +261,15 @@ impl Record {
     pub(crate) fn add_all(
         &mut self,
         rules: impl Rules,
-        kept: bool,
+        passed: bool,
         expected: impl Describe,
         found: impl Describe,
         evidence: impl Fn() -> Option<Evidence>,
     ) {
-        let words = (!kept).then(|| (expected.describe(), found.describe()));
+        let words = (!passed).then(|| (expected.describe(), found.describe()));
         let (expected, found) = words.unwrap_or_default();
         for rule in rules.rules() {
-            self.add(rule, rule.verdict(kept), expected.as_str(), found.as_str(), &evidence);
+            self.add(rule, rule.verdict(passed), expected.as_str(), found.as_str(), &evidence);
         }
     }
 
@@ -281,7 +290,7 @@ impl Record {
             .iter_mut()
             .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
         let mut same: Vec<_> = same.collect();
-        if same.len() >= if passed { 1 } else { KEPT } {
+        if same.len() >= if passed { 1 } else { STORED_MAX } {
             if let Some(last) = same.last_mut() {
                 last.more += 1;
             }

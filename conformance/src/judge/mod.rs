@@ -11,9 +11,8 @@ mod vectors;
 mod verdict;
 mod waivers;
 
-pub(crate) use case::in_catalogue;
 pub use case::{Body, Case, CaseSubject, Needs};
-pub(crate) use check::{Checks, IfThere, OrStop, Record, TEXT_MAX, applicable};
+pub(crate) use check::{Checks, IfPresent, OrStop, Record, TEXT_MAX, applicable};
 pub use check::{Describe, Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub use evidence::Evidence;
 pub use left_changed::LeftChanged;

@@ -58,7 +58,7 @@ impl Verdict {
     }
 
     /// Whether a run with it is not a success.
-    pub const fn is_trouble(self) -> bool {
+    pub const fn fails_run(self) -> bool {
         let open = matches!(self, Self::Inconclusive | Self::Interrupted);
         open || matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
     }

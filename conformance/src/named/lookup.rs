@@ -5,7 +5,7 @@ use ads_cnc::value::DataType;
 
 use crate::objects::Pattern;
 
-/// What is asked for by a name.
+/// A name to look for, and its kind of value:
 ///
 /// | name | is |
 /// |---|---|

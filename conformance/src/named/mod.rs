@@ -7,7 +7,7 @@ mod variable;
 pub use lookup::Lookup;
 
 use crate::objects::Object;
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 
 /// Finds an object by its name.
 ///
@@ -24,7 +24,7 @@ use crate::session::{Session, Trouble};
 ///     let lookup = Lookup::new(name, Channel::new(1).unwrap());
 ///     let object = find(&mut session, &lookup)?;
 ///     let bytes = session.read(&object.address)?;
-///     Ok::<_, ads_cnc_conformance::session::Trouble>(plain(&object.ty, &bytes).unwrap())
+///     Ok::<_, ads_cnc_conformance::session::ToolError>(plain(&object.ty, &bytes).unwrap())
 /// };
 /// assert_eq!(value("V.E.Testvar")?, "123,234,345,456,567");
 /// assert_eq!(value("V.E.matrix[1][2]")?, "23");
@@ -36,7 +36,7 @@ use crate::session::{Session, Trouble};
 ///
 /// # Errors
 /// If no object or several objects have this name, with advice.
-pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
+pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
     } else {
@@ -48,7 +48,7 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
 ///
 /// # Errors
 /// A name that cannot be encoded.
-pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, Trouble> {
+pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, ToolError> {
     let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
     is_variable.then(|| variable::unasked(lookup)).transpose()
 }

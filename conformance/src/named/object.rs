@@ -4,16 +4,16 @@ use ads_cnc::CncString;
 
 use super::Lookup;
 use crate::objects::{Object, Options, Pattern, walk};
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::values::Type;
 
 /// Maximum number of candidates in an error.
 const SHOWN: usize = 12;
 
 /// Searches all lists that may have the name; two matches are an error.
-pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
+pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
     let Lookup { name, channel, lists, offset, ty, .. } = lookup;
-    let wanted: CncString = name.parse().map_err(Trouble::Unsendable)?;
+    let wanted: CncString = name.parse().map_err(ToolError::Unsendable)?;
     let options = Options {
         channels: vec![*channel],
         lists: lists.clone(),
@@ -24,7 +24,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
     if found.is_cut {
         // The search is incomplete: another object may have the same name.
         let why = found.notes.pop().unwrap_or_default();
-        return Err(Trouble::Enough(format!("{name} was not found for certain: {why}")));
+        return Err(ToolError::Enough(format!("{name} was not found for certain: {why}")));
     }
     found.objects.retain(|object| {
         let at = object.address.content().map(|(_, offset)| offset.get());
@@ -42,9 +42,9 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
         }),
         (Some(last), others) => {
             let all: Vec<&Object> = others.iter().chain([&last]).collect();
-            Err(Trouble::Usage(several(name, &all)))
+            Err(ToolError::Usage(several(name, &all)))
         }
-        (None, _) => Err(Trouble::Unable(absent(lookup))),
+        (None, _) => Err(ToolError::Unable(absent(lookup))),
     }
 }
 

@@ -8,7 +8,7 @@ use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
 
 use super::Lookup;
 use crate::objects::{List, Object, ReportedAccess, ValueAddress};
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::values::Type;
 
 /// The kinds of variables that have lists.
@@ -30,20 +30,20 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
 }
 
 /// The object, from its name alone.
-pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
+pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
-    let text: CncString = name.parse().map_err(Trouble::Unsendable)?;
+    let text: CncString = name.parse().map_err(ToolError::Unsendable)?;
     let hint = |ty: &Option<DataType>| ty.map_or(Type::UNKNOWN, Type::hinted);
     match (kind_of_parameter(name), axis) {
         (Some(kind), None) => Ok(Object::of_parameter(*channel, kind, text)),
         _ => {
             let path = VariablePath::new(name).map_err(|error| {
-                Trouble::Usage(format!("{name} is not the name of a variable: {error}"))
+                ToolError::Usage(format!("{name} is not the name of a variable: {error}"))
             })?;
             let kind = path.kind().text().to_string();
             if axis.is_some() && kind != "V.A" {
                 let why = format!("--axis is for V.A variables, and {name} is of {kind}");
-                return Err(Trouble::Usage(why));
+                return Err(ToolError::Usage(why));
             }
             let kind = KINDS.into_iter().find(|known| *known == kind).unwrap_or("V");
             let list = List::Variables {
@@ -71,13 +71,13 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, Trouble> {
 
 /// The variable with its type: from the description by name if the CNC has that function, else from
 /// the descriptions by index.
-pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Trouble> {
+pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
         return Ok(object);
     }
     let (channel, axis) = (lookup.channel, lookup.axis);
-    let path = VariablePath::from_text(object.name.as_cnc_str()).map_err(Trouble::Unsendable)?;
+    let path = VariablePath::from_text(object.name.as_cnc_str()).map_err(ToolError::Unsendable)?;
     let told = match axis {
         None => described(session, channel, &path)?,
         Some(_) => None,
@@ -95,7 +95,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Tro
     let ty = if indices.is_empty() {
         ty
     } else {
-        let odd = |why| Trouble::Usage(format!("{}: {why}", path.text()));
+        let odd = |why| ToolError::Usage(format!("{}: {why}", path.text()));
         ty.element(indices).map_err(odd)?
     };
     Ok(Object { ty, access, handle, ..object })
@@ -114,7 +114,7 @@ fn described(
     session: &mut Session,
     channel: Channel,
     path: &VariablePath<'_>,
-) -> Result<Option<DescribedVariable>, Trouble> {
+) -> Result<Option<DescribedVariable>, ToolError> {
     let describe = DescribeByName { channel, name: path.variable().text().into() };
     match session.call(&describe) {
         Ok(variable) => Ok(Some(DescribedVariable {
@@ -123,8 +123,8 @@ fn described(
             // A variable that is accessible by name only has the handle 0.
             handle: Some(variable.handle).filter(|handle| handle.0 != 0),
         })),
-        Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
-        Err(trouble) => Err(trouble),
+        Err(ToolError::Ads { .. } | ToolError::Reply(_)) => Ok(None),
+        Err(error) => Err(error),
     }
 }
 
@@ -136,15 +136,15 @@ fn listed(
     channel: Channel,
     path: &VariablePath<'_>,
     of_axis: bool,
-) -> Result<Option<DescribedVariable>, Trouble> {
+) -> Result<Option<DescribedVariable>, ToolError> {
     let kind = path.kind();
     if ![Kind::V_E, Kind::V_G, Kind::V_A].iter().any(|known| known.text() == kind.text()) {
         return Ok(None);
     }
     let count = match session.call(&CountVariables::new(channel, kind)) {
         Ok(count) => count.0,
-        Err(Trouble::Ads { .. }) => return Ok(None),
-        Err(trouble) => return Err(trouble),
+        Err(ToolError::Ads { .. }) => return Ok(None),
+        Err(error) => return Err(error),
     };
     let wanted = path.variable();
     for index in 0..count {
@@ -157,10 +157,10 @@ fn listed(
                     handle: Some(variable.handle).filter(|_| !of_axis),
                 }));
             }
-            Ok(_) | Err(Trouble::Reply(_)) => {}
+            Ok(_) | Err(ToolError::Reply(_)) => {}
             // The number of variables has decreased meanwhile.
-            Err(Trouble::Ads { .. }) => return Ok(None),
-            Err(trouble) => return Err(trouble),
+            Err(ToolError::Ads { .. }) => return Ok(None),
+            Err(error) => return Err(error),
         }
     }
     Ok(None)

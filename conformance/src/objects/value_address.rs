@@ -15,7 +15,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Error, ErrorKind, Handle};
 
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 
 /// The address of a value; a variable has several.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -114,17 +114,17 @@ impl ValueAddress {
     }
 
     /// The error for an address without a request.
-    fn no_request(&self, error: Error) -> Trouble {
+    fn no_request(&self, error: Error) -> ToolError {
         match (self, error.kind()) {
             // Of the functions of COM only the program stream is in the groups of contents.
-            (Self::Object { .. }, ErrorKind::Function) => Trouble::Unable(
+            (Self::Object { .. }, ErrorKind::Function) => ToolError::Unable(
                 "it is the program stream, which is written only: by ads-cnc stream".to_owned(),
             ),
             // The offset of a function has no content (SDA-12).
             (_, ErrorKind::Function) => {
-                Trouble::Unable("a function is at its address, no content".to_owned())
+                ToolError::Unable("a function is at its address, no content".to_owned())
             }
-            _ => Trouble::Unsendable(error),
+            _ => ToolError::Unsendable(error),
         }
     }
 }
@@ -133,12 +133,12 @@ impl Session {
     /// Reads the bytes of a value.
     ///
     /// # Errors
-    /// Those of [`request`](Self::request), and [`Trouble`] for a reply that does not decode to a
+    /// Those of [`request`](Self::request), and [`ToolError`] for a reply that does not decode to a
     /// value.
-    pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, Trouble> {
+    pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, ToolError> {
         let read = address.read().map_err(|error| address.no_request(error))?;
         let data = self.request(address.task(), read)?;
-        read.decode_reply(&data).map_err(Trouble::Reply)?;
+        read.decode_reply(&data).map_err(ToolError::Reply)?;
         Ok(data)
     }
 
@@ -146,17 +146,17 @@ impl Session {
     ///
     /// # Errors
     /// That the gate rejects it, or those of [`request`](Self::request).
-    pub fn write(&mut self, address: &ValueAddress, value: &[u8]) -> Result<(), Trouble> {
+    pub fn write(&mut self, address: &ValueAddress, value: &[u8]) -> Result<(), ToolError> {
         let write = address.write(value).map_err(|error| address.no_request(error))?;
         let data = self.request(address.task(), write)?;
-        write.decode_reply(&data).map(drop).map_err(Trouble::Reply)
+        write.decode_reply(&data).map(drop).map_err(ToolError::Reply)
     }
 
     /// Checks whether the gate allows a write of the value. Nothing is sent.
     ///
     /// # Errors
     /// If it does not.
-    pub fn check_write(&self, address: &ValueAddress) -> Result<(), Trouble> {
+    pub fn check_write(&self, address: &ValueAddress) -> Result<(), ToolError> {
         let write = address.write(&[]).map_err(|error| address.no_request(error))?;
         self.check(address.task(), write)
     }

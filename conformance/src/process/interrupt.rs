@@ -14,7 +14,7 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 const INTERRUPTED: i32 = 130;
 
 /// The polling interval of interruptible waits.
-pub(crate) const LOOK: Duration = Duration::from_millis(20);
+pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Whether a signal has been received.
 pub(crate) fn is_requested() -> bool {
@@ -72,26 +72,26 @@ pub(crate) struct Interrupt(Receiver<()>);
 impl Interrupt {
     /// Catches the signals; possible once per process.
     pub(crate) fn catch() -> io::Result<Self> {
-        Self::catch_telling(|| (), || None)
+        Self::catch_with(|| (), || None)
     }
 
-    /// Catches the signals. `first_words` is called at the first signal. `last_words` is called
+    /// Catches the signals. `on_first` is called at the first signal. `on_second` is called
     /// before a second one ends the process, and may return another exit code than that of an
     /// interrupted process.
-    pub(crate) fn catch_telling(
-        first_words: impl Fn() + Send + 'static,
-        last_words: impl Fn() -> Option<Exit> + Send + 'static,
+    pub(crate) fn catch_with(
+        on_first: impl Fn() + Send + 'static,
+        on_second: impl Fn() -> Option<Exit> + Send + 'static,
     ) -> io::Result<Self> {
         let (tell, told) = mpsc::channel();
         let handler = move || {
             if REQUESTED.swap(true, Ordering::SeqCst) {
-                let code = last_words().map_or(INTERRUPTED, |exit| exit.code().into());
+                let code = on_second().map_or(INTERRUPTED, |exit| exit.code().into());
                 super::end_all();
                 process::exit(code);
             }
             // Without a waiting thread the flag is polled.
             let _waiting = tell.send(());
-            first_words();
+            on_first();
         };
         on_signals(handler)?;
         Ok(Self(told))

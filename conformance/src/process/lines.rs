@@ -19,7 +19,7 @@ pub const LINE_MAX: usize = 1 << 18;
 const VALUES_MAX: usize = 1 << 13;
 
 /// Maximum number of stored bytes of stderr: the last ones.
-const STDERR_KEPT: usize = 64 << 10;
+const STDERR_MAX: usize = 64 << 10;
 
 /// The end of a command's stderr.
 #[derive(Clone, Debug, Default)]
@@ -37,7 +37,7 @@ impl Stderr {
         while let Ok(len @ 1..) = from.read(&mut chunk) {
             let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             kept.extend(chunk.iter().take(len));
-            let over = kept.len().saturating_sub(STDERR_KEPT);
+            let over = kept.len().saturating_sub(STDERR_MAX);
             kept.drain(..over);
         }
     }
@@ -106,7 +106,7 @@ impl LineProcess {
         let begun = Instant::now();
         loop {
             let left = timeout.saturating_sub(begun.elapsed());
-            match self.from.recv_timeout(left.min(interrupt::LOOK)) {
+            match self.from.recv_timeout(left.min(interrupt::POLL_INTERVAL)) {
                 Ok(Ok(line)) => return text(line),
                 Ok(Err(why)) => return Err(RecvError::Garbled(why)),
                 Err(RecvTimeoutError::Disconnected) => return Err(RecvError::Closed),
@@ -148,7 +148,7 @@ impl LineProcess {
                 thread::sleep(POLL);
             }
         });
-        let until = Instant::now().checked_add(LAST_WORDS);
+        let until = Instant::now().checked_add(OUTPUT_AFTER_EXIT);
         // A process that it started may keep stdout open.
         while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
         {
@@ -161,7 +161,7 @@ impl LineProcess {
 const POLL: Duration = Duration::from_millis(2);
 
 /// How long to wait for output after the command has ended.
-const LAST_WORDS: Duration = Duration::from_millis(200);
+const OUTPUT_AFTER_EXIT: Duration = Duration::from_millis(200);
 
 fn show(line: &Result<Vec<u8>, String>) -> String {
     match line {

@@ -150,7 +150,7 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
 /// The gravest verdict. A waived one does not hide one that is not waived.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
-    let open = gravest(open).filter(|verdict| verdict.is_trouble());
+    let open = gravest(open).filter(|verdict| verdict.fails_run());
     let known = verdicts.clone().filter(|(_, waived)| *waived).map(|(verdict, _)| verdict);
     match (open, gravest(known)) {
         (Some(open), _) => Some((open, false)),

@@ -3,9 +3,9 @@
 use std::net::SocketAddr;
 
 use super::tried::{Candidate, SelfTestGroup};
-use crate::clients::{ClientDefect, TestServer, defects, habits, trial};
+use crate::clients::{ClientDefect, TestServer, defects, trial, variants};
 use crate::judge::CaseOutcome;
-use crate::session::Trouble;
+use crate::session::ToolError;
 
 pub(super) fn candidates() -> Vec<Candidate> {
     let one = |defect: &'static ClientDefect, group| Candidate {
@@ -16,11 +16,11 @@ pub(super) fn candidates() -> Vec<Candidate> {
         run: Box::new(move || run(defect).map(Some)),
     };
     let wrong = defects().iter().map(|defect| one(defect, SelfTestGroup::Client));
-    wrong.chain(habits().iter().map(|habit| one(habit, SelfTestGroup::Different))).collect()
+    wrong.chain(variants().iter().map(|variant| one(variant, SelfTestGroup::Different))).collect()
 }
 
-fn run(defect: &ClientDefect) -> Result<Vec<CaseOutcome>, Trouble> {
+fn run(defect: &ClientDefect) -> Result<Vec<CaseOutcome>, ToolError> {
     let server = TestServer::new(SocketAddr::from(([127, 0, 0, 1], 0)))
-        .map_err(|error| Trouble::Internal(format!("the test server does not start: {error}")))?;
+        .map_err(|error| ToolError::Internal(format!("the test server does not start: {error}")))?;
     Ok(trial(defect, &server))
 }

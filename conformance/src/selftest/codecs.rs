@@ -7,9 +7,9 @@ use ads_cnc::layout::Stream;
 use super::tried::{Candidate, SelfTestGroup};
 use crate::faults::{self, Seed};
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, TESTEE};
-use crate::session::Trouble;
+use crate::session::ToolError;
 use crate::suite;
-use crate::testee::{Miniature, Own, Terms, TesteeProcess, judge};
+use crate::testee::{CodecTestee, Miniature, Terms, TesteeProcess, judge};
 
 /// Time limit of a miniature's answer. A silent one takes this long per case.
 const TIMEOUT: Duration = Duration::from_millis(1000);
@@ -40,7 +40,7 @@ fn of_seed(seed: &'static Seed) -> Candidate {
                 }
                 (_, field) => field.is_none(),
             };
-            let mut own = Own { defect: Some(seed.clone()) };
+            let mut own = CodecTestee { defect: Some(seed.clone()) };
             Ok(Some(judge(&mut own, cases().filter(touched).collect(), TERMS).outcomes))
         }),
     }
@@ -71,9 +71,9 @@ fn targets(miniature: Miniature) -> Vec<&'static str> {
     }
 }
 
-fn over_pipes(miniature: Miniature) -> Result<Vec<CaseOutcome>, Trouble> {
+fn over_pipes(miniature: Miniature) -> Result<Vec<CaseOutcome>, ToolError> {
     let program = std::env::current_exe()
-        .map_err(|error| Trouble::Internal(format!("this program is not found: {error}")))?;
+        .map_err(|error| ToolError::Internal(format!("this program is not found: {error}")))?;
     let command = format!("\"{}\" testee --miniature {}", program.display(), miniature.name());
     let mut process = TesteeProcess::new(command, TIMEOUT);
     Ok(judge(&mut process, some().collect(), TERMS).outcomes)

@@ -24,12 +24,12 @@ use detection::{CheckedTable, Scope};
 use parallel::parallel;
 pub use show::print;
 use tried::{Candidate, judge, whole};
-pub use tried::{Outcomes, SelfTestGroup, Tried};
+pub use tried::{SelfTestGroup, Trial, TrialResult};
 
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
     /// All trials, in the order of groups and IDs.
-    pub tried: Vec<Tried>,
+    pub tried: Vec<Trial>,
     /// Reasons that no survivor needs.
     pub stale: Vec<String>,
     /// The table of detection, and the rows that were measured again.
@@ -40,20 +40,22 @@ impl SelfTest {
     /// Number of trials of a group with the desired result, and of all; without those in which the
     /// defect changed nothing.
     pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
-        let differs = |one: &&Tried| one.group == group && one.result != Outcomes::Same;
+        let differs = |one: &&Trial| one.group == group && one.result != TrialResult::Same;
         let mine = || self.tried.iter().filter(differs);
-        let right = |one: &&Tried| {
-            matches!(one.result, Outcomes::Caught | Outcomes::Noticed | Outcomes::Quiet)
+        let right = |one: &&Trial| {
+            matches!(one.result, TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet)
         };
         (mine().filter(right).count(), mine().count())
     }
 
     /// The exit code: a survivor without a reason, a false alarm and a stale reason are failures.
     pub fn exit(&self) -> Exit {
-        let wrong = |one: &Tried| match one.result {
-            Outcomes::Caught | Outcomes::Noticed | Outcomes::Quiet | Outcomes::Same => false,
-            Outcomes::Survived | Outcomes::Elsewhere => one.reason.is_none(),
-            Outcomes::FalseAlarm | Outcomes::Broken => true,
+        let wrong = |one: &Trial| match one.result {
+            TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same => {
+                false
+            }
+            TrialResult::Survived | TrialResult::Elsewhere => one.reason.is_none(),
+            TrialResult::FalseAlarm | TrialResult::Broken => true,
         };
         let differs = !self.detection.differences.is_empty();
         if self.tried.is_empty() {
@@ -99,16 +101,16 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     SelfTest { tried, stale, detection }
 }
 
-fn attempt(candidate: &Candidate) -> Tried {
+fn attempt(candidate: &Candidate) -> Trial {
     let Candidate { id, group, what, targets, run } = candidate;
     let (failed, result) = match run() {
         Ok(Some(outcomes)) if *group == SelfTestGroup::Codec => by_level(targets, &outcomes),
         Ok(Some(outcomes)) => judge(targets, &outcomes),
-        Ok(None) => (Vec::new(), Outcomes::Same),
-        Err(trouble) => (vec![trouble.to_string()], Outcomes::Broken),
+        Ok(None) => (Vec::new(), TrialResult::Same),
+        Err(error) => (vec![error.to_string()], TrialResult::Broken),
     };
-    let survives = matches!(result, Outcomes::Survived | Outcomes::Elsewhere);
-    Tried {
+    let survives = matches!(result, TrialResult::Survived | TrialResult::Elsewhere);
+    Trial {
         id: id.clone(),
         group: *group,
         what: what.clone(),
@@ -120,7 +122,7 @@ fn attempt(candidate: &Candidate) -> Tried {
 }
 
 /// The result of a codec: warnings and differences count at the level of their requirements.
-fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
+fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();
     let noticed = outcomes.iter().flat_map(|outcome| &outcome.verdicts).any(|one| {
@@ -128,10 +130,10 @@ fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcome
             && broken.contains(&one.requirement)
     });
     match result {
-        Outcomes::Caught | Outcomes::Survived | Outcomes::Elsewhere
+        TrialResult::Caught | TrialResult::Survived | TrialResult::Elsewhere
             if noticed && !failed.iter().any(|one| broken.contains(&one.as_str())) =>
         {
-            (failed, Outcomes::Noticed)
+            (failed, TrialResult::Noticed)
         }
         result => (failed, result),
     }

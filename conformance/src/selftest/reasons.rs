@@ -1,6 +1,6 @@
 //! Why some defects may survive.
 
-use super::tried::{Outcomes, SelfTestGroup, Tried};
+use super::tried::{SelfTestGroup, Trial, TrialResult};
 
 /// Group, prefix of the ID, and why the defect is not detectable.
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[(
@@ -22,12 +22,12 @@ pub(super) fn names() -> impl Iterator<Item = (SelfTestGroup, &'static str)> {
 }
 
 /// Reasons that no survivor needs.
-pub(super) fn stale(tried: &[Tried]) -> Vec<String> {
+pub(super) fn stale(tried: &[Trial]) -> Vec<String> {
     let needed = |(group, start, _): &&(SelfTestGroup, &str, &str)| {
         tried.iter().any(|one| {
             one.group == *group
                 && one.id.starts_with(start)
-                && matches!(one.result, Outcomes::Survived | Outcomes::Elsewhere)
+                && matches!(one.result, TrialResult::Survived | TrialResult::Elsewhere)
         })
     };
     let stale = REASONS.iter().filter(|reason| !needed(reason));

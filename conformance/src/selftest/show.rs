@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::detection::{CheckedTable, Figures, Mode};
-use super::{Outcomes, SelfTest, SelfTestGroup, Tried};
+use super::{SelfTest, SelfTestGroup, Trial, TrialResult};
 use crate::judge::Exit;
 
 /// Maximum number of requirements on a line.
@@ -14,7 +14,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     for one in &test.tried {
         let fine = matches!(
             one.result,
-            Outcomes::Caught | Outcomes::Noticed | Outcomes::Quiet | Outcomes::Same
+            TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same
         );
         if verbose || !fine {
             entry(one, out)?;
@@ -41,8 +41,8 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             _ => {
                 let percent = percent(right, all);
                 let mine = || test.tried.iter().filter(|one| one.group == group);
-                let same = mine().filter(|one| one.result == Outcomes::Same).count();
-                let noticed = mine().filter(|one| one.result == Outcomes::Noticed).count();
+                let same = mine().filter(|one| one.result == TrialResult::Same).count();
+                let noticed = mine().filter(|one| one.result == TrialResult::Noticed).count();
                 let mut beside = match noticed {
                     0 => String::new(),
                     _ => format!(", {noticed} of them by a warning or a difference"),
@@ -114,16 +114,16 @@ fn percent(part: usize, all: usize) -> String {
     format!("{}.{}", tenths / 10, tenths % 10)
 }
 
-fn entry(one: &Tried, out: &mut dyn Write) -> io::Result<()> {
+fn entry(one: &Trial, out: &mut dyn Write) -> io::Result<()> {
     let result = match one.result {
-        Outcomes::Caught => "caught",
-        Outcomes::Noticed => "noticed",
-        Outcomes::Elsewhere => "ELSEWHERE",
-        Outcomes::Survived => "SURVIVED",
-        Outcomes::Quiet => "quiet",
-        Outcomes::Same => "same",
-        Outcomes::FalseAlarm => "FALSE ALARM",
-        Outcomes::Broken => "BROKEN",
+        TrialResult::Caught => "caught",
+        TrialResult::Noticed => "noticed",
+        TrialResult::Elsewhere => "ELSEWHERE",
+        TrialResult::Survived => "SURVIVED",
+        TrialResult::Quiet => "quiet",
+        TrialResult::Same => "same",
+        TrialResult::FalseAlarm => "FALSE ALARM",
+        TrialResult::Broken => "BROKEN",
     };
     let targets: Vec<&str> = one.targets.iter().take(TARGETS_SHOWN).map(String::as_str).collect();
     let more = if one.targets.len() > TARGETS_SHOWN { " …" } else { "" };

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::tried::{Candidate, Outcomes, SelfTestGroup, judge};
+use super::tried::{Candidate, SelfTestGroup, TrialResult, judge};
 use crate::edition::Edition;
 use crate::faults::{self, Faulty, Seed, SeedKind};
 use crate::judge::{Case, CaseOutcome, Needs};
 use crate::profile::Profile;
-use crate::session::{self, Trouble};
+use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, TargetState};
 
@@ -32,18 +32,18 @@ fn of_seed(seed: &'static Seed) -> Candidate {
 
 /// Time limit of a CNC with a defect: a silent one takes this long per request. A valid variant has
 /// the usual limit.
-const IMPATIENCE: Duration = Duration::from_millis(400);
+const DEFECT_TIMEOUT: Duration = Duration::from_millis(400);
 
 /// Runs the cases of a target against a simulated CNC with the seed: with the default model, and
 /// with a version that has all features.
 ///
 /// First only the cases with a requirement that the defect breaks: if one fails, the defect is
 /// caught.
-fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, Trouble> {
+fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, ToolError> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
     let is_caught =
-        |outcomes: &[CaseOutcome]| judge(&seed.requirements, outcomes).1 == Outcomes::Caught;
+        |outcomes: &[CaseOutcome]| judge(&seed.requirements, outcomes).1 == TrialResult::Caught;
     let targeted = |case: &Case| seed.requirements.iter().any(|id| case.requirements.contains(id));
     if !seed.requirements.is_empty() {
         let (outcomes, _) = run(seed, by_default, targeted)?;
@@ -65,8 +65,8 @@ fn run(
     seed: &Seed,
     settings: Settings,
     wanted: impl Fn(&Case) -> bool,
-) -> Result<(Vec<CaseOutcome>, bool), Trouble> {
-    let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+) -> Result<(Vec<CaseOutcome>, bool), ToolError> {
+    let internal = |error| ToolError::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
     let faulty = Arc::new(Faulty::new(Cnc::new(model.map_err(internal)?), Some(seed)));
     let cnc = Arc::clone(faulty.cnc());
@@ -77,7 +77,7 @@ fn run(
     let (client, _running) = session.into_parts();
     let client = match seed.kind {
         SeedKind::Different => client,
-        SeedKind::Codec | SeedKind::Cnc => client.with_timeout(IMPATIENCE),
+        SeedKind::Codec | SeedKind::Cnc => client.with_timeout(DEFECT_TIMEOUT),
     };
     let mut session = TargetState::new(client, profile).with_cnc(cnc);
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);

@@ -1,6 +1,6 @@
 //! Which results count as caught, and how they are printed.
 
-use super::detection::{DetectionTable, Found, Mode};
+use super::detection::{DetectionResult, DetectionTable, Mode};
 use super::*;
 use crate::judge::RequirementVerdict;
 use crate::suite;
@@ -16,7 +16,7 @@ fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<CaseOutcome> {
     vec![CaseOutcome { case, verdicts: verdicts.collect(), checks: 1, note: None, refused: false }]
 }
 
-fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> Outcomes {
+fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> TrialResult {
     judge(targets, &outcomes(verdicts)).1
 }
 
@@ -24,33 +24,33 @@ fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> Outcomes {
 fn caught_is_what_fails_by_its_own_requirement() {
     use Verdict::{Differs, Fail, NotObserved, Pass, Vacuous, Warning};
 
-    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Fail), ("VAR-8", Pass)]), Outcomes::Caught);
-    assert_eq!(judged(&["VAR-4", "VAR-8"], &[("VAR-8", Fail)]), Outcomes::Caught);
-    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Vacuous)]), Outcomes::Caught);
-    assert_eq!(judged(&["VAR-4"], &[("VAR-8", Fail)]), Outcomes::Elsewhere);
-    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Pass)]), Outcomes::Survived);
-    assert_eq!(judged(&["VAR-4"], &[("VAR-4", NotObserved)]), Outcomes::Survived);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Fail), ("VAR-8", Pass)]), TrialResult::Caught);
+    assert_eq!(judged(&["VAR-4", "VAR-8"], &[("VAR-8", Fail)]), TrialResult::Caught);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Vacuous)]), TrialResult::Caught);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-8", Fail)]), TrialResult::Elsewhere);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Pass)]), TrialResult::Survived);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", NotObserved)]), TrialResult::Survived);
     // A warning about a must is not caught; about a should it is.
-    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Warning)]), Outcomes::Survived);
-    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Differs)]), Outcomes::Survived);
-    assert_eq!(judged(&["ADS-8"], &[("ADS-8", Warning)]), Outcomes::Caught);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Warning)]), TrialResult::Survived);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Differs)]), TrialResult::Survived);
+    assert_eq!(judged(&["ADS-8"], &[("ADS-8", Warning)]), TrialResult::Caught);
 }
 
 #[test]
 fn who_is_right_may_differ_and_not_fail() {
     use Verdict::{Differs, Fail, HarnessError, Pass, Warning};
 
-    assert_eq!(judged(&[], &[("VAR-4", Pass), ("VAR-8", Differs)]), Outcomes::Quiet);
-    assert_eq!(judged(&[], &[("VAR-4", Warning)]), Outcomes::Quiet);
-    assert_eq!(judged(&[], &[("VAR-4", Fail)]), Outcomes::FalseAlarm);
+    assert_eq!(judged(&[], &[("VAR-4", Pass), ("VAR-8", Differs)]), TrialResult::Quiet);
+    assert_eq!(judged(&[], &[("VAR-4", Warning)]), TrialResult::Quiet);
+    assert_eq!(judged(&[], &[("VAR-4", Fail)]), TrialResult::FalseAlarm);
     // A harness error takes precedence.
-    assert_eq!(judged(&[], &[("VAR-4", HarnessError)]), Outcomes::Broken);
+    assert_eq!(judged(&[], &[("VAR-4", HarnessError)]), TrialResult::Broken);
     let both = [("VAR-4", Fail), ("VAR-8", HarnessError)];
-    assert_eq!(judged(&["VAR-4"], &both), Outcomes::Broken);
+    assert_eq!(judged(&["VAR-4"], &both), TrialResult::Broken);
 }
 
-fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
-    Tried {
+fn tried(result: TrialResult, reason: Option<&str>) -> Trial {
+    Trial {
         id: "an-id".to_owned(),
         group: SelfTestGroup::Cnc,
         what: "something".to_owned(),
@@ -61,7 +61,7 @@ fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
     }
 }
 
-fn test(tried: Vec<Tried>) -> SelfTest {
+fn test(tried: Vec<Trial>) -> SelfTest {
     let table = DetectionTable::published().unwrap();
     let detection = CheckedTable { table, measured: 0, differences: Vec::new() };
     SelfTest { tried, stale: Vec::new(), detection }
@@ -69,7 +69,7 @@ fn test(tried: Vec<Tried>) -> SelfTest {
 
 #[test]
 fn only_a_reason_lets_a_defect_survive() {
-    use Outcomes::{Broken, Caught, Elsewhere, FalseAlarm, Noticed, Quiet, Same, Survived};
+    use TrialResult::{Broken, Caught, Elsewhere, FalseAlarm, Noticed, Quiet, Same, Survived};
 
     assert_eq!(test(Vec::new()).exit(), Exit::Nothing);
     for fine in [Caught, Noticed, Quiet, Same] {
@@ -93,7 +93,7 @@ fn only_a_reason_lets_a_defect_survive() {
 
 #[test]
 fn what_changes_nothing_counts_neither_way() {
-    let all = [Outcomes::Caught, Outcomes::Same, Outcomes::Survived, Outcomes::Same];
+    let all = [TrialResult::Caught, TrialResult::Same, TrialResult::Survived, TrialResult::Same];
     let test = test(all.map(|result| tried(result, None)).into());
     assert_eq!(test.rate(SelfTestGroup::Cnc), (1, 2));
     let mut shown = Vec::new();
@@ -134,7 +134,7 @@ fn the_table_is_whole() {
     assert_eq!(table.rows.iter().map(|row| row.id.as_str()).collect::<Vec<_>>(), ids);
     for mode in Mode::ALL {
         let all = table.rows.iter().map(|row| (&row.id, &row.modes[&mode].result));
-        let alarms: Vec<_> = all.filter(|(_, result)| **result == Found::Alarm).collect();
+        let alarms: Vec<_> = all.filter(|(_, result)| **result == DetectionResult::Alarm).collect();
         assert!(alarms.is_empty(), "{}: {alarms:?}", mode.name());
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::judge::{CaseOutcome, Verdict};
-use crate::session::Trouble;
+use crate::session::ToolError;
 use crate::text::named;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -27,7 +27,7 @@ named! { SelfTestGroup:
 
 /// A trial and its result.
 #[derive(Clone, Debug, Serialize)]
-pub struct Tried {
+pub struct Trial {
     /// The ID of the defect, miniature or variant.
     pub id: String,
     /// Its group.
@@ -36,7 +36,7 @@ pub struct Tried {
     /// The requirements it breaks; empty for a valid variant.
     pub targets: Vec<String>,
     pub failed: Vec<String>,
-    pub result: Outcomes,
+    pub result: TrialResult,
     /// The reason why it may survive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -45,7 +45,7 @@ pub struct Tried {
 /// The result of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Outcomes {
+pub enum TrialResult {
     /// A requirement that it breaks has failed.
     Caught,
     /// Codec only: a vector of a requirement that it breaks has a warning or a difference, because
@@ -72,7 +72,7 @@ pub(super) struct Candidate {
     pub(super) what: String,
     pub(super) targets: Vec<&'static str>,
     /// Runs the cases; `None` if the defect changed nothing.
-    pub(super) run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, Trouble> + Send + Sync>,
+    pub(super) run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, ToolError> + Send + Sync>,
 }
 
 /// The requirement that this is, or is a part of.
@@ -81,7 +81,7 @@ pub(super) fn whole(id: &str) -> &str {
 }
 
 /// Which requirements have failed, and the result.
-pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, Outcomes) {
+pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
         let mut found: Vec<&'static str> = judged
@@ -105,12 +105,12 @@ pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>,
     };
     let broken = with(&[Verdict::HarnessError]);
     let result = match (targets.is_empty(), targets.iter().any(hit)) {
-        _ if !broken.is_empty() => Outcomes::Broken,
-        (true, _) if failed.is_empty() => Outcomes::Quiet,
-        (true, _) => Outcomes::FalseAlarm,
-        (false, true) => Outcomes::Caught,
-        (false, false) if failed.is_empty() => Outcomes::Survived,
-        (false, false) => Outcomes::Elsewhere,
+        _ if !broken.is_empty() => TrialResult::Broken,
+        (true, _) if failed.is_empty() => TrialResult::Quiet,
+        (true, _) => TrialResult::FalseAlarm,
+        (false, true) => TrialResult::Caught,
+        (false, false) if failed.is_empty() => TrialResult::Survived,
+        (false, false) => TrialResult::Elsewhere,
     };
     let shown = if broken.is_empty() { failed } else { broken };
     (shown.into_iter().map(str::to_owned).collect(), result)

@@ -1,6 +1,6 @@
 //! The typed connection of a tool to a CNC, through the gate.
 
-mod trouble;
+mod error;
 
 use std::fmt;
 use std::io::{self, Write as _};
@@ -24,7 +24,7 @@ use crate::profile::{Claim, Profile};
 use crate::report::lines;
 use crate::simulator::{NET_ID, Responder, Server};
 
-pub use trouble::Trouble;
+pub use error::ToolError;
 
 /// A connection to a CNC: a device, or the simulated CNC in this process.
 ///
@@ -33,7 +33,7 @@ pub use trouble::Trouble;
 /// use ads_cnc::operation::{ReadByName, WriteByName};
 /// use ads_cnc_conformance::simulator::Cnc;
 /// use ads_cnc_conformance::gate::Gate;
-/// use ads_cnc_conformance::session::{Session, Trouble};
+/// use ads_cnc_conformance::session::{Session, ToolError};
 ///
 /// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
 /// let channel = Channel::new(1)?;
@@ -41,7 +41,7 @@ pub use trouble::Trouble;
 /// assert_eq!(value.bytes[..4], [123, 0, 0, 0]);
 ///
 /// let write = WriteByName::new(channel, "V.E.Testvar[0]", 1_i32)?;
-/// assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
+/// assert!(matches!(session.call(&write), Err(ToolError::Refused(_))));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -59,30 +59,30 @@ impl Session {
     ///
     /// # Errors
     /// Why the connection failed, with advice.
-    pub fn connect(target: Target, gate: Gate) -> Result<Self, Trouble> {
+    pub fn connect(target: Target, gate: Gate) -> Result<Self, ToolError> {
         match Client::connect(target, gate) {
             Ok(client) => Ok(Self::over(client, None)),
-            Err(error) => Err(Trouble::unreachable(&target, &error)),
+            Err(error) => Err(ToolError::unreachable(&target, &error)),
         }
     }
 
     /// Prints requests to stdout and sends none. Writes seem to succeed; calls that need a reply
-    /// fail with [`Trouble::NotSent`].
+    /// fail with [`ToolError::NotSent`].
     ///
     /// # Errors
     /// If the gate allows malformed requests to another machine.
-    pub fn dry(target: Target, gate: Gate) -> Result<Self, Trouble> {
+    pub fn dry(target: Target, gate: Gate) -> Result<Self, ToolError> {
         let client = Client::dry(target, gate);
-        Ok(Self::over(client.map_err(|error| Trouble::Usage(error.to_string()))?, None))
+        Ok(Self::over(client.map_err(|error| ToolError::Usage(error.to_string()))?, None))
     }
 
     /// Starts a CNC in this process, on loopback, and connects to it.
     ///
     /// # Errors
     /// If the system has no socket or no thread left.
-    pub fn simulated(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, Trouble> {
+    pub fn simulated(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, ToolError> {
         let failed = |error: io::Error| {
-            Trouble::Internal(format!("the simulated CNC could not be started: {error}"))
+            ToolError::Internal(format!("the simulated CNC could not be started: {error}"))
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
@@ -97,10 +97,10 @@ impl Session {
     ///
     /// # Errors
     /// If the gate allows malformed requests to another machine.
-    pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, Trouble> {
+    pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, ToolError> {
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, cnc);
-        let client = client.map_err(|error| Trouble::unreachable(&target, &error))?;
+        let client = client.map_err(|error| ToolError::unreachable(&target, &error))?;
         Ok(Self::over(client, None))
     }
 
@@ -109,7 +109,7 @@ impl Session {
     ///
     /// # Errors
     /// Those of [`simulated`](Self::simulated).
-    pub fn simulated_to_try(cnc: impl Responder + 'static) -> Result<Self, Trouble> {
+    pub fn simulated_to_try(cnc: impl Responder + 'static) -> Result<Self, ToolError> {
         let session = Self::simulated(cnc, Gate::queries())?;
         match session.simulated.as_ref().map(Gate::of_server) {
             Some(gate) => session.with_gate(gate),
@@ -121,7 +121,7 @@ impl Session {
     ///
     /// # Errors
     /// Those of [`dry`](Self::dry).
-    pub fn dry_simulated(gate: Gate) -> Result<Self, Trouble> {
+    pub fn dry_simulated(gate: Gate) -> Result<Self, ToolError> {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
     }
 
@@ -129,17 +129,17 @@ impl Session {
     /// widened only by the file of `--allow-write`.
     ///
     /// # Errors
-    /// [`Trouble::Usage`] for a device.
-    pub fn with_gate(self, gate: Gate) -> Result<Self, Trouble> {
+    /// [`ToolError::Usage`] for a device.
+    pub fn with_gate(self, gate: Gate) -> Result<Self, ToolError> {
         let Self { client, simulated: Some(server), .. } = self else {
-            return Err(Trouble::Usage("only a simulated CNC can have another gate".to_owned()));
+            return Err(ToolError::Usage("only a simulated CNC can have another gate".to_owned()));
         };
         let target = *client.target();
         let mut before = client;
         let capture = before.take_capture();
         drop(before);
         let client = Client::connect(target, gate);
-        let client = client.map_err(|error| Trouble::unreachable(&target, &error))?;
+        let client = client.map_err(|error| ToolError::unreachable(&target, &error))?;
         let session = Self::over(client, Some(server));
         Ok(match capture {
             Some(capture) => session.with_capture(capture),
@@ -157,7 +157,7 @@ impl Session {
         Self { client: self.client.with_capture(capture), ..self }
     }
 
-    /// Sets a deadline after which calls fail with [`Trouble::Enough`].
+    /// Sets a deadline after which calls fail with [`ToolError::Enough`].
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
@@ -167,11 +167,11 @@ impl Session {
     ///
     /// # Errors
     /// Why there is no valid reply, or why the request was not sent.
-    pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, Trouble> {
+    pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, ToolError> {
         let mut data = vec![0; operation.encoded_len()];
-        let call = operation.call(&mut data).map_err(Trouble::Unsendable)?;
+        let call = operation.call(&mut data).map_err(ToolError::Unsendable)?;
         self.reply = self.exchange(O::FUNCTION, &call)?;
-        operation.decode_reply(&self.reply).map_err(Trouble::Reply)
+        operation.decode_reply(&self.reply).map_err(ToolError::Reply)
     }
 
     /// Sends a request to a task, and returns the data of the reply as received: SDA and GEO share the
@@ -183,15 +183,15 @@ impl Session {
         &mut self,
         task: Task,
         request: impl Into<Request<'r>>,
-    ) -> Result<Vec<u8>, Trouble> {
+    ) -> Result<Vec<u8>, ToolError> {
         let request = request.into();
         let mut data = vec![0; request.encoded_len()];
         self.exchange(request.function(), &encode(task, &request, &mut data)?)
     }
 
-    fn exchange(&mut self, function: Function, call: &Call<'_>) -> Result<Vec<u8>, Trouble> {
+    fn exchange(&mut self, function: Function, call: &Call<'_>) -> Result<Vec<u8>, ToolError> {
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
-            return Err(Trouble::Enough(deadline.to_string()));
+            return Err(ToolError::Enough(deadline.to_string()));
         }
         let exchange = self.client.call(call);
         if self.client.is_dry() {
@@ -201,16 +201,16 @@ impl Session {
             Ok((answer, _)) => {
                 self.answered = true;
                 if !answer.ams_error.is_ok() {
-                    return Err(Trouble::ams(self.client.target(), call.port, answer.ams_error));
+                    return Err(ToolError::ams(self.client.target(), call.port, answer.ams_error));
                 }
                 if !answer.result.is_ok() {
-                    return Err(Trouble::Ads { function, error: answer.result });
+                    return Err(ToolError::Ads { function, error: answer.result });
                 }
                 Ok(answer.data.unwrap_or_default())
             }
             // A dry run can continue after a write, whose reply has no data.
             Err(ExchangeError::NotSent) if function.spec().reply.is_none() => Ok(Vec::new()),
-            Err(fault) => Err(Trouble::fault(&self.client, fault, self.answered)),
+            Err(fault) => Err(ToolError::fault(&self.client, fault, self.answered)),
         }
     }
 
@@ -218,18 +218,18 @@ impl Session {
     ///
     /// # Errors
     /// If there is no reply. An ADS error is a reply.
-    pub(crate) fn greet(&mut self, profile: &Profile) -> Result<(), Trouble> {
+    pub(crate) fn check_reachable(&mut self, profile: &Profile) -> Result<(), ToolError> {
         let greeted = match profile.claims(Function::CountObjects) {
             Claim::No => {
                 let first = profile.channels.first().copied().unwrap_or(1);
                 let channel =
-                    Channel::new(first).map_err(|error| Trouble::Internal(error.to_string()))?;
+                    Channel::new(first).map_err(|error| ToolError::Internal(error.to_string()))?;
                 self.call(&CountVariables::new(channel, Kind::V_E)).map(drop)
             }
             _ => self.call(&CountObjects::new(ObjectList::PLATFORM)).map(drop),
         };
         match greeted {
-            Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(()),
+            Err(ToolError::Ads { .. } | ToolError::Reply(_)) => Ok(()),
             greeted => greeted,
         }
     }
@@ -249,7 +249,7 @@ impl Session {
     ///
     /// # Errors
     /// If there is no valid reply: the command is optional.
-    pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, Trouble> {
+    pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, ToolError> {
         self.inquire(task)
     }
 
@@ -269,11 +269,11 @@ impl Session {
     ///
     /// # Errors
     /// If there is no valid reply: the command is optional.
-    pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, Trouble> {
+    pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, ToolError> {
         self.inquire(task)
     }
 
-    fn inquire<R: Inquiry>(&mut self, task: Task) -> Result<R, Trouble> {
+    fn inquire<R: Inquiry>(&mut self, task: Task) -> Result<R, ToolError> {
         let inquired = self.client.inquire::<R>(task.port());
         if self.client.is_dry() {
             // A closed stdout is not an error.
@@ -285,14 +285,14 @@ impl Session {
                 match reply {
                     InquiryReply::Reply(reply) => Ok(reply),
                     InquiryReply::Refused(error) => {
-                        Err(Trouble::Device { command: R::NAME, error })
+                        Err(ToolError::Device { command: R::NAME, error })
                     }
                     InquiryReply::Ams(error) => {
-                        Err(Trouble::ams(self.client.target(), inquired.port, error))
+                        Err(ToolError::ams(self.client.target(), inquired.port, error))
                     }
                 }
             }
-            Err(fault) => Err(Trouble::fault(&self.client, fault, self.answered)),
+            Err(fault) => Err(ToolError::fault(&self.client, fault, self.answered)),
         }
     }
 
@@ -300,12 +300,12 @@ impl Session {
     /// complete. Nothing is sent.
     ///
     /// # Errors
-    /// [`Trouble::Refused`], [`Trouble::Unsendable`].
-    pub fn check<'r>(&self, task: Task, request: impl Into<Request<'r>>) -> Result<(), Trouble> {
+    /// [`ToolError::Refused`], [`ToolError::Unsendable`].
+    pub fn check<'r>(&self, task: Task, request: impl Into<Request<'r>>) -> Result<(), ToolError> {
         let request = request.into();
         let mut data = vec![0; request.encoded_len()];
         let checked = self.client.check(&encode(task, &request, &mut data)?);
-        checked.map_err(|fault| Trouble::fault(&self.client, fault, self.answered))
+        checked.map_err(|fault| ToolError::fault(&self.client, fault, self.answered))
     }
 
     /// Whether the CNC is simulated in this process.
@@ -328,8 +328,12 @@ impl Session {
     }
 }
 
-fn encode<'d>(task: Task, request: &Request<'_>, data: &'d mut [u8]) -> Result<Call<'d>, Trouble> {
-    let call = request.encode(data).map_err(Trouble::Unsendable)?;
+fn encode<'d>(
+    task: Task,
+    request: &Request<'_>,
+    data: &'d mut [u8],
+) -> Result<Call<'d>, ToolError> {
+    let call = request.encode(data).map_err(ToolError::Unsendable)?;
     Ok(Call { port: task.port(), ..call })
 }
 

@@ -11,7 +11,7 @@ use super::owner::Owner;
 
 /// The owner of a content: channels by their numbers, axes and places from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Holder {
+pub(crate) enum ContentOwner {
     /// COM: the platform.
     Platform,
     /// COM: a channel.
@@ -33,7 +33,7 @@ pub(crate) enum Holder {
 /// The current content of an object or an element.
 #[derive(Clone, Debug)]
 pub(crate) struct StoredContent {
-    pub(crate) holder: Holder,
+    pub(crate) holder: ContentOwner,
     /// Its element number.
     pub(crate) element: u32,
     pub(crate) name: CncString,
@@ -47,7 +47,7 @@ pub(crate) struct StoredContent {
 
 /// A variable of a channel by its name there, with its current value.
 #[derive(Clone, Debug)]
-pub(crate) struct HeldVariable {
+pub(crate) struct CurrentVariable {
     pub(crate) channel: u8,
     pub(crate) name: CncString,
     pub(crate) var_type: VariableType,
@@ -56,7 +56,7 @@ pub(crate) struct HeldVariable {
 
 /// A dynamic parameter that exists at the moment.
 #[derive(Clone, Debug)]
-pub(crate) struct HeldParameter {
+pub(crate) struct CurrentParameter {
     pub(crate) channel: u8,
     pub(crate) kind: DynamicKind,
     pub(crate) name: CncString,
@@ -93,7 +93,7 @@ impl Cnc {
     }
 
     /// Sets the value, which must have the size of the old one.
-    pub(crate) fn hold(&self, held: &StoredContent, value: &[u8]) {
+    pub(crate) fn set_content(&self, held: &StoredContent, value: &[u8]) {
         let mut state = self.state();
         let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
         if let Some(content) = content.filter(|content| content.len() == value.len()) {
@@ -102,7 +102,7 @@ impl Cnc {
     }
 
     /// All variables in lists, except those of the Service Interface.
-    pub(crate) fn held_variables(&self) -> Vec<HeldVariable> {
+    pub(crate) fn current_variables(&self) -> Vec<CurrentVariable> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
         for (at, one) in model.channels.iter().enumerate() {
@@ -110,7 +110,7 @@ impl Cnc {
             let values = state.variables(at).into_iter().flatten();
             for (variable, value) in one.variables.list.iter().zip(values) {
                 if variable.service.is_none() && variable.handle.is_some() {
-                    all.push(HeldVariable {
+                    all.push(CurrentVariable {
                         channel,
                         name: variable.name.clone(),
                         var_type: variable.var_type,
@@ -126,7 +126,7 @@ impl Cnc {
                     let name = path
                         .zip(axis)
                         .and_then(|(path, axis)| path.with_axis(axis.name.as_cnc_str()).ok());
-                    all.extend(name.map(|name| HeldVariable {
+                    all.extend(name.map(|name| CurrentVariable {
                         channel,
                         name,
                         var_type: variable.var_type,
@@ -147,12 +147,12 @@ impl Cnc {
     }
 
     /// All dynamic parameters that exist at the moment.
-    pub(crate) fn held_parameters(&self) -> Vec<HeldParameter> {
+    pub(crate) fn current_parameters(&self) -> Vec<CurrentParameter> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
         for (at, one) in model.channels.iter().enumerate() {
             for kind in DynamicKind::ALL {
-                all.extend(state.parameters(at, kind).map(|parameter| HeldParameter {
+                all.extend(state.parameters(at, kind).map(|parameter| CurrentParameter {
                     channel: one.number,
                     kind,
                     name: parameter.is.name.clone(),
@@ -163,33 +163,37 @@ impl Cnc {
         all
     }
 
-    fn owners(&self) -> Vec<(Owner, Holder)> {
+    fn owners(&self) -> Vec<(Owner, ContentOwner)> {
         let model = self.model();
-        let mut all = vec![(Owner::Platform, Holder::Platform)];
+        let mut all = vec![(Owner::Platform, ContentOwner::Platform)];
         let axes = || (0_usize..).zip(1_u8..).take(model.axes.len());
-        all.extend(axes().map(|(at, axis)| (Owner::Axis(at), Holder::PlatformAxis(axis))));
+        all.extend(axes().map(|(at, axis)| (Owner::Axis(at), ContentOwner::PlatformAxis(axis))));
         for class in [Class::PositionController, Class::Hld] {
-            let of = axes()
-                .map(|(at, axis)| (Owner::ClassAxis(class, at), Holder::OfAxis { class, axis }));
+            let of = axes().map(|(at, axis)| {
+                (Owner::ClassAxis(class, at), ContentOwner::OfAxis { class, axis })
+            });
             all.extend(of);
         }
         for (at, one) in model.channels.iter().enumerate() {
             let channel = one.number;
-            all.push((Owner::Channel(at), Holder::Channel(channel)));
+            all.push((Owner::Channel(at), ContentOwner::Channel(channel)));
             for class in [Class::Hld, Class::Interpolator, Class::Decoder, Class::PathPreparation] {
-                all.push((Owner::ClassChannel(class, at), Holder::OfChannel { class, channel }));
+                all.push((
+                    Owner::ClassChannel(class, at),
+                    ContentOwner::OfChannel { class, channel },
+                ));
             }
             for (index, place) in (0_usize..).zip(1_u8..).take(one.places.len()) {
                 let owner = Owner::Place { channel: at, place: index };
-                all.push((owner, Holder::ChannelAxis { channel, place }));
+                all.push((owner, ContentOwner::ChannelAxis { channel, place }));
                 for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation] {
                     let owner = Owner::ClassPlace { class, channel: at, place: index };
-                    all.push((owner, Holder::OfPlace { class, channel, place }));
+                    all.push((owner, ContentOwner::OfPlace { class, channel, place }));
                 }
             }
         }
         let spindles = (0_usize..).zip(0_u8..).take(model.spindles);
-        all.extend(spindles.map(|(at, index)| (Owner::Spindle(at), Holder::Spindle(index))));
+        all.extend(spindles.map(|(at, index)| (Owner::Spindle(at), ContentOwner::Spindle(index))));
         all
     }
 }
@@ -218,38 +222,36 @@ mod tests {
     fn what_is_put_there_is_held() {
         let cnc = Cnc::with_default_model().unwrap();
         let all = cnc.stored_contents();
-        let of = |holder: Holder, name: &str| {
+        let of = |holder: ContentOwner, name: &str| {
             all.iter().find(|one| one.holder == holder && one.name.as_cnc_str() == name).unwrap()
         };
-        let cycle = of(Holder::Platform, "example_platform_cycle_time_r");
+        let cycle = of(ContentOwner::Platform, "example_platform_cycle_time_r");
         assert_eq!((cycle.element, &cycle.value[..]), (0x251, &[0xE8, 3, 0, 0][..]));
-        let second = of(Holder::ChannelAxis { channel: 1, place: 2 }, "example_position_r");
+        let second = of(ContentOwner::ChannelAxis { channel: 1, place: 2 }, "example_position_r");
         assert_eq!((second.element, &second.value[..]), (1, &(-200.5_f64).to_le_bytes()[..]));
-        let speed = of(Holder::Spindle(1), "example.speed");
+        let speed = of(ContentOwner::Spindle(1), "example.speed");
         assert_eq!((speed.element, speed.writable), (1, true));
         // The value belongs to the axis, so a place without an axis has none.
-        assert!(
-            !all.iter().any(|one| {
-                matches!(one.holder, Holder::ChannelAxis { channel: 2, place: 2.. })
-            })
-        );
+        assert!(!all.iter().any(|one| {
+            matches!(one.holder, ContentOwner::ChannelAxis { channel: 2, place: 2.. })
+        }));
 
-        cnc.hold(speed, &[7; 8]);
-        cnc.hold(cycle, &[1; 3]);
-        let changed: Vec<(Holder, Vec<u8>)> = cnc
+        cnc.set_content(speed, &[7; 8]);
+        cnc.set_content(cycle, &[1; 3]);
+        let changed: Vec<(ContentOwner, Vec<u8>)> = cnc
             .stored_contents()
             .into_iter()
             .zip(&all)
             .filter(|(new, old)| new.value != old.value)
             .map(|(new, _)| (new.holder, new.value))
             .collect();
-        assert_eq!(changed, [(Holder::Spindle(1), vec![7; 8])]);
+        assert_eq!(changed, [(ContentOwner::Spindle(1), vec![7; 8])]);
     }
 
     #[test]
     fn variables_and_parameters_are_held() {
         let cnc = Cnc::with_default_model().unwrap();
-        let variables = cnc.held_variables();
+        let variables = cnc.current_variables();
         let of = |channel: u8, name: &str| {
             let mut mine = variables.iter().filter(|one| one.channel == channel);
             mine.find(|one| one.name.as_cnc_str() == name).map(|one| one.value.clone())
@@ -258,7 +260,7 @@ mod tests {
         assert_eq!(of(1, "V.A.WCS.Y"), Some(1234.2_f64.to_le_bytes().to_vec()));
         assert_eq!(of(1, "V.G.SERVICE.REQUEST"), None);
         assert_eq!(of(1, "V.CYC.count"), None);
-        let parameters = cnc.held_parameters();
+        let parameters = cnc.current_parameters();
         let first = &parameters[0];
         assert_eq!((first.channel, first.kind, first.value), (1, DynamicKind::P, 4711.0));
     }

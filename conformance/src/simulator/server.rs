@@ -23,7 +23,7 @@ pub const CONNECTIONS_MAX: usize = 64;
 
 /// Maximum number of bytes that a connection buffers of received requests and unsent replies,
 /// besides the reply being built, which is at most one frame. Memory is allocated as needed.
-pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
+pub const CONNECTION_BYTES_MAX: usize = connection::BUFFERED_MAX;
 
 /// Stack size of a connection's thread in bytes.
 const STACK: usize = 1024 * 1024;

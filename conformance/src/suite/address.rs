@@ -6,52 +6,53 @@ use ads_cnc::operation::{
     CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
 };
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{Probe, RawCall};
 use super::row::{CaseRow, case};
 use crate::exchange::Exchange;
-use crate::judge::{Checks as _, Needs, OrStop as _, Record, Step, Stop, assumed, online};
+use crate::judge::{Checks as _, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online};
 use crate::objects::KINDS;
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("adr-com-object-access", &["ADR-1", "ADR-3", "ADR-4", "GEN-4"], Needs::Queries, com_object_access,
+    case("adr-com-object-access", &[ADR_1, ADR_3, ADR_4, GEN_4], Needs::Queries, com_object_access,
         "Each channel's object list is at 0x130100 + channel, on the port of COM"),
-    case("adr-decoder-group", &["ADR-1", "ADR-5", "GEN-4", "GEN-6"], Needs::Queries, decoder_group,
+    case("adr-decoder-group", &[ADR_1, ADR_5, GEN_4, GEN_6], Needs::Queries, decoder_group,
         "Each channel's variables are at 0x122300 + channel, on the port of SDA"),
-    case("adr-logical-and-by-index", &["ADR-1", "ADR-12"], Needs::Queries, logical_and_by_index,
+    case("adr-logical-and-by-index", &[ADR_1, ADR_12], Needs::Queries, logical_and_by_index,
         "A channel answers the same by its number and by its rank"),
-    case("adr-rank-among-active", &["ADR-11"], Needs::Queries, rank_among_active,
+    case("adr-rank-among-active", &[ADR_11], Needs::Queries, rank_among_active,
         "By index, channels are counted without gaps"),
-    case("adr-rank-after-deactivation", &["ADR-11"], Needs::Simulator, rank_after_deactivation,
+    case("adr-rank-after-deactivation", &[ADR_11], Needs::Simulator, rank_after_deactivation,
         "When a channel is deactivated, those behind it move up by index, and not logically"),
-    case("adr-geo-answers-too", &["ADR-10"], Needs::Malformed, geo_answers_too,
+    case("adr-geo-answers-too", &[ADR_10], Needs::Malformed, geo_answers_too,
         "GEO and SDA both answer for a class of the CNC"),
-    case("adr-absent-channel", &["ADS-4"], Needs::Queries, absent_channel,
+    case("adr-absent-channel", &[ADS_4], Needs::Queries, absent_channel,
         "A channel that is not configured is answered by an error"),
 ];
 
 #[rustfmt::skip]
 pub(super) const FRAME_CASES: &[CaseRow] = &[
-    case("ads-every-frame", &["ADS-1", "ADS-2", "ADS-3", "ADS-4", "ADS-5"], Needs::Frames, every_frame,
+    case("ads-every-frame", &[ADS_1, ADS_2, ADS_3, ADS_4, ADS_5], Needs::Frames, every_frame,
         "Every frame of this run has the header and the length its request asks for"),
-    case("ads-every-refusal", &["ADS-6", "ADS-7"], Needs::Frames, every_refusal,
+    case("ads-every-refusal", &[ADS_6, ADS_7], Needs::Frames, every_refusal,
         "What was refused in this run was refused by an error number"),
 ];
 
 fn com_object_access(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         // By its number, with the bit of logical addressing.
-        let rules = ["ADR-1", "ADR-3", "ADR-4", "GEN-4"];
+        let rules = [ADR_1, ADR_3, ADR_4, GEN_4];
         let count = probe.ask(rules, CountObjects::new(channel))?;
         let none = ObjectCount::decode(&count) == Ok(ObjectCount(0));
         let first = ReadDescriptors::new(channel, 1, 1)?;
         let Some(first) = probe.try_ask(first)?.filter(|_| !none) else { continue };
         // The descriptor, not the content of the element with the same number.
         let described = DescriptorsRef::decode(&first).is_ok_and(|list| list.len() == 1);
-        probe.check("ADR-4", described, "a description under 0x30000", || Hex(first));
+        probe.check(ADR_4, described, "a description under 0x30000", || Hex(first));
     }
     Ok(())
 }
@@ -60,7 +61,7 @@ fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         // The group is stated, and that channels start at 1; that SDA has port 552 is documented
         // online.
-        let rules = ["ADR-1".into(), "ADR-5".into(), "GEN-6".into(), online("GEN-4")];
+        let rules = [ADR_1.into(), ADR_5.into(), GEN_6.into(), online(GEN_4)];
         probe.ask(rules, CountVariables::new(channel, Kind::V_E))?;
     }
     Ok(())
@@ -89,12 +90,7 @@ fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
         && found == logical.with_content(content.0, content.1)
 }
 
-fn same_by_rank(
-    probe: &mut Probe<'_>,
-    rules: &[&'static str],
-    rank: Channel,
-    number: Channel,
-) -> Step {
+fn same_by_rank(probe: &mut Probe<'_>, rules: &[ClauseId], rank: Channel, number: Channel) -> Step {
     for (logical, by_index) in known_by(number)?.into_iter().zip(known_by(rank)?) {
         let function = logical.function().spec().name;
         let is_object = matches!(logical, Request::ReadDescriptors(_));
@@ -113,7 +109,7 @@ fn same_by_rank(
 
 fn logical_and_by_index(probe: &mut Probe<'_>) -> Step {
     for (rank, number) in probe.ranks()? {
-        same_by_rank(probe, &["ADR-1", "ADR-12"], rank, number)?;
+        same_by_rank(probe, &[ADR_1, ADR_12], rank, number)?;
     }
     Ok(())
 }
@@ -122,11 +118,11 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let ranks = probe.ranks()?;
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
     let &(rank, number) = gap.or_not_applicable("every channel's number is its rank")?;
-    same_by_rank(probe, &["ADR-11"], rank, number)?;
+    same_by_rank(probe, &[ADR_11], rank, number)?;
     // The number is beyond the ranks: there are fewer channels.
     let beyond = Channel::by_index(number.number().into())?;
     probe.refuses(
-        "ADR-11",
+        ADR_11,
         "a rank beyond the last channel",
         CountVariables::new(beyond, Kind::V_E),
         CountVariables::new(rank, Kind::V_E),
@@ -156,16 +152,16 @@ fn ranks_are(probe: &mut Probe<'_>, channels: &[Channel]) -> Step {
     for (rank, &number) in (1..).zip(channels) {
         let logical = probe.try_ask(CountVariables::new(number, Kind::V_E))?.is_some();
         let expected = || format!("channel {} by its number", number.number());
-        probe.check("ADR-11", logical, expected, "an error");
+        probe.check(ADR_11, logical, expected, "an error");
         let rank = Channel::by_index(rank)?;
-        same_by_rank(probe, &["ADR-11"], rank, number)?;
+        same_by_rank(probe, &[ADR_11], rank, number)?;
         last = Some(rank);
     }
     let Some(last) = last else { return Ok(()) };
     let beyond = u32::from(last.number()).saturating_add(1);
     let beyond = Channel::by_index(beyond)?;
     probe.refuses(
-        "ADR-11",
+        ADR_11,
         "a rank beyond the last channel",
         CountVariables::new(beyond, Kind::V_E),
         CountVariables::new(last, Kind::V_E),
@@ -179,7 +175,7 @@ fn geo_answers_too(probe: &mut Probe<'_>) -> Step {
     let by_geo = probe.call(&geo)?;
     let data = |exchange: &Exchange| exchange.answer().and_then(|answer| answer.data.clone());
     let same = data(&by_geo) == data(&by_sda) && data(&by_sda).is_some();
-    probe.check(assumed("ADR-10"), same, &by_sda, &by_geo);
+    probe.check(assumed(ADR_10), same, &by_sda, &by_geo);
     Ok(())
 }
 
@@ -190,12 +186,12 @@ fn absent_channel(probe: &mut Probe<'_>) -> Step {
     let present = probe.channel()?;
     let what = format!("channel {number}, which is not configured");
     probe.refuses(
-        "ADS-4",
+        ADS_4,
         &what,
         CountVariables::new(absent, Kind::V_E),
         CountVariables::new(present, Kind::V_E),
     )?;
-    probe.refuses("ADS-4", &what, CountObjects::new(absent), CountObjects::new(present))
+    probe.refuses(ADS_4, &what, CountObjects::new(absent), CountObjects::new(present))
 }
 
 fn every_frame(probe: &mut Probe<'_>) -> Step {
@@ -206,14 +202,15 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     }
     let mut judged = Record::default();
     for (requirement, services) in [
-        ("ADS-1", &[Service::Read][..]),
-        ("ADS-2", &[Service::Write]),
-        ("ADS-3", &[Service::ReadWrite]),
-        ("ADS-4", &[Service::Read, Service::Write, Service::ReadWrite]),
-        ("ADS-5", &[Service::Read, Service::Write, Service::ReadWrite]),
+        (ADS_1, &[Service::Read][..]),
+        (ADS_2, &[Service::Write]),
+        (ADS_3, &[Service::ReadWrite]),
+        (ADS_4, &[Service::Read, Service::Write, Service::ReadWrite]),
+        (ADS_5, &[Service::Read, Service::Write, Service::ReadWrite]),
     ] {
-        let is_broken = broken.judgements.iter().any(|one| one.requirement == requirement);
-        judged.append(broken.of(requirement));
+        let id = Rule::from(requirement).id;
+        let is_broken = broken.judgements.iter().any(|one| one.requirement == id);
+        judged.append(broken.of(id));
         let carried = services.iter().any(|service| answered.contains(service));
         if !is_broken && carried {
             probe.pass(requirement);
@@ -228,7 +225,7 @@ fn every_refusal(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.target.refusals.by_nothing);
     if probe.target.refusals.by_number > 0 {
         // Error replies with and without data were decoded as errors.
-        probe.pass(["ADS-6", "ADS-7"]);
+        probe.pass([ADS_6, ADS_7]);
     }
     probe.take_over(by_nothing);
     Ok(())

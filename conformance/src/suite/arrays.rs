@@ -2,6 +2,7 @@
 
 use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, brackets, each_array, each_variable, element_name};
 use super::row::{CaseRow, case};
@@ -9,11 +10,11 @@ use crate::judge::{Checks as _, Needs, Step, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("val-array-has-elements", &["VAR-4", "VAR-7"], Needs::Queries, array_has_elements,
+    case("val-array-has-elements", &[VAR_4, VAR_7], Needs::Queries, array_has_elements,
         "An array has the elements that its dimensions say, up to the last of each"),
-    case("val-index-out-of-bounds", &["VAR-11", "VAR-20"], Needs::Queries, index_out_of_bounds,
+    case("val-index-out-of-bounds", &[VAR_11, VAR_20], Needs::Queries, index_out_of_bounds,
         "An index that the array does not have is answered by an error"),
-    case("val-number-of-indices", &["VAR-11"], Needs::Queries, number_of_indices,
+    case("val-number-of-indices", &[VAR_11], Needs::Queries, number_of_indices,
         "Neither too few nor too many indices address anything"),
 ];
 
@@ -37,7 +38,7 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
         let has_first = ask(probe, &first)?.is_some();
         if dimensions.len() == 1 && whole_is_there {
             let expected = || format!("element 0 of {name}, or no dimension", name = name.text);
-            probe.check(["VAR-4", "VAR-7"], has_first, expected, "an error");
+            probe.check([VAR_4, VAR_7], has_first, expected, "an error");
         }
         if !has_first {
             return Ok(());
@@ -46,7 +47,7 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
             let last = with(&first, axis, count.saturating_sub(1));
             let is_there = ask(probe, &last)?.is_some();
             let expected = || format!("{last:?} of the {dimensions:?} elements of {}", name.text);
-            probe.check("VAR-4", is_there, expected, "an error");
+            probe.check(VAR_4, is_there, expected, "an error");
         }
         Ok(())
     })
@@ -61,7 +62,7 @@ fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
                 let what = format!("{place:?} of {:?}", variable.dimensions);
                 let (bad, good) = (&place, &first);
                 probe.refuses(
-                    "VAR-11",
+                    VAR_11,
                     &what,
                     ReadByHandle::new(channel, variable.handle, bad),
                     ReadByHandle::new(channel, variable.handle, good),
@@ -96,7 +97,7 @@ fn number_of_indices(probe: &mut Probe<'_>) -> Step {
             let few = zeros.get(..n).unwrap_or_default();
             let good = zeros.get(..m).unwrap_or_default();
             probe.refuses(
-                assumed("VAR-11"),
+                assumed(VAR_11),
                 &format!("{n} indices for {m} dimensions"),
                 ReadByHandle::new(channel, variable.handle, few),
                 ReadByHandle::new(channel, variable.handle, good),

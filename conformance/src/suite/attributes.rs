@@ -5,6 +5,7 @@ use ads_cnc::operation::{
     ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, Request,
 };
 use ads_cnc::sda::{ElementLength, ElementText};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
 use super::row::{CaseRow, case};
@@ -12,11 +13,11 @@ use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("adr-attributes", &["ADR-6"], Needs::Queries, attributes,
+    case("adr-attributes", &[ADR_6], Needs::Queries, attributes,
         "Type and length of an element are what their groups say"),
-    case("adr-attributes-by-index", &["ADR-1", "ADR-12"], Needs::Queries, by_index,
+    case("adr-attributes-by-index", &[ADR_1, ADR_12], Needs::Queries, by_index,
         "By number and by rank of the channel, an element has the same attributes"),
-    case("adr-attributes-within", &["ADR-6"], Needs::Simulator, within,
+    case("adr-attributes-within", &[ADR_6], Needs::Simulator, within,
         "Each group has the attribute that the CNC has within"),
 ];
 
@@ -46,7 +47,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
                 // type.
                 let swapped = is_type(&other) && !is_type(&of_type);
                 let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
-                probe.check("ADR-6", !swapped, "the type at 0x200", found);
+                probe.check(ADR_6, !swapped, "the type at 0x200", found);
             }
             let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
             let Some(length) = length.map(ElementLength::get) else { continue };
@@ -56,7 +57,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             let same = u32::try_from(content.len()) == Ok(length);
             let found =
                 || format!("{length} at 0x300, a content of {} bytes for {at}", content.len());
-            probe.check("ADR-6", same, "the length of the content at 0x300", found);
+            probe.check(ADR_6, same, "the length of the content at 0x300", found);
         }
     }
     Ok(())
@@ -72,7 +73,7 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
             for (one, other) in attribute_reads(element).into_iter().zip(by_rank) {
                 let what = one.function().spec().name;
                 let what = format!("{what} {} of {instance}", element.index_offset());
-                steady.same(probe, ["ADR-1", "ADR-12"], what, one, other)?;
+                steady.same(probe, [ADR_1, ADR_12], what, one, other)?;
             }
         }
     }
@@ -102,15 +103,15 @@ fn within(probe: &mut Probe<'_>) -> Step {
                     .iter()
                     .any(|one| one.holder == held.holder && one.name.to_string() == text_read);
             let taken = others.any(|other| *other == text_read) || of_others;
-            let kept = text_read == *text_of || text_read.is_empty() || !taken;
+            let passed = text_read == *text_of || text_read.is_empty() || !taken;
             let found = || format!("{text_read:?} for {at}");
-            probe.check("ADR-6", kept, || format!("the {what} {text_of:?}"), found);
+            probe.check(ADR_6, passed, || format!("the {what} {text_of:?}"), found);
         }
         let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
         let length = length.map(ElementLength::get).and_then(|length| usize::try_from(length).ok());
         let expected = || format!("a length of {}", held.value.len());
         let found = || format!("{length:?} for {at}");
-        probe.check("ADR-6", length == Some(held.value.len()), expected, found);
+        probe.check(ADR_6, length == Some(held.value.len()), expected, found);
     }
     probe.finish("the CNC has no element")
 }

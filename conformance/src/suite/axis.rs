@@ -8,6 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     AxisHandle, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names, axis_variables,
@@ -18,13 +19,13 @@ use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("axis-handles", &["VAR-10", "VAR-26", "ADR-7", "GEN-6"], Needs::Queries, handles,
+    case("axis-handles", &[VAR_10, VAR_26, ADR_7, GEN_6], Needs::Queries, handles,
         "On the axis interface a name has the handle that its place is described with"),
-    case("axis-values", &["VAR-10", "VAR-26"], Needs::Queries, values,
+    case("axis-values", &[VAR_10, VAR_26], Needs::Queries, values,
         "On the axis interface a name reads what it reads with the axis behind it"),
-    case("axis-unknown", &["VAR-26", "ADS-4"], Needs::Queries, unknown,
+    case("axis-unknown", &[VAR_26, ADS_4], Needs::Queries, unknown,
         "What no axis has is answered by an error on the axis interface"),
-    case("axis-zero", &["VAR-26"], Needs::Malformed, zero,
+    case("axis-zero", &[VAR_26], Needs::Malformed, zero,
         "At axis 0 the offsets of the axis interface are other functions"),
 ];
 
@@ -82,7 +83,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 any = true;
                 let handle = Handle::decode(&data);
                 let found = || format!("{} for {name} of place {place}", Hex(data));
-                probe.check("VAR-26", handle.is_ok(), "a handle of 4 bytes", found);
+                probe.check(VAR_26, handle.is_ok(), "a handle of 4 bytes", found);
                 let Ok(Handle(handle)) = handle else { continue };
                 // The handle belongs to the place; without an axis any handle is right.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
@@ -90,7 +91,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let other = other.filter(|other| known && *other != place);
                 let found = || format!("the handle {handle:#x} of place {place} and of {other:?}");
                 probe.check(
-                    ["VAR-10", "VAR-26", "ADR-7"],
+                    [VAR_10, VAR_26, ADR_7],
                     other.is_none(),
                     "a handle of each place",
                     found,
@@ -101,7 +102,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
             }
         }
         let found = || format!("none answers in channel {}", channel.number());
-        probe.check("VAR-26", any, "handles by name on the axis interface", found);
+        probe.check(VAR_26, any, "handles by name on the axis interface", found);
         // No manual states that a variable has only one handle.
         let handles = described.iter().map(|(_, variable)| variable.handle.0);
         let is_one_number = handles.into_iter().any(|handle| at_places.contains_key(&handle));
@@ -110,14 +111,14 @@ fn handles(probe: &mut Probe<'_>) -> Step {
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
             let expected = || format!("a place from 1 on with the handle of {name}");
-            probe.check(["VAR-26", "GEN-6"], has_place, expected, "none has it");
+            probe.check([VAR_26, GEN_6], has_place, expected, "none has it");
         }
     }
     each(probe, |probe, at, variable| {
         let found = || format!("that of {} for {at}", variable.name.text);
         let same = at.own == at.name;
-        probe.check("VAR-26", same, || format!("the handle of a {}", at.name), found);
-        probe.check("VAR-10", same, "a handle of this variable", found);
+        probe.check(VAR_26, same, || format!("the handle of a {}", at.name), found);
+        probe.check(VAR_10, same, "a handle of this variable", found);
         Ok(())
     })
 }
@@ -127,17 +128,17 @@ fn values(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, at, variable| {
         let AxisVariable { channel, axis, name, .. } = at;
         let request = AxisReadByName { channel, axis, name: name.as_cnc_str().into() };
-        let value = probe.ask("VAR-26", request)?;
+        let value = probe.ask(VAR_26, request)?;
         if variable.var_type.element_size().is_some() {
             let sized = u32::try_from(value.len()) == Ok(variable.size);
             let found = || format!("{} bytes of {at}", value.len());
-            probe.check("VAR-26", sized, || format!("its {} bytes", variable.size), found);
+            probe.check(VAR_26, sized, || format!("its {} bytes", variable.size), found);
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
-        steady.same(probe, "VAR-26", &at, by_name, request)?;
+        steady.same(probe, VAR_26, &at, by_name, request)?;
         // That handles of this interface can be used there is assumed.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
-        steady.same(probe, assumed("VAR-10"), &at, by_handle, request)
+        steady.same(probe, assumed(VAR_10), &at, by_handle, request)
     })?;
     steady.finish()
 }
@@ -154,24 +155,24 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let read = |axis, name| AxisReadByName { channel, axis, name };
     for unknown in ["V.A.no such variable", "V.A.", ""] {
         let (what, bad) = (format!("the name {unknown:?}"), TextRef::new(unknown)?);
-        probe.refuses("ADS-4", &what, handle(axis, bad), handle(axis, good))?;
-        probe.refuses("ADS-4", &what, read(axis, bad), read(axis, good))?;
+        probe.refuses(ADS_4, &what, handle(axis, bad), handle(axis, good))?;
+        probe.refuses(ADS_4, &what, read(axis, bad), read(axis, good))?;
     }
     // Names on the axis interface have no axis.
     let with_axis = name_of(&variable);
     let what = format!("{} on the axis interface", variable.name.text);
-    probe.refuses("VAR-26", &what, handle(axis, with_axis), handle(axis, good))?;
-    probe.refuses("VAR-26", &what, read(axis, with_axis), read(axis, good))?;
+    probe.refuses(VAR_26, &what, handle(axis, with_axis), handle(axis, good))?;
+    probe.refuses(VAR_26, &what, read(axis, with_axis), read(axis, good))?;
     // Names on the channel interface have one.
     let what = format!("{} on the channel interface", good.text());
     let of_channel = |name| HandleByName { channel, name };
-    probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;
+    probe.refuses(VAR_26, &what, of_channel(good), of_channel(with_axis))?;
     let of_channel = |name| ReadByName { channel, name };
-    probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;
+    probe.refuses(VAR_26, &what, of_channel(good), of_channel(with_axis))?;
     let far = ChannelAxis::new(0xFFFF)?;
     let what = "a place that no channel has";
-    probe.refuses("VAR-26", what, handle(far, good), handle(axis, good))?;
-    probe.refuses("VAR-26", what, read(far, good), read(axis, good))
+    probe.refuses(VAR_26, what, handle(far, good), handle(axis, good))?;
+    probe.refuses(VAR_26, what, read(far, good), read(axis, good))
 }
 
 fn zero(probe: &mut Probe<'_>) -> Step {
@@ -188,7 +189,7 @@ fn zero(probe: &mut Probe<'_>) -> Step {
             let bad =
                 good.with(|call| call.index_offset = ads_cnc::address::IndexOffset::new(offset));
             let what = format!("a name at offset {offset:#x}, without an axis");
-            probe.refuses("VAR-26", &what, &bad, &good)?;
+            probe.refuses(VAR_26, &what, &bad, &good)?;
         }
         Ok(())
     })

@@ -2,6 +2,7 @@
 
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class};
 use ads_cnc::operation::{AxisHandleByName, ReadElement, Request};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{OF_PLACES, Probe};
 use super::row::{CaseRow, case};
@@ -10,7 +11,7 @@ use crate::objects::List;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("axis-exchange", &["ADR-13", "SDA-13", "VAR-10"], Needs::Simulator, exchange,
+    case("axis-exchange", &[ADR_13, SDA_13, VAR_10], Needs::Simulator, exchange,
         "An axis takes its values along to another place; the platform's place stays"),
 ];
 
@@ -20,7 +21,7 @@ type Content = Option<Vec<u8>>;
 /// A content that is the same when it is read again.
 fn steady_content<'r>(probe: &mut Probe<'_>, read: impl Into<Request<'r>>) -> Step<Content> {
     let read = read.into();
-    let first = probe.ask("ADR-13", read)?;
+    let first = probe.ask(ADR_13, read)?;
     Ok(Some(first.clone()).filter(|_| probe.try_ask(read).is_ok_and(|now| now == Some(first))))
 }
 
@@ -110,13 +111,13 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
     cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
     let (second, third, platform_after, handle_after) = after;
     if let Some(moved) = are_same(&before, &second?) {
-        probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
+        probe.check(ADR_13, moved, "the values of axis 3 at place 2 now", "others");
     }
     let blank = third?.iter().flatten().flatten().all(|&byte| byte == 0);
-    probe.check("ADR-13", blank, "nothing at place 3 any more", "values");
+    probe.check(ADR_13, blank, "nothing at place 3 any more", "values");
     let platform_after = platform_after?;
     let same = are_same(&of_platform, &platform_after);
-    for (rule, same) in ["ADR-13", "SDA-13"].into_iter().filter_map(|rule| Some((rule, same?))) {
+    for (rule, same) in [ADR_13, SDA_13].into_iter().filter_map(|rule| Some((rule, same?))) {
         probe.check(rule, same, "the platform's axes where they were", "others");
     }
     let handle_after = handle_after?;
@@ -124,9 +125,9 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         handle_after.is_some() && handle_after == handle,
         "the handle of the place, whichever axis is there",
     );
-    probe.check("VAR-10", same, expected, "another");
+    probe.check(VAR_10, same, expected, "another");
     match are_same(&before, &places(probe, 3)?) {
-        Some(back) => probe.require("ADR-13", back, "axis 3 at place 3 again", "others"),
+        Some(back) => probe.require(ADR_13, back, "axis 3 at place 3 again", "others"),
         None => Err(Stop::inconclusive("no axis stands still")),
     }
 }

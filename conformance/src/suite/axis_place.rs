@@ -8,6 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     AxisHandle, Compared, Probe, RawCall, answering_places, axis_names, axis_variables, compare,
@@ -18,13 +19,13 @@ use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("axis-places", &["VAR-10", "VAR-26", "GEN-6"], Needs::Queries, places,
+    case("axis-places", &[VAR_10, VAR_26, GEN_6], Needs::Queries, places,
         "Every axis with variables is at a place, counted from 1, and at no other"),
-    case("axis-place-too-far", &["VAR-26"], Needs::Malformed, too_far,
+    case("axis-place-too-far", &[VAR_26], Needs::Malformed, too_far,
         "The axis index takes 16 bits, and no place is another's"),
-    case("axis-reserved", &["VAR-26"], Needs::Malformed, reserved,
+    case("axis-reserved", &[VAR_26], Needs::Malformed, reserved,
         "The reserved offsets of the axis interface are no functions"),
-    case("axis-variables-exchanged", &["VAR-10", "VAR-26"], Needs::Simulator, exchanged,
+    case("axis-variables-exchanged", &[VAR_10, VAR_26], Needs::Simulator, exchanged,
         "Name and handle of a place mean whichever axis is there"),
 ];
 
@@ -38,14 +39,14 @@ fn places(probe: &mut Probe<'_>) -> Step {
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
             let found = || format!("{} places of channel {}", places.len(), channel.number());
             let expected = || format!("a place for each {name} of {} axes", own.len());
-            probe.check(["VAR-26", "GEN-6"], places.len() >= own.len(), expected, found);
+            probe.check([VAR_26, GEN_6], places.len() >= own.len(), expected, found);
             // An axis has only one place. Handles of places without an axis belong to no variable.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
                 let found = || format!("{:?} of place {} too", at.handle, at.axis.index());
                 let expected = || format!("another handle at each place for {name}");
                 let own = seen.insert(at.handle.0);
-                probe.check(["VAR-10", "VAR-26"], own, expected, found);
+                probe.check([VAR_10, VAR_26], own, expected, found);
             }
             for variable in own {
                 at_a_place(probe, channel, name, variable, &places)?;
@@ -75,11 +76,11 @@ fn at_a_place(
         Ok(Some(false))
     };
     match compare(probe, |probe| probe.try_ask(by_name), find, |_, is_found| *is_found)? {
-        Compared::Same => probe.pass("VAR-26"),
+        Compared::Same => probe.pass(VAR_26),
         Compared::Differs(value, ..) => {
             let expected = || format!("{} of {} at a place", Hex(value), variable.name.text);
             let found = || format!("other values at all {} places", places.len());
-            probe.check("VAR-26", false, expected, found);
+            probe.check(VAR_26, false, expected, found);
         }
         Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
     }
@@ -109,7 +110,7 @@ fn too_far(probe: &mut Probe<'_>) -> Step {
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
         let given = probe.try_read::<Handle>(request)?;
         let expected = || format!("not the handle of place {} at {}", axis.index(), far.index());
-        probe.check("VAR-26", given != Some(handle), expected, || format!("{handle:?}"));
+        probe.check(VAR_26, given != Some(handle), expected, || format!("{handle:?}"));
     }
     Ok(())
 }
@@ -124,7 +125,7 @@ fn reserved(probe: &mut Probe<'_>) -> Step {
         let offset = IndexOffset::new(of_place | function);
         let what = format!("a name at offset {:#x}", offset.get());
         let bad = good.with(|call| call.index_offset = offset);
-        probe.refuses("VAR-26", &what, &bad, &good)?;
+        probe.refuses(VAR_26, &what, &bad, &good)?;
     }
     Ok(())
 }
@@ -181,17 +182,17 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
     // The reply for a place without an axis is assumed; that no axis is at two places is stated.
     let (left, found) = (left?.by_place, Hex(of_z.by_place.clone()));
     let gone = left != of_z.by_place;
-    probe.check("VAR-26", gone, "axis 3 no more at place 3", || format!("{found} there still"));
+    probe.check(VAR_26, gone, "axis 3 no more at place 3", || format!("{found} there still"));
     let (handle, value) = named?;
     // That both interfaces have the same handles is assumed.
     let expected = || format!("{second:?} of place 2 for {NAME}.Z");
-    probe.check(assumed("VAR-10"), handle == Some(second), expected, || format!("{handle:?}"));
+    probe.check(assumed(VAR_10), handle == Some(second), expected, || format!("{handle:?}"));
     let expected = || format!("{found} of {NAME}.Z");
-    for (rule, value) in [("VAR-26", value.by_place), ("VAR-10", value.by_handle)] {
+    for (rule, value) in [(VAR_26, value.by_place), (VAR_10, value.by_handle)] {
         probe.check(rule, value == of_z.by_place, expected, || Hex(value));
     }
     let back = seen(probe, 3, third)? == of_z && seen(probe, 2, second)? == of_y;
-    probe.require("VAR-26", back, "all axes where they were", "others")
+    probe.require(VAR_26, back, "all axes where they were", "others")
 }
 
 /// By its name on the channel interface, and by its handle there.
@@ -209,8 +210,8 @@ fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, A
 
 fn same(probe: &mut Probe<'_>, found: &AxisReadings, expected: &AxisReadings, what: &str) {
     for (rule, found, expected) in [
-        ("VAR-26", &found.by_place, &expected.by_place),
-        ("VAR-10", &found.by_handle, &expected.by_handle),
+        (VAR_26, &found.by_place, &expected.by_place),
+        (VAR_10, &found.by_handle, &expected.by_handle),
     ] {
         let shown = || format!("{} of {what}", Hex(expected.clone()));
         probe.check(rule, found == expected, shown, || Hex(found.clone()));

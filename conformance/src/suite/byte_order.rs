@@ -7,18 +7,19 @@ use ads_cnc::address::{Class, Group, IndexGroup};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{DynamicValueByIndex, DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
-use super::kit::{Counted, Probe, is_permuted, name_of};
+use super::kit::{Counted, Probe, is_permutation, name_of};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, IfThere as _, Needs, Step};
+use crate::judge::{Checks as _, IfPresent as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("gen-number-order", &["GEN-1"], Needs::Queries, number_order,
+    case("gen-number-order", &[GEN_1], Needs::Queries, number_order,
         "Counts and handles come with their lowest byte first"),
-    case("gen-field-order", &["GEN-1"], Needs::Queries, field_order,
+    case("gen-field-order", &[GEN_1], Needs::Queries, field_order,
         "Numbers in descriptors, descriptions and addresses come with their lowest byte first"),
-    case("gen-value-order", &["GEN-1"], Needs::Simulator, value_order,
+    case("gen-value-order", &[GEN_1], Needs::Simulator, value_order,
         "Values of variables and parameters come with their lowest byte first"),
 ];
 
@@ -51,7 +52,7 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
         }
         let swapped = !one.has(probe, number)? && one.has(probe, from_behind)?;
         let found = || format!("{number:#x}, where the last is number {from_behind:#x}");
-        probe.check("GEN-1", !swapped, || format!("the number of {one}"), found);
+        probe.check(GEN_1, !swapped, || format!("the number of {one}"), found);
     }
     for channel in probe.channels()? {
         for variable in probe.variables(channel).if_known()?.unwrap_or_default() {
@@ -61,7 +62,7 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
             let known = variable.handle.0;
             let swapped = handle.0 != known && handle.0.swap_bytes() == known;
             let expected = || format!("{:?} of {}", variable.handle, variable.name.text);
-            probe.check("GEN-1", !swapped, expected, || format!("{handle:?}"));
+            probe.check(GEN_1, !swapped, expected, || format!("{handle:?}"));
         }
     }
     Ok(())
@@ -77,7 +78,7 @@ fn in_order(
 ) {
     let swapped = !makes_sense(number) && makes_sense(number.swap_bytes());
     let found = || format!("{number:#x} for {what}");
-    probe.check("GEN-1", !swapped, "the lowest byte first", found);
+    probe.check(GEN_1, !swapped, "the lowest byte first", found);
 }
 
 fn field_order(probe: &mut Probe<'_>) -> Step {
@@ -124,10 +125,10 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
 fn order(probe: &mut Probe<'_>, what: &str, size: usize, held: &[u8], read: Option<Vec<u8>>) {
     let Some(read) = read.filter(|read| read.len() == held.len()) else { return };
     let mut pairs = held.chunks(size).zip(read.chunks(size));
-    let permuted = pairs.any(|(one, other)| is_permuted(one, other));
+    let permuted = pairs.any(|(one, other)| is_permutation(one, other));
     if held == read || permuted {
         let expected = || format!("{} of {what}", Hex(held.to_vec()));
-        probe.check("GEN-1", !permuted, expected, || Hex(read));
+        probe.check(GEN_1, !permuted, expected, || Hex(read));
     }
 }
 
@@ -135,7 +136,7 @@ fn value_order(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let claimed = probe.channels()?;
     let of = |number: u8| claimed.iter().find(|channel| channel.number() == number).copied();
-    for variable in cnc.held_variables() {
+    for variable in cnc.current_variables() {
         let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
         let (Some(channel), Some(size)) = (of(variable.channel), size) else { continue };
         let what = variable.name.to_string();
@@ -146,7 +147,7 @@ fn value_order(probe: &mut Probe<'_>) -> Step {
         }
     }
     let mut index = std::collections::HashMap::new();
-    for parameter in cnc.held_parameters() {
+    for parameter in cnc.current_parameters() {
         let Some(channel) = of(parameter.channel) else { continue };
         let (kind, name) = (parameter.kind, parameter.name.as_cnc_str().into());
         let index: &mut u32 = index.entry((parameter.channel, kind)).or_default();
@@ -168,8 +169,8 @@ mod tests {
 
     #[test]
     fn another_order_is_told_from_other_bytes() {
-        assert!(is_permuted(&[1, 2, 3, 4], &[3, 4, 1, 2]));
-        assert!(!is_permuted(&[1, 2], &[1, 2]));
-        assert!(!is_permuted(&[1, 2], &[1, 3]));
+        assert!(is_permutation(&[1, 2, 3, 4], &[3, 4, 1, 2]));
+        assert!(!is_permutation(&[1, 2], &[1, 2]));
+        assert!(!is_permutation(&[1, 2], &[1, 3]));
     }
 }

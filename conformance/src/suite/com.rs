@@ -5,22 +5,23 @@ use std::collections::HashSet;
 use ads_cnc::address::{Access, ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks, IfThere as _, Needs, Step, assumed, online};
+use crate::judge::{Checks, IfPresent as _, Needs, Step, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("com-count", &["COM-1", "COM-2"], Needs::Queries, count,
+    case("com-count", &[COM_1, COM_2], Needs::Queries, count,
         "Offset 0 gives the number of objects, and the last of them is there"),
-    case("com-descriptors", &["COM-2", "COM-5", "GEN-5"], Needs::Queries, descriptors,
+    case("com-descriptors", &[COM_2, COM_5, GEN_5], Needs::Queries, descriptors,
         "Every object has a descriptor of 84 bytes that makes sense"),
-    case("com-descriptors-in-sequence", &["COM-3"], Needs::Queries, in_sequence,
+    case("com-descriptors-in-sequence", &[COM_3], Needs::Queries, in_sequence,
         "A read of k × 84 bytes gives k descriptors, the same as k reads"),
-    case("com-end-of-list", &["COM-2", "COM-3"], Needs::Queries, end_of_list,
+    case("com-end-of-list", &[COM_2, COM_3], Needs::Queries, end_of_list,
         "Reading beyond the last object gives what there is, or an error"),
-    case("com-odd-length", &["COM-3"], Needs::Queries, odd_length,
+    case("com-odd-length", &[COM_3], Needs::Queries, odd_length,
         "A read length that is no multiple of 84 gives one descriptor"),
 ];
 
@@ -39,12 +40,12 @@ fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
 
 fn count(probe: &mut Probe<'_>) -> Step {
     for list in lists(probe)? {
-        let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
+        let ObjectCount(number) = probe.read(COM_1, CountObjects::new(list))?;
         ends(probe, list, number)?;
         // The list is static: requests in between do not change it.
-        let again: ObjectCount = probe.read("COM-1", CountObjects::new(list))?;
+        let again: ObjectCount = probe.read(COM_1, CountObjects::new(list))?;
         let found = || format!("{} objects of {}", again.0, list.parts().index_group());
-        probe.check("COM-1", again.0 == number, || format!("{number} as before"), found);
+        probe.check(COM_1, again.0 == number, || format!("{number} as before"), found);
     }
     Ok(())
 }
@@ -52,7 +53,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
 /// The last object is there, and none beyond it. Whichever of the two is wrong, the number or the list:
 /// they are one statement.
 fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
-    let rules = ["COM-1", "COM-2"];
+    let rules = [COM_1, COM_2];
     let asked = number.min(OBJECTS_MAX);
     if asked == 0 {
         let first = ReadDescriptors::new(list, 1, 1)?;
@@ -75,21 +76,20 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
         let list = ObjectList::from(channel);
         let mut ids = HashSet::new();
         for first in 1..=known_object_count(probe, list)? {
-            let one = read_descriptors(probe, "COM-2", list, first, 1)?;
+            let one = read_descriptors(probe, COM_2, list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
             let id = object.id();
-            probe
-                .check("COM-2", ids.insert(id), "an ID no other object has", || format!("ID {id}"));
+            probe.check(COM_2, ids.insert(id), "an ID no other object has", || format!("ID {id}"));
             descriptor_holds_together(probe, object);
             // Objects are static.
-            let again = read_descriptors(probe, "COM-2", list, first, 1)?;
+            let again = read_descriptors(probe, COM_2, list, first, 1)?;
             let what = |one: DescriptorRef<'_>| {
                 let at = (one.index_group(), one.index_offset());
                 (one.id(), one.size(), at, one.name().to_string(), one.type_name().to_string())
             };
             let same = again.as_ref().get(0).map(what) == Some(what(object));
             let found = || format!("another for number {first} the second time");
-            probe.check("COM-2", same, || format!("the descriptor of ID {id} again"), found);
+            probe.check(COM_2, same, || format!("the descriptor of ID {id} again"), found);
         }
     }
     Ok(())
@@ -98,7 +98,7 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
 /// Checks a descriptor by itself.
 pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: DescriptorRef<'_>) {
     let name = object.name().to_string();
-    let rule = assumed("COM-2");
+    let rule = assumed(COM_2);
     probe.check(rule, !name.is_empty(), "an object with a name", "an empty name");
     let type_name = object.type_name().to_string();
     probe.check(rule, !type_name.is_empty(), "the name of a type", "an empty type");
@@ -106,16 +106,16 @@ pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: Descrip
         let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
         let expected = || format!("a multiple of the {size} bytes of {type_name}");
         let found = || format!("size {} of {name}", object.size());
-        probe.check(online("GEN-5"), whole, expected, found);
+        probe.check(online(GEN_5), whole, expected, found);
     }
     let group = object.index_group();
     let content =
         matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
     let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
-    probe.check(assumed("COM-5"), content, expected, || format!("group {group} of {name}"));
+    probe.check(assumed(COM_5), content, expected, || format!("group {group} of {name}"));
     let access = object.write_access().0;
     let expected = "write access 0 or 1";
-    probe.check(assumed("COM-2"), access <= 1, expected, || format!("{access} of {name}"));
+    probe.check(assumed(COM_2), access <= 1, expected, || format!("{access} of {name}"));
 }
 
 fn in_sequence(probe: &mut Probe<'_>) -> Step {
@@ -130,7 +130,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let mut singles = Vec::new();
     for first in 1..=number {
         let request = ReadDescriptors::new(list, first, 1)?;
-        singles.push(probe.ask("COM-3", request)?);
+        singles.push(probe.ask(COM_3, request)?);
     }
     let half = number.div_ceil(2);
     let mut reads = vec![(1, number), (half, 3), (2, number.saturating_sub(1)), (number, 1)];
@@ -142,7 +142,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         }
         // The maximum that fits into a frame.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
-        let together = probe.ask("COM-3", request)?;
+        let together = probe.ask(COM_3, request)?;
         let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));
         let alone: Vec<u8> = alone.flatten().copied().collect();
         let expected = || format!("{count} descriptors from {first} on, as they read one by one");
@@ -151,7 +151,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         } else {
             format!("{} bytes instead of {}", together.len(), alone.len())
         };
-        probe.check("COM-3", together == alone, expected, found);
+        probe.check(COM_3, together == alone, expected, found);
     }
     Ok(())
 }
@@ -168,9 +168,9 @@ fn end_of_list(probe: &mut Probe<'_>) -> Step {
     let data = exchange.success();
     let given = data.and_then(|data| DescriptorsRef::decode(data).ok()).map(|list| list.len());
     let expected = "the one descriptor there is";
-    probe.check(assumed("COM-3"), given == Some(1), expected, &exchange);
+    probe.check(assumed(COM_3), given == Some(1), expected, &exchange);
     probe.refuses(
-        "COM-2",
+        COM_2,
         "an object behind the last",
         ReadDescriptors::new(list, number.saturating_add(1), 2)?,
         ReadDescriptors::new(list, number, 1)?,
@@ -185,9 +185,9 @@ fn odd_length(probe: &mut Probe<'_>) -> Step {
     for read_length in [85, 100, 167, 169] {
         let exchange = probe.call(&one.with(|call| call.read_length = read_length))?;
         let data = exchange.success();
-        let kept = data.is_some_and(|data| data.len() == ads_cnc::limits::DESCRIPTOR_LEN);
+        let passed = data.is_some_and(|data| data.len() == ads_cnc::limits::DESCRIPTOR_LEN);
         let expected = || format!("one descriptor for a read length of {read_length}");
-        probe.check(assumed("COM-3"), kept, expected, &exchange);
+        probe.check(assumed(COM_3), passed, expected, &exchange);
     }
     Ok(())
 }

@@ -6,31 +6,32 @@ use ads_cnc::address::{ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObject};
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
+use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Step, applicable, assumed};
 use crate::objects::Object;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("com-content", &["COM-2", "COM-5", "GEN-5"], Needs::Queries, content,
+    case("com-content", &[COM_2, COM_5, GEN_5], Needs::Queries, content,
         "Every object is read where its descriptor says, in the size it says"),
-    case("com-content-by-index", &["ADR-1", "ADR-12"], Needs::Queries, content_by_index,
+    case("com-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
         "By number and by rank of the channel, an object has the same content"),
-    case("com-content-room", &["COM-2", "COM-5"], Needs::Queries, room,
+    case("com-content-room", &[COM_2, COM_5], Needs::Queries, room,
         "With more room than it needs a content has no more bytes than its descriptor says"),
-    case("com-places", &["COM-2", "COM-5"], Needs::Queries, places,
+    case("com-places", &[COM_2, COM_5], Needs::Queries, places,
         "No two objects of a list are at one place"),
-    case("com-read-lengths", &["ADS-1"], Needs::Malformed, read_lengths,
+    case("com-read-lengths", &[ADS_1], Needs::Malformed, read_lengths,
         "A read length that does not hold a content is answered by an error"),
-    case("obj-everything", &["OBJ-1"], Needs::Queries, everything,
+    case("obj-everything", &[OBJ_1], Needs::Queries, everything,
         "Everything that is counted can be listed, each thing once"),
 ];
 
 fn content(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
-        let rules = ["COM-5", "COM-2"];
+        let rules = [COM_5, COM_2];
         let size = object.size();
         let read = match object.address.read() {
             Ok(read) => read,
@@ -51,7 +52,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         if object.ty.name == "BOOL" {
             let bit = matches!(*content, [0 | 1]);
             let found = || format!("{content:?} of {}", object.name);
-            probe.check(assumed("GEN-5"), bit, "a BOOL of 0 or 1", found);
+            probe.check(assumed(GEN_5), bit, "a BOOL of 0 or 1", found);
         }
     }
     Ok(())
@@ -71,7 +72,7 @@ fn room(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("the {} bytes of {}", object.size(), object.name);
             let found = || format!("{} bytes in a room of {size}", content.len());
             let sized = u32::try_from(content.len()) == Ok(object.size());
-            probe.check(["COM-2", "COM-5"], sized, expected, found);
+            probe.check([COM_2, COM_5], sized, expected, found);
         }
     }
     probe.finish("no content is read with more room")
@@ -95,7 +96,7 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(by_rank) = probe.address_by_rank(&object) else { continue };
         let (Ok(one), Ok(other)) = (object.address.read(), by_rank.read()) else { continue };
         any = true;
-        steady.same(probe, ["ADR-1", "ADR-12"], &object.name, one, other)?;
+        steady.same(probe, [ADR_1, ADR_12], &object.name, one, other)?;
     }
     applicable(any, "no object is in the group of a channel")?;
     steady.finish()
@@ -106,7 +107,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let found = || format!("{} at {} again", object.name, at(&object));
         let own = seen.insert((object.list, object.address.content()));
-        probe.check(["COM-2", "COM-5"], own, "a place of its own", found);
+        probe.check([COM_2, COM_5], own, "a place of its own", found);
     }
     Ok(())
 }
@@ -118,7 +119,7 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     for read_length in [0, good.read_length.saturating_sub(1)] {
         let what = format!("a read length of {read_length} for {} bytes", good.read_length);
         let bad = good.with(|call| call.read_length = read_length);
-        probe.refuses(assumed("ADS-1"), &what, bad, &good)?;
+        probe.refuses(assumed(ADS_1), &what, bad, &good)?;
     }
     Ok(())
 }
@@ -128,8 +129,8 @@ fn everything(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         // Lists of platform axes are assumed.
         let rule = match list.parts().table {
-            ComTable::Axis => assumed("OBJ-1"),
-            ComTable::Channel => "OBJ-1".into(),
+            ComTable::Axis => assumed(OBJ_1),
+            ComTable::Channel => OBJ_1.into(),
         };
         let ObjectCount(count) = probe.read(rule, CountObjects::new(list))?;
         let count = count.min(OBJECTS_MAX);
@@ -145,15 +146,15 @@ fn everything(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances().if_applicable()?.unwrap_or_default() {
         let mut places = HashSet::new();
         for element in instance.elements() {
-            let name = probe.ask("OBJ-1", ReadElementName::new(element))?;
+            let name = probe.ask(OBJ_1, ReadElementName::new(element))?;
             let found = || format!("{} of {instance}", Hex(name.clone()));
             let named = name.first().is_some_and(|&byte| byte != 0);
-            probe.check("OBJ-1", named, "an element with a name", found);
+            probe.check(OBJ_1, named, "an element with a name", found);
             places.insert(element);
         }
         let listed = u32::try_from(places.len()) == Ok(instance.count.min(OBJECTS_MAX));
         let found = || format!("{} of {instance}", places.len());
-        probe.check("OBJ-1", listed, || format!("{} elements", instance.count), found);
+        probe.check(OBJ_1, listed, || format!("{} elements", instance.count), found);
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use ads_cnc::{
     Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef, Validity,
     VariableCount,
 };
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::row::{CaseRow, case};
@@ -15,13 +16,13 @@ use crate::profile::Claim;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("var-extended-descriptions", &["VAR-15", "VAR-16"], Needs::Queries, extended,
+    case("var-extended-descriptions", &[VAR_15, VAR_16], Needs::Queries, extended,
         "Every V.E has an extended description; V.G and V.A are answered by nothing"),
-    case("var-extended-beyond-last", &["VAR-3"], Needs::Queries, extended_beyond,
+    case("var-extended-beyond-last", &[VAR_3], Needs::Queries, extended_beyond,
         "The index behind the last has no extended description"),
-    case("var-described-by-name", &["VAR-28"], Needs::Queries, described_by_name,
+    case("var-described-by-name", &[VAR_28], Needs::Queries, described_by_name,
         "By its name a variable is described as by its index"),
-    case("var-unknown-described", &["VAR-28"], Needs::Queries, unknown_described,
+    case("var-unknown-described", &[VAR_28], Needs::Queries, unknown_described,
         "A name nobody has is described by an error"),
 ];
 
@@ -38,7 +39,7 @@ fn extended(probe: &mut Probe<'_>) -> Step {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
                 if kind == Kind::V_E {
-                    let reply: ExtendedReply = probe.read("VAR-15", request)?;
+                    let reply: ExtendedReply = probe.read(VAR_15, request)?;
                     of_external(probe, &reply, &at);
                 } else {
                     of_others(probe, request, &at)?;
@@ -51,15 +52,15 @@ fn extended(probe: &mut Probe<'_>) -> Step {
 
 fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
     let found = || format!("nothing for {at}");
-    probe.check("VAR-15", reply.0.is_some(), "an extended description", found);
+    probe.check(VAR_15, reply.0.is_some(), "an extended description", found);
     let Some(extended) = reply.0 else { return };
     let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
     let found = || format!("{} for {at}", extended.synchronisation.0);
-    let kept = known.contains(&extended.synchronisation);
-    probe.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
+    let passed = known.contains(&extended.synchronisation);
+    probe.check(VAR_15, passed, "a synchronisation of 1 or 2", found);
     let known = [Validity::CHANNEL, Validity::GLOBAL];
     let found = || format!("{} for {at}", extended.validity.0);
-    probe.check("VAR-15", known.contains(&extended.validity), "a validity of 1 or 2", found);
+    probe.check(VAR_15, known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
 /// The reply has no data; that it is a success is assumed.
@@ -68,9 +69,9 @@ fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> 
     let data = exchange.answer().and_then(|answer| answer.data.clone());
     let empty = data.is_none_or(|data| data.is_empty());
     let expected = || format!("no data for {at}");
-    probe.check("VAR-16", empty && exchange.answer().is_some(), expected, &exchange);
+    probe.check(VAR_16, empty && exchange.answer().is_some(), expected, &exchange);
     let success = exchange.success().is_some();
-    probe.check(assumed("VAR-16"), success, "the result 0", &exchange);
+    probe.check(assumed(VAR_16), success, "the result 0", &exchange);
     Ok(())
 }
 
@@ -83,13 +84,13 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                 let what = format!("index {beyond} of {count} {name}");
                 let describe = |index| DescribeExtended::new(channel, index, kind);
                 if kind == Kind::V_E {
-                    probe.refuses("VAR-3", &what, describe(beyond), describe(last))?;
+                    probe.refuses(VAR_3, &what, describe(beyond), describe(last))?;
                     continue;
                 }
                 // An index beyond the last has no data either.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
                 let found = || format!("{} bytes", given.len());
-                probe.check("VAR-3", given.is_empty(), || format!("nothing for {what}"), found);
+                probe.check(VAR_3, given.is_empty(), || format!("nothing for {what}"), found);
             }
         }
     }
@@ -119,16 +120,16 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
         }
         for variable in &variables {
             let request = DescribeByName { channel, name: name_of(variable) };
-            let described: DescriptionByName = probe.read("VAR-28", request)?;
+            let described: DescriptionByName = probe.read(VAR_28, request)?;
             let name = &variable.name.text;
-            let kept = (described.var_type, described.access, described.size)
+            let passed = (described.var_type, described.access, described.size)
                 == (variable.var_type, variable.access, variable.size)
                 && described.dimensions == variable.dimensions;
             let expected = || format!("the description of {name} by its index");
-            probe.check("VAR-28", kept, expected, || format!("{described:?}"));
+            probe.check(VAR_28, passed, expected, || format!("{described:?}"));
             let same = described.handle == variable.handle;
             let expected = || format!("{:?} of {name}", variable.handle);
-            probe.check(online("VAR-28"), same, expected, || format!("{:?}", described.handle));
+            probe.check(online(VAR_28), same, expected, || format!("{:?}", described.handle));
         }
     }
     Ok(())
@@ -143,7 +144,7 @@ fn unknown_described(probe: &mut Probe<'_>) -> Step {
         let unknown = TextRef::new(name)?;
         let good = DescribeByName { channel, name: name_of(known) };
         let bad = DescribeByName { name: unknown, ..good };
-        probe.refuses("VAR-28", &format!("the name {name:?}"), bad, good)?;
+        probe.refuses(VAR_28, &format!("the name {name:?}"), bad, good)?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::Probe;
 use super::row::{CaseRow, case};
@@ -12,11 +13,11 @@ use crate::values::until_nul;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("ads-device-info", &["ADS-8"], Needs::Queries, device_info,
+    case("ads-device-info", &[ADS_8], Needs::Queries, device_info,
         "Each task says the name and version of its device"),
-    case("ads-device-state", &["ADS-9"], Needs::Queries, device_state,
+    case("ads-device-state", &[ADS_9], Needs::Queries, device_state,
         "Each task says the state it is in"),
-    case("ads-device-as-it-is", &["ADS-8", "ADS-9"], Needs::Simulator, as_it_is,
+    case("ads-device-as-it-is", &[ADS_8, ADS_9], Needs::Simulator, as_it_is,
         "The simulated CNC reports its own name, version and state"),
 ];
 

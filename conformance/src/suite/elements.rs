@@ -9,6 +9,8 @@ use ads_cnc::operation::{
 };
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, type_and_length,
@@ -19,32 +21,32 @@ use crate::objects::decode_element_count;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("sda-elements", &["SDA-4", "ADR-6"], Needs::Queries, elements,
+    case("sda-elements", &[SDA_4, ADR_6], Needs::Queries, elements,
         "The first element says how many follow, and whose they are; then the list ends"),
-    case("sda-first-element", &["SDA-4", "SDA-8"], Needs::Queries, first_element,
+    case("sda-first-element", &[SDA_4, SDA_8], Needs::Queries, first_element,
         "The first element has the attributes of an element, and its length is that of the number"),
-    case("sda-attributes", &["SDA-4", "SDA-6", "SDA-7", "SDA-8", "SDA-9", "ADR-6", "GEN-3", "GEN-5"],
+    case("sda-attributes", &[SDA_4, SDA_6, SDA_7, SDA_8, SDA_9, ADR_6, GEN_3, GEN_5],
         Needs::Queries, attributes,
         "Every element has a name, a type, a length, a unit and a write flag that make sense"),
-    case("sda-content", &["SDA-8", "ADR-6", "GEN-5"], Needs::Queries, content,
+    case("sda-content", &[SDA_8, ADR_6, GEN_5], Needs::Queries, content,
         "The content of an element has the length it says, and a value its type has"),
-    case("sda-content-by-index", &["ADR-1", "ADR-12"], Needs::Queries, content_by_index,
+    case("sda-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
         "By number and by rank of the channel, an element has the same content and attributes"),
-    case("sda-read-lengths", &["ADS-1"], Needs::Malformed, read_lengths,
+    case("sda-read-lengths", &[ADS_1], Needs::Malformed, read_lengths,
         "A read length that does not hold the answer is answered by an error"),
 ];
 
 /// Reads an attribute: a valid reply passes the requirements of its stream and group.
 fn attribute<T>(
     probe: &mut Probe<'_>,
-    rule: &'static str,
+    rule: ClauseId,
     request: impl Into<Request<'static>>,
 ) -> Step<T>
 where
     T: for<'b> Decode<'b>,
 {
     let value = probe.read(rule, request)?;
-    probe.pass("ADR-6");
+    probe.pass(ADR_6);
     Ok(value)
 }
 
@@ -53,15 +55,15 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     let (mut alone, mut with_first) = (None, None);
     for instance in probe.instances()? {
         let first = instance.first;
-        let data = probe.ask("SDA-4", CountElements::new(first)?)?;
-        probe.pass("ADR-6");
+        let data = probe.ask(SDA_4, CountElements::new(first)?)?;
+        probe.pass(ADR_6);
         let found = || format!("{} bytes for the number of {instance}", data.len());
-        probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", found);
+        probe.check(assumed(SDA_4), data.len() == 4, "a number of 4 bytes", found);
         let reported = decode_element_count(&data);
-        probe.check("SDA-4", reported.is_some(), "a number", found);
+        probe.check(SDA_4, reported.is_some(), "a number", found);
         let same = reported == Some(instance.reported);
         let found = || format!("{reported:?} elements of {instance}");
-        probe.check("SDA-4", same, || format!("{}, as before", instance.reported), found);
+        probe.check(SDA_4, same, || format!("{}, as before", instance.reported), found);
         let count = instance.count;
         match (instance.counts_itself(), instance.reported) {
             (true, _) => with_first = Some((instance.to_string(), probe.evidence())),
@@ -69,16 +71,16 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             (false, 0) => {}
         }
         let found = || format!("{count} elements of {instance}");
-        probe.check("SDA-4", count <= 0xFFFF, "no more than an offset has room for", found);
-        let name: ElementText = attribute(probe, "SDA-4", ReadElementName::new(first))?;
+        probe.check(SDA_4, count <= 0xFFFF, "no more than an offset has room for", found);
+        let name: ElementText = attribute(probe, SDA_4, ReadElementName::new(first))?;
         let name = name.text.text.to_string();
         let found = || format!("{name:?} of {instance}");
         // The name of a place without an axis, or of an instance without further elements, is not
         // specified.
         let is_bare = count == 0 || probe.is_claimed_empty(&instance);
-        let rule = if is_bare { assumed("SDA-4") } else { "SDA-4".into() };
+        let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
-        let rule = assumed("SDA-4");
+        let rule = assumed(SDA_4);
         // Axes of the platform are in several HLDs.
         let shared = instance.class == Class::Hld && instance.axis > 0;
         if !shared {
@@ -95,7 +97,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     if let Some((with_first, evidence)) = with_first {
         probe.set_evidence(evidence);
         let found = || format!("one more for {with_first}");
-        let rule = if alone.is_some() { "SDA-4".into() } else { assumed("SDA-4") };
+        let rule = if alone.is_some() { SDA_4.into() } else { assumed(SDA_4) };
         let like = alone.map(|alone| format!(", as for {alone}")).unwrap_or_default();
         probe.check(
             rule,
@@ -112,11 +114,11 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     let (last, beyond) = (instance.first.nth(count), instance.first.nth(count.saturating_add(1)));
     let (Ok(last), Ok(beyond)) = (last, beyond) else { return Ok(()) };
     if count > 0 {
-        attribute::<ElementText>(probe, "SDA-4", ReadElementName::new(last))?;
+        attribute::<ElementText>(probe, SDA_4, ReadElementName::new(last))?;
     }
     let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
     // For a place without an axis the number may be zero, like its contents.
-    let rule = if at_place && count == 0 { assumed("SDA-4") } else { "SDA-4".into() };
+    let rule = if at_place && count == 0 { assumed(SDA_4) } else { SDA_4.into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
         // The first element need not have all attributes.
@@ -144,13 +146,13 @@ fn first_element(probe: &mut Probe<'_>) -> Step {
         let number = probe.try_ask(CountElements::new(first)?)?;
         let Some(number) = number else { continue };
         let length = probe.try_ask(ReadElementLength::new(first))?;
-        probe.check(assumed("SDA-4"), length.is_some(), "a length of the number", "an error");
+        probe.check(assumed(SDA_4), length.is_some(), "a length of the number", "an error");
         let length = length.and_then(|data| ElementLength::decode(&data).ok());
         if let Some(length) = length {
             let same = u32::try_from(number.len()) == Ok(length.get());
             let found = || format!("a length of {} for element 0 of {instance}", length.get());
             let expected = || format!("the {} bytes of the number", number.len());
-            probe.check("SDA-8", same, expected, found);
+            probe.check(SDA_8, same, expected, found);
         }
         let requests: [Request<'_>; 3] = [
             ReadElementType::new(first).into(),
@@ -160,7 +162,7 @@ fn first_element(probe: &mut Probe<'_>) -> Step {
         for request in requests {
             let answered = probe.try_ask(request)?.is_some();
             let expected = || format!("{} of element 0", request.function().spec().name);
-            probe.check(assumed("SDA-4"), answered, expected, "an error");
+            probe.check(assumed(SDA_4), answered, expected, "an error");
         }
     }
     Ok(())
@@ -195,26 +197,26 @@ fn attributes_of(
     element: ElementAddress,
 ) -> Step {
     let text = |text: &ElementText| text.text.text.to_string();
-    let name: ElementText = attribute(probe, "SDA-6", ReadElementName::new(element))?;
+    let name: ElementText = attribute(probe, SDA_6, ReadElementName::new(element))?;
     let at = format!("element {} of {instance}", element.index_offset());
     let found = || format!("{:?} of {at}", text(&name));
-    probe.check("SDA-6", !text(&name).is_empty(), "a name", found);
+    probe.check(SDA_6, !text(&name).is_empty(), "a name", found);
     let is_own = of_instance.is_none_or(|of_instance| text(of_instance) != text(&name));
-    probe.check("SDA-4", is_own, "another name than the instance's, which element 0 has", found);
-    let ty: ElementText = attribute(probe, "SDA-7", ReadElementType::new(element))?;
-    let length: ElementLength = attribute(probe, "SDA-8", ReadElementLength::new(element))?;
-    let unit: ElementText = attribute(probe, "SDA-6", ReadElementUnit::new(element))?;
+    probe.check(SDA_4, is_own, "another name than the instance's, which element 0 has", found);
+    let ty: ElementText = attribute(probe, SDA_7, ReadElementType::new(element))?;
+    let length: ElementLength = attribute(probe, SDA_8, ReadElementLength::new(element))?;
+    let unit: ElementText = attribute(probe, SDA_6, ReadElementUnit::new(element))?;
     let flag = probe.try_ask(ReadElementWriteFlag::new(element))?;
-    probe.check("ADR-6", flag.is_some(), || format!("a write flag of {at}"), "an error");
-    let flag: ElementWriteFlag = attribute(probe, "SDA-9", ReadElementWriteFlag::new(element))?;
+    probe.check(ADR_6, flag.is_some(), || format!("a write flag of {at}"), "an error");
+    let flag: ElementWriteFlag = attribute(probe, SDA_9, ReadElementWriteFlag::new(element))?;
     for one in [&name, &unit, &ty] {
         let readable = !text(one).chars().any(char::is_control);
         let found = || format!("{:?} of {at}", text(one));
-        probe.check(assumed("GEN-3"), readable, "CP1252 characters", found);
+        probe.check(assumed(GEN_3), readable, "CP1252 characters", found);
     }
     type_and_length(probe, &text(&ty), length.get(), &at);
     let found = || format!("{} of {at}", flag.0);
-    probe.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", found);
+    probe.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", found);
     Ok(())
 }
 
@@ -230,18 +232,18 @@ fn content(probe: &mut Probe<'_>) -> Step {
                 // Some offsets of the decoder are functions (SDA-12).
                 let function = error.kind() == ErrorKind::Function;
                 let found = || format!("{length} bytes of {at}");
-                probe.check("SDA-8", function, "no more bytes than a frame carries", found);
+                probe.check(SDA_8, function, "no more bytes than a frame carries", found);
                 return Ok(());
             }
         };
-        let content = probe.ask(["SDA-8", "ADR-6"], read)?;
+        let content = probe.ask([SDA_8, ADR_6], read)?;
         let found = || format!("{} bytes of {at}", content.len());
         let sized = u32::try_from(content.len()) == Ok(length);
-        probe.check("SDA-8", sized, || format!("the {length} bytes it says to have"), found);
+        probe.check(SDA_8, sized, || format!("the {length} bytes it says to have"), found);
         if type_name == "BOOLEAN" {
             let bit = matches!(*content, [0 | 1]);
             let found = || format!("{content:?} of {at}");
-            probe.check(assumed("GEN-5"), bit, "a BOOLEAN of 0 or 1", found);
+            probe.check(assumed(GEN_5), bit, "a BOOLEAN of 0 or 1", found);
         }
         Ok(())
     })
@@ -254,7 +256,7 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(rank) = rank else { return Ok(()) };
         let by_index = element_by_rank(element, rank);
         let Some(length) = probe.length_of(element)? else { return Ok(()) };
-        let rules = ["ADR-1", "ADR-12"];
+        let rules = [ADR_1, ADR_12];
         let what = format!("element {} of {instance}", element.index_offset());
         let pairs = attribute_reads(element).into_iter().zip(attribute_reads(by_index));
         for (one, other) in pairs {
@@ -281,7 +283,7 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
         let good = RawCall::new(request)?;
         let bad = good.with(|call| call.read_length = 0);
         let what = format!("a read length of 0 for {}", request.function().spec().name);
-        probe.refuses(assumed("ADS-1"), &what, bad, &good)?;
+        probe.refuses(assumed(ADS_1), &what, bad, &good)?;
     }
     Ok(())
 }

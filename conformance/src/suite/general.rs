@@ -10,26 +10,27 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementText, ObjectAddress};
 use ads_cnc::{CncString, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed, online};
+use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("gen-ports-answer", &["GEN-4"], Needs::Queries, ports_answer,
+    case("gen-ports-answer", &[GEN_4], Needs::Queries, ports_answer,
         "At each port that is claimed a task is"),
-    case("gen-tasks-apart", &["GEN-4"], Needs::Malformed, tasks_apart,
+    case("gen-tasks-apart", &[GEN_4], Needs::Malformed, tasks_apart,
         "A task answers at its own port, and not at another's"),
-    case("gen-type-sizes", &["GEN-5"], Needs::Queries, type_sizes,
+    case("gen-type-sizes", &[GEN_5], Needs::Queries, type_sizes,
         "A variable takes the bytes of its type for each of its elements"),
-    case("gen-numbering", &["GEN-6", "ADR-2"], Needs::Queries, numbering,
+    case("gen-numbering", &[GEN_6, ADR_2], Needs::Queries, numbering,
         "Channels are counted from 1, spindles from 0"),
-    case("gen-no-channel-0", &["GEN-6"], Needs::Malformed, no_channel_0,
+    case("gen-no-channel-0", &[GEN_6], Needs::Malformed, no_channel_0,
         "No channel has the number 0, and none the rank 0; no place of a channel is place 0"),
-    case("gen-names-found", &["GEN-3"], Needs::Queries, names_found,
+    case("gen-names-found", &[GEN_3], Needs::Queries, names_found,
         "A name is found by the characters it is described with, those beyond ASCII too"),
-    case("gen-names-within", &["GEN-3"], Needs::Simulator, names_within,
+    case("gen-names-within", &[GEN_3], Needs::Simulator, names_within,
         "Names and units are CP1252, as the CNC has them within"),
 ];
 
@@ -49,7 +50,7 @@ fn ports_answer(probe: &mut Probe<'_>) -> Step {
             [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
         });
         // A claimed port must exist even if its number is not stated in a manual.
-        probe.check("GEN-4", !nobody, || format!("a task at port {}", port.0), &exchange);
+        probe.check(GEN_4, !nobody, || format!("a task at port {}", port.0), &exchange);
     }
     Ok(())
 }
@@ -66,7 +67,7 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
         let good = RawCall::new(request)?;
         for &port in ports {
             let what = format!("{} at port {}", request.function().spec().name, port.0);
-            probe.refuses("GEN-4", &what, good.with(|call| call.port = port), &good)?;
+            probe.refuses(GEN_4, &what, good.with(|call| call.port = port), &good)?;
         }
     }
     probe.finish("neither COM nor SDA is claimed")
@@ -74,7 +75,7 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
 
 /// The size of BOOLEAN is printed, those of other types are documented online.
 fn rule_of(var_type: VariableType) -> Rule {
-    if var_type == VariableType::BOOLEAN { "GEN-5".into() } else { online("GEN-5") }
+    if var_type == VariableType::BOOLEAN { GEN_5.into() } else { online(GEN_5) }
 }
 
 fn type_sizes(probe: &mut Probe<'_>) -> Step {
@@ -108,13 +109,13 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
         let zero = find(probe, Class::Decoder, 0)?;
         let none = zero.is_none_or(|zero| zero == ObjectAddress::NONE);
         let found = || format!("{zero:?}, that of channel {first} being {there:?}");
-        probe.check("GEN-6", none, "no decoder of a channel 0", found);
+        probe.check(GEN_6, none, "no decoder of a channel 0", found);
     }
     if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
         let zero = find(probe, Class::Spindle, 0)?;
         let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
         let found = || format!("{zero:?}");
-        probe.check(["GEN-6", "ADR-2"], there, "a first spindle with the index 0", found);
+        probe.check([GEN_6, ADR_2], there, "a first spindle with the index 0", found);
     }
     probe.finish("the target names no instance")
 }
@@ -126,7 +127,7 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
     for group in [0x12_2300, 0x02_2300] {
         let bad = good.with(|call| call.index_group = IndexGroup::new(group));
         let what = format!("the variables of channel 0 in group {group:#x}");
-        probe.refuses("GEN-6", &what, &bad, &good)?;
+        probe.refuses(GEN_6, &what, &bad, &good)?;
     }
     let Some(variables) = probe.variables(channel).if_known()? else { return Ok(()) };
     let Some(name) = name_on_axes(&variables) else { return Ok(()) };
@@ -135,7 +136,7 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
         AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();
     let good = RawCall::new(request)?;
     let offset = ads_cnc::address::IndexOffset::new(good.index_offset.get() & 0xFFFF);
-    probe.refuses("GEN-6", "a name at place 0", good.with(|call| call.index_offset = offset), &good)
+    probe.refuses(GEN_6, "a name at place 0", good.with(|call| call.index_offset = offset), &good)
 }
 
 /// Whether a name has characters that a wrong code page or 7 bits would change.
@@ -158,10 +159,10 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             let by_name = HandleByName { channel, name: name_of(&variable) };
             let found = probe.try_ask(by_name)?.is_some();
             let expected = || format!("a handle of {}", variable.name.text);
-            probe.check("GEN-3", found, expected, "the name is not found");
+            probe.check(GEN_3, found, expected, "the name is not found");
             // Bytes that look like UTF-8 may be intended.
             let text = Hex(name.to_vec());
-            probe.check(assumed("GEN-3"), !is_utf_8(name), "one byte a character", text);
+            probe.check(assumed(GEN_3), !is_utf_8(name), "one byte a character", text);
         }
     }
     probe.finish("no name has a character beyond ASCII")
@@ -187,11 +188,11 @@ fn text<'r>(probe: &mut Probe<'_>, held: &CncString, read: impl Iterator<Item = 
     }
     let read: Vec<&[u8]> = read.collect();
     let wrong = read.iter().find(|read| is_miswritten(bytes, read));
-    let kept = read.contains(&bytes);
-    if kept || wrong.is_some() {
+    let passed = read.contains(&bytes);
+    if passed || wrong.is_some() {
         let expected = || format!("{held}: {}", Hex(bytes.to_vec()));
         let found = || Hex(wrong.copied().unwrap_or_default().to_vec());
-        probe.check("GEN-3", kept, expected, found);
+        probe.check(GEN_3, passed, expected, found);
     }
 }
 
@@ -212,7 +213,7 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
             text(probe, held, read.iter().map(|read| read.text.text.as_bytes()));
         }
     }
-    for variable in cnc.held_variables() {
+    for variable in cnc.current_variables() {
         if !is_telling(variable.name.as_bytes()) || !claimed.contains(&variable.channel) {
             continue;
         }

@@ -6,6 +6,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
 use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, Steady, name_of};
 use super::row::{CaseRow, case};
@@ -14,13 +15,13 @@ use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     // The first case that reads values: the handle was not requested by name before.
-    case("var-described-handle", &["VAR-4", "VAR-9", "VAR-10"], Needs::Queries, described,
+    case("var-described-handle", &[VAR_4, VAR_9, VAR_10], Needs::Queries, described,
         "A description has the name and the handle that the variable is read by"),
-    case("var-handle-by-name", &["VAR-9", "VAR-10"], Needs::Queries, by_name,
+    case("var-handle-by-name", &[VAR_9, VAR_10], Needs::Queries, by_name,
         "A name's handle is the one in its description, and no other's"),
-    case("var-handle-stays", &["VAR-10"], Needs::Queries, stays,
+    case("var-handle-stays", &[VAR_10], Needs::Queries, stays,
         "A handle keeps its variable, whatever else is asked, read or refused meanwhile"),
-    case("val-unknown-handle", &["ADS-4", "VAR-11"], Needs::Malformed, unknown,
+    case("val-unknown-handle", &[ADS_4, VAR_11], Needs::Malformed, unknown,
         "A handle nobody has is answered by an error"),
 ];
 
@@ -37,13 +38,13 @@ fn described(probe: &mut Probe<'_>) -> Step {
             let by_name = ReadByName { channel, name: name_of(&variable) };
             let answered = probe.try_ask(by_handle)?.is_some();
             let expected = || format!("an answer to the handle {what} is described with");
-            probe.check(["VAR-4", "VAR-10"], answered, expected, "an error");
+            probe.check([VAR_4, VAR_10], answered, expected, "an error");
             let exchange = probe.send(by_name)?;
             let named = exchange.success().is_some();
             let expected = || format!("an answer to the name {what}");
-            probe.check(["VAR-4", "VAR-9"], named, expected, &exchange);
+            probe.check([VAR_4, VAR_9], named, expected, &exchange);
             if answered && named {
-                steady.same(probe, ["VAR-4", "VAR-10"], &what, by_handle, by_name)?;
+                steady.same(probe, [VAR_4, VAR_10], &what, by_handle, by_name)?;
             }
         }
     }
@@ -52,7 +53,7 @@ fn described(probe: &mut Probe<'_>) -> Step {
 
 /// The handle of a name, which must have one.
 fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
-    let rules = ["VAR-9", "VAR-10"];
+    let rules = [VAR_9, VAR_10];
     let data = probe.ask(rules, HandleByName { channel, name })?;
     let handle = Handle::decode(&data);
     probe.require(rules, handle.is_ok(), "a handle of four bytes", || Hex(data))?;
@@ -69,15 +70,15 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             // No manual states that a variable has only one handle, so the values are compared.
             let expected =
                 || format!("the description's {:?} for {}", variable.handle, name.text());
-            let rule = assumed("VAR-10");
+            let rule = assumed(VAR_10);
             probe.check(rule, handle == variable.handle, expected, || format!("{handle:?}"));
             let found = || format!("{handle:?} of {} again", name.text());
             probe.check(rule, handles.insert(handle), "a handle of its own", found);
-            let read = probe.ask("VAR-10", whole(channel, handle))?;
+            let read = probe.ask(VAR_10, whole(channel, handle))?;
             let sized = u32::try_from(read.len()) == Ok(variable.size)
                 || variable.var_type.element_size().is_none();
             let found = || format!("{} bytes of {}", read.len(), name.text());
-            probe.check("VAR-10", sized, || format!("its {} bytes", variable.size), found);
+            probe.check(VAR_10, sized, || format!("its {} bytes", variable.size), found);
         }
     }
     Ok(())
@@ -104,10 +105,10 @@ fn stays(probe: &mut Probe<'_>) -> Step {
         for time in ["once", "again"] {
             let read = probe.try_ask(by_handle)?.is_some();
             let expected = || format!("{} read by its handle {time}", variable.name.text);
-            probe.check("VAR-10", read, expected, "an error");
+            probe.check(VAR_10, read, expected, "an error");
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
-        steady.same(probe, "VAR-10", &variable.name.text, by_handle, by_name)?;
+        steady.same(probe, VAR_10, &variable.name.text, by_handle, by_name)?;
     }
     steady.finish()
 }
@@ -131,7 +132,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     for number in numbers.filter(|number| !taken.contains(number)) {
         let what = format!("the handle {number:#x}");
         let unknown = whole(channel, Handle(number));
-        probe.refuses(["ADS-4", "VAR-11"], &what, unknown, whole(channel, known.handle))?;
+        probe.refuses([ADS_4, VAR_11], &what, unknown, whole(channel, known.handle))?;
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ use ads_cnc::operation::{
     ReadByHandle, ReadByName, ReadDescriptors, Request, Service,
 };
 use ads_cnc::{Kind, TextRef, U32List};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, RawCall};
 use super::row::{CaseRow, case};
@@ -17,29 +18,29 @@ use crate::judge::{Needs, OrStop as _, Rules, Step, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("bad-kind", &["VAR-1"], Needs::Malformed, bad_kind,
+    case("bad-kind", &[VAR_1], Needs::Malformed, bad_kind,
         "A kind with a final dot, without NUL, unknown or too long is answered by an error"),
-    case("bad-index-kind", &["VAR-3"], Needs::Malformed, bad_index_kind,
+    case("bad-index-kind", &[VAR_3], Needs::Malformed, bad_index_kind,
         "A request by index that is cut anywhere is answered by an error"),
-    case("bad-name", &["VAR-9"], Needs::Malformed, bad_name,
+    case("bad-name", &[VAR_9], Needs::Malformed, bad_name,
         "A name without NUL, with bytes behind it or too long is answered by an error"),
-    case("bad-handle-header", &["VAR-11", "VAR-24"], Needs::Malformed, bad_handle_header,
+    case("bad-handle-header", &[VAR_11, VAR_24], Needs::Malformed, bad_handle_header,
         "A handle header that is cut, or whose count lies, is answered by an error"),
-    case("bad-address", &["ADS-4"], Needs::Malformed, bad_address,
+    case("bad-address", &[ADS_4], Needs::Malformed, bad_address,
         "An index group, index offset or port that nobody has is answered by an error"),
-    case("bad-service", &["ADS-4"], Needs::Malformed, bad_service,
+    case("bad-service", &[ADS_4], Needs::Malformed, bad_service,
         "A function is not answered to another service than its own"),
-    case("bad-read-length", &["COM-3", "ADS-3"], Needs::Malformed, bad_read_length,
+    case("bad-read-length", &[COM_3, ADS_3], Needs::Malformed, bad_read_length,
         "A read length that does not hold the answer is answered by an error"),
 ];
 
 /// A valid request, to be sent with a fault.
-struct Spoilt<'p, 's> {
+struct MalformedRequest<'p, 's> {
     probe: &'p mut Probe<'s>,
     good: RawCall,
 }
 
-impl<'p, 's> Spoilt<'p, 's> {
+impl<'p, 's> MalformedRequest<'p, 's> {
     fn new<'a>(probe: &'p mut Probe<'s>, request: impl Into<Request<'a>>) -> Step<Self> {
         Ok(Self { probe, good: RawCall::new(request)? })
     }
@@ -52,7 +53,7 @@ impl<'p, 's> Spoilt<'p, 's> {
     /// Sends data whose count and indices contradict each other, of the length that the count
     /// requires.
     fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
-        self.data(["VAR-24", "VAR-11"], what, data)
+        self.data([VAR_24, VAR_11], what, data)
     }
 
     /// Sends the data with another address, service or length.
@@ -63,7 +64,7 @@ impl<'p, 's> Spoilt<'p, 's> {
 
 fn bad_kind(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
-    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    let mut malformed = MalformedRequest::new(probe, CountVariables::new(channel, Kind::V_E))?;
     let long = [b"V.E".as_slice(), &[0; 254]].concat();
     for (what, data) in [
         ("a kind with a final dot", &b"V.E.\0"[..]),
@@ -73,22 +74,22 @@ fn bad_kind(probe: &mut Probe<'_>) -> Step {
         ("a kind in small letters", b"v.e\0"),
         ("a kind of 257 bytes", &long),
     ] {
-        spoilt.data(assumed("VAR-1"), what, data)?;
+        malformed.data(assumed(VAR_1), what, data)?;
     }
     Ok(())
 }
 
 fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
-    let mut spoilt = Spoilt::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
-    let good = spoilt.good.data.clone();
+    let mut malformed = MalformedRequest::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
+    let good = malformed.good.data.clone();
     for len in 0..good.len() {
         let what = format!("the request cut to {len} bytes");
-        spoilt.data(assumed("VAR-3"), &what, good.get(..len).unwrap_or_default())?;
+        malformed.data(assumed(VAR_3), &what, good.get(..len).unwrap_or_default())?;
     }
     let with_dot = [good.get(..7).unwrap_or_default(), &b".\0"[..]].concat();
-    spoilt.data(assumed("VAR-3"), "a kind with a final dot", &with_dot)?;
-    spoilt.data(assumed("VAR-3"), "no kind", b"\0\0\0\0\0")
+    malformed.data(assumed(VAR_3), "a kind with a final dot", &with_dot)?;
+    malformed.data(assumed(VAR_3), "no kind", b"\0\0\0\0\0")
 }
 
 fn bad_name(probe: &mut Probe<'_>) -> Step {
@@ -100,8 +101,8 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
     let requests: [Request<'_>; 2] =
         [HandleByName { channel, name: field }.into(), ReadByName { channel, name: field }.into()];
     for request in requests {
-        let mut spoilt = Spoilt::new(probe, request)?;
-        let good = spoilt.good.data.clone();
+        let mut malformed = MalformedRequest::new(probe, request)?;
+        let good = malformed.good.data.clone();
         let open = good.split_last().map(|(_, open)| open.to_vec()).unwrap_or_default();
         let behind = [&good, &b"x"[..]].concat();
         let long = [&good[..], &vec![0; 257_usize.saturating_sub(good.len())]].concat();
@@ -111,7 +112,7 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
             ("bytes behind the NUL", behind),
             ("a name of 257 bytes", long),
         ] {
-            spoilt.data(assumed("VAR-9"), what, &data)?;
+            malformed.data(assumed(VAR_9), what, &data)?;
         }
     }
     // A longer name than any variable has.
@@ -123,11 +124,11 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
             ReadByName { channel, name: field }.into(),
         ];
         for request in requests {
-            let mut spoilt = Spoilt::new(probe, request)?;
+            let mut malformed = MalformedRequest::new(probe, request)?;
             let mut long = known.name.text.as_bytes().to_vec();
             long.resize(256, b'q');
             long.push(0);
-            spoilt.data("VAR-9", "a name of 256 characters", &long)?;
+            malformed.data(VAR_9, "a name of 256 characters", &long)?;
         }
     }
     Ok(())
@@ -139,15 +140,15 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     let array = variables.iter().find(|variable| variable.dimensions.len() == 1);
     let array = array.or_not_applicable("no variable is an array")?;
     let request = ReadByHandle::new(channel, array.handle, U32List::from(&[0]));
-    let mut spoilt = Spoilt::new(probe, request)?;
-    let good = spoilt.good.data.clone();
+    let mut malformed = MalformedRequest::new(probe, request)?;
+    let good = malformed.good.data.clone();
     for len in 0..good.len() {
         let what = format!("the header cut to {len} bytes");
         let data = good.get(..len).unwrap_or_default();
         if len < 8 {
-            spoilt.data(assumed("VAR-11"), &what, data)?;
+            malformed.data(assumed(VAR_11), &what, data)?;
         } else {
-            spoilt.of_other_length(&what, data)?;
+            malformed.of_other_length(&what, data)?;
         }
     }
     let handle = good.get(..4).unwrap_or_default();
@@ -167,21 +168,22 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
         let mut data = handle.to_vec();
         data.extend(count.to_le_bytes());
         data.resize(indices.saturating_mul(4).saturating_add(8), 0);
-        spoilt.of_other_length(&format!("a count of {count} beside {indices} indices"), &data)?;
+        malformed
+            .of_other_length(&format!("a count of {count} beside {indices} indices"), &data)?;
     }
     for more in 1..4 {
         let mut data = good.clone();
         data.extend((0..more).map(|_| 0));
-        spoilt.of_other_length(&format!("{more} bytes behind the last index"), &data)?;
+        malformed.of_other_length(&format!("{more} bytes behind the last index"), &data)?;
     }
     Ok(())
 }
 
 fn bad_address(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
-    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    let mut malformed = MalformedRequest::new(probe, CountVariables::new(channel, Kind::V_E))?;
     for group in [0, 0xF005, 0x2301, 0x12_2300, 0x12_2F01, 0x12_F301, 0x112_2301, u32::MAX] {
-        spoilt.call("ADS-4", &format!("the group {group:#x}"), |call| {
+        malformed.call(ADS_4, &format!("the group {group:#x}"), |call| {
             call.index_group = IndexGroup::new(group);
         })?;
     }
@@ -193,28 +195,28 @@ fn bad_address(probe: &mut Probe<'_>) -> Step {
     };
     let free = (0x44..).filter(is_free).take(2);
     for offset in [0, 0x43].into_iter().chain(free).chain([0x144, 0x1_0044, u32::MAX]) {
-        spoilt.call("ADS-4", &format!("the offset {offset:#x}"), |call| {
+        malformed.call(ADS_4, &format!("the offset {offset:#x}"), |call| {
             call.index_offset = IndexOffset::new(offset);
         })?;
     }
     for port in [0, 1, 550, 554, u16::MAX] {
-        spoilt.call("ADS-4", &format!("the port {port}"), |call| call.port = AmsPort(port))?;
+        malformed.call(ADS_4, &format!("the port {port}"), |call| call.port = AmsPort(port))?;
     }
-    spoilt.call("ADS-4", "the port of another task", |call| call.port = AmsPort::COM)?;
-    let mut spoilt = Spoilt::new(probe, CountObjects::new(channel))?;
+    malformed.call(ADS_4, "the port of another task", |call| call.port = AmsPort::COM)?;
+    let mut malformed = MalformedRequest::new(probe, CountObjects::new(channel))?;
     for group in [0x13_0000, 0x13_0300, 0x13_1101, 0x14_0101] {
-        spoilt.call("ADS-4", &format!("the group {group:#x}"), |call| {
+        malformed.call(ADS_4, &format!("the group {group:#x}"), |call| {
             call.index_group = IndexGroup::new(group);
         })?;
     }
-    spoilt.call("ADS-4", "the port of another task", |call| call.port = AmsPort::SDA)
+    malformed.call(ADS_4, "the port of another task", |call| call.port = AmsPort::SDA)
 }
 
 fn bad_service(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
-    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    let mut malformed = MalformedRequest::new(probe, CountVariables::new(channel, Kind::V_E))?;
     for service in [Service::Read, Service::Write] {
-        spoilt.call("ADS-4", &format!("{service} at 0x44"), |call| {
+        malformed.call(ADS_4, &format!("{service} at 0x44"), |call| {
             call.service = service;
             // A Read has no data.
             if service == Service::Read {
@@ -222,10 +224,10 @@ fn bad_service(probe: &mut Probe<'_>) -> Step {
             }
         })?;
     }
-    let mut spoilt = Spoilt::new(probe, CountObjects::new(channel))?;
+    let mut malformed = MalformedRequest::new(probe, CountObjects::new(channel))?;
     for service in [Service::ReadWrite, Service::Write] {
-        spoilt
-            .call("ADS-4", &format!("{service} of descriptors"), |call| call.service = service)?;
+        malformed
+            .call(ADS_4, &format!("{service} of descriptors"), |call| call.service = service)?;
     }
     Ok(())
 }
@@ -233,18 +235,18 @@ fn bad_service(probe: &mut Probe<'_>) -> Step {
 fn bad_read_length(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let list = ObjectList::from(channel);
-    let mut spoilt = Spoilt::new(probe, ReadDescriptors::new(list, 1, 1)?)?;
+    let mut malformed = MalformedRequest::new(probe, ReadDescriptors::new(list, 1, 1)?)?;
     for length in [0, 4, 83] {
         let what = format!("a read length of {length} for a descriptor");
-        spoilt.call(assumed("COM-3"), &what, |call| call.read_length = length)?;
+        malformed.call(assumed(COM_3), &what, |call| call.read_length = length)?;
     }
-    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    let mut malformed = MalformedRequest::new(probe, CountVariables::new(channel, Kind::V_E))?;
     for length in [0, 3] {
         let what = format!("a read length of {length} for a number");
-        spoilt.call(assumed("ADS-3"), &what, |call| call.read_length = length)?;
+        malformed.call(assumed(ADS_3), &what, |call| call.read_length = length)?;
     }
-    let mut spoilt = Spoilt::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
-    spoilt.call(assumed("ADS-3"), "a read length of 20 for a description", |call| {
+    let mut malformed = MalformedRequest::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
+    malformed.call(assumed(ADS_3), "a read length of 20 for a description", |call| {
         call.read_length = 20;
     })
 }

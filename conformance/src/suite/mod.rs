@@ -107,7 +107,7 @@ pub fn cases() -> Vec<Case> {
         id: row.id.to_owned(),
         title: row.title.to_owned(),
         subject: CaseSubject::Target,
-        requirements: row.clauses.to_vec(),
+        requirements: row.clauses.iter().map(|id| id.as_str()).collect(),
         needs: row.needs,
         body: Body::Probe,
     }));

@@ -2,6 +2,7 @@
 
 use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
 use super::row::{CaseRow, case};
@@ -10,13 +11,13 @@ use crate::values::until_nul;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("var-names-are-paths", &["VAR-20"], Needs::Queries, paths,
+    case("var-names-are-paths", &[VAR_20], Needs::Queries, paths,
         "Each name is one of structures, indices and the variable in them"),
-    case("var-by-name-only", &["VAR-18"], Needs::Queries, by_name_only,
+    case("var-by-name-only", &[VAR_18], Needs::Queries, by_name_only,
         "A variable that is by name only is read by its name and has no handle"),
-    case("var-dynamic-by-name", &["VAR-18", "VAR-19"], Needs::Queries, dynamic_by_name,
+    case("var-dynamic-by-name", &[VAR_18, VAR_19], Needs::Queries, dynamic_by_name,
         "V.P, V.L and V.S read the same among the variables as among the parameters"),
-    case("var-texts", &["VAR-22"], Needs::Queries, texts,
+    case("var-texts", &[VAR_22], Needs::Queries, texts,
         "A text ends at its first NUL, or with what there is of it"),
 ];
 
@@ -29,11 +30,11 @@ fn paths(probe: &mut Probe<'_>) -> Step {
                 Ok(_) => name.to_string(),
                 Err(error) => format!("{name}: {error}"),
             };
-            probe.check("VAR-20", path.is_ok(), "a name of structures and indices", found);
+            probe.check(VAR_20, path.is_ok(), "a name of structures and indices", found);
             let Ok(path) = path else { continue };
             // An array at a leaf is a single variable: its elements are not listed.
             let whole = path.elements().is_empty();
-            probe.check("VAR-20", whole, "the name of the variable, not of an element", found);
+            probe.check(VAR_20, whole, "the name of the variable, not of an element", found);
         }
     }
     Ok(())
@@ -57,10 +58,10 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let (channel, known) = (probe.channel()?, known(probe)?);
     for name in names.iter() {
         let name = TextRef::new(name)?;
-        probe.ask("VAR-18", ReadByName { channel, name })?;
+        probe.ask(VAR_18, ReadByName { channel, name })?;
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
-        probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
+        probe.refuses(VAR_18, &what, HandleByName { channel, name }, good)?;
     }
     Ok(())
 }
@@ -73,10 +74,10 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         let name = TextRef::from(name.as_cnc_str());
         let by_name = ReadByName { channel, name };
         let one = DynamicValueByName { channel, kind: *kind, name };
-        steady.same(probe, "VAR-19", name.text(), one, by_name)?;
+        steady.same(probe, VAR_19, name.text(), one, by_name)?;
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
-        probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
+        probe.refuses(VAR_18, &what, HandleByName { channel, name }, good)?;
     }
     steady.finish()
 }
@@ -93,11 +94,11 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);
             let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
             let expected = || format!("at most the {} bytes it is described with", variable.size);
-            probe.check(assumed("VAR-22"), fits, expected, found);
+            probe.check(assumed(VAR_22), fits, expected, found);
             let text = until_nul(&value);
             let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');
             let found = || format!("{text:02x?} of {}", variable.name.text);
-            probe.check(assumed("VAR-22"), readable, "characters up to the first NUL", found);
+            probe.check(assumed(VAR_22), readable, "characters up to the first NUL", found);
         }
     }
     probe.finish("no variable is a STRING")

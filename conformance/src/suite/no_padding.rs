@@ -2,6 +2,7 @@
 
 use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
 use super::row::{CaseRow, case};
@@ -9,7 +10,7 @@ use crate::judge::{Checks as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("gen-packed", &["GEN-2"], Needs::Queries, packed,
+    case("gen-packed", &[GEN_2], Needs::Queries, packed,
         "In descriptors and descriptions nothing stands between the fields"),
 ];
 
@@ -71,7 +72,7 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     };
     let shift = if is_unpacked { unpacked(bytes, 52, makes_sense) } else { None };
     let found = || format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check("GEN-2", shift.is_none(), "name and type at bytes 20 and 52", found);
+    probe.check(GEN_2, shift.is_none(), "name and type at bytes 20 and 52", found);
 }
 
 fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
@@ -86,7 +87,7 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
     let shift = if is_of_kind { None } else { unpacked(bytes, bytes.len(), makes_sense) };
     let found = || format!("{} bytes more in between", shift.unwrap_or_default());
     probe.check(
-        "GEN-2",
+        GEN_2,
         shift.is_none(),
         || format!("a name of {kind} behind the dimensions"),
         found,

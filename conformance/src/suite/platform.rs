@@ -7,6 +7,7 @@ use ads_cnc::address::{
 };
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     OBJECTS_MAX, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
@@ -17,13 +18,13 @@ use crate::objects::{List, Object};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("com-platform-objects", &["COM-1", "COM-4", "ADR-3"], Needs::Queries, platform_objects,
+    case("com-platform-objects", &[COM_1, COM_4, ADR_3], Needs::Queries, platform_objects,
         "The platform's objects are in its own list and in that of the first channel"),
-    case("com-platform-content", &["COM-4", "ADR-3"], Needs::Queries, platform_content,
+    case("com-platform-content", &[COM_4, ADR_3], Needs::Queries, platform_content,
         "The platform's objects hold the same, whichever list named them"),
-    case("com-platform-axes", &["COM-7", "ADR-3"], Needs::Queries, platform_axes,
+    case("com-platform-axes", &[COM_7, ADR_3], Needs::Queries, platform_axes,
         "Platform axes have object lists of their own"),
-    case("com-printed-content-address", &["COM-6"], Needs::PrintedExamples, printed_content_address,
+    case("com-printed-content-address", &[COM_6], Needs::PrintedExamples, printed_content_address,
         "Content is where the manuals print it"),
 ];
 
@@ -35,24 +36,24 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
     let platform = match platform {
         // Other cases judge the content of the list.
         Err(Stop::Judged) => {
-            probe.check("COM-4", false, "the platform's list under channel 0", "none");
+            probe.check(COM_4, false, "the platform's list under channel 0", "none");
             return Err(Stop::Judged);
         }
         other => other?,
     };
-    let own = descriptors_one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
+    let own = descriptors_one_by_one(probe, COM_4, ObjectList::PLATFORM, platform)?;
     let first = Channel::new(1)?;
     let all = known_object_count(probe, first.into())?;
-    let listed = descriptors_one_by_one(probe, "COM-4", first.into(), all)?;
+    let listed = descriptors_one_by_one(probe, COM_4, first.into(), all)?;
     let names: HashSet<String> =
         listed.as_ref().iter().map(|object| object.name().to_string()).collect();
     for object in own.as_ref().iter() {
         let name = object.name().to_string();
         let expected = "each of the platform's objects in the list of channel 1";
         let found = || format!("{name} is not in it");
-        probe.check("COM-4", names.contains(&name), expected, found);
+        probe.check(COM_4, names.contains(&name), expected, found);
         let com = matches!(object.index_group().parts(), Some(Group::Com(_)));
-        probe.check(assumed("ADR-3"), com, "a group of COM", || object.index_group());
+        probe.check(assumed(ADR_3), com, "a group of COM", || object.index_group());
     }
     Ok(())
 }
@@ -65,25 +66,25 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     let mut seen: HashSet<u32> = HashSet::new();
     for place in 1..=axes {
         let axis = PlatformAxis::new(place)?;
-        let data = probe.ask(assumed("COM-7"), CountObjects::new(axis))?;
+        let data = probe.ask(assumed(COM_7), CountObjects::new(axis))?;
         let number = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
         let expected = "the axis's objects";
-        probe.check(assumed("COM-7"), number > 0, expected, || format!("{number} objects"));
+        probe.check(assumed(COM_7), number > 0, expected, || format!("{number} objects"));
         if number == 0 {
             continue;
         }
         let objects: Descriptors =
-            probe.read(assumed("COM-7"), ReadDescriptors::new(axis, 1, number)?)?;
+            probe.read(assumed(COM_7), ReadDescriptors::new(axis, 1, number)?)?;
         let ids: Vec<u32> = objects.as_ref().iter().map(|object| object.id()).collect();
         let own = ids.iter().all(|&id| seen.insert(id));
         let found = || format!("IDs {ids:?}, some of them of another axis");
-        probe.check(assumed("COM-7"), own, || format!("objects of axis {place} alone"), found);
+        probe.check(assumed(COM_7), own, || format!("objects of axis {place} alone"), found);
         for object in objects.as_ref().iter() {
             let group = object.index_group();
             let of_axes =
                 matches!(group.parts(), Some(Group::Com(ComGroup { table: ComTable::Axis, .. })));
             let expected = "content in a group of platform axes";
-            probe.check(assumed("ADR-3"), of_axes, expected, || group);
+            probe.check(assumed(ADR_3), of_axes, expected, || group);
         }
     }
     Ok(())
@@ -105,7 +106,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         let what = object.name.to_string();
         let same = |one: &&Object| one.name == object.name && one.size() == object.size();
         if let Some(other) = of(first).find(same).and_then(|other| other.address.read().ok()) {
-            steady.same(probe, "COM-4", &what, one, other)?;
+            steady.same(probe, COM_4, &what, one, other)?;
         }
         // Also at the object's offset in the groups of both.
         for list in [ObjectList::PLATFORM, first] {
@@ -113,8 +114,8 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
             let there = ReadObject::new(group, offset, object.size())?;
             let answered = probe.try_ask(there)?.is_some();
             let expected = || format!("{what} in group {group}");
-            probe.check(["COM-4", "ADR-3"], answered, expected, "an error");
-            steady.same(probe, "COM-4", &what, one, there)?;
+            probe.check([COM_4, ADR_3], answered, expected, "an error");
+            steady.same(probe, COM_4, &what, one, there)?;
         }
     }
     applicable(any, "the platform has no object")?;
@@ -142,15 +143,15 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         let answered = exchange.success();
         let answered = answered.is_some_and(|content| !content.is_empty());
         let expected = || format!("content of the {what} at ({group}, {offset})");
-        probe.check("COM-6", answered, expected, &exchange);
+        probe.check(COM_6, answered, expected, &exchange);
     }
     let list = ObjectList::from(Channel::new(1)?);
     let number = known_object_count(probe, list)?;
-    let listed = descriptors_one_by_one(probe, "COM-6", list, number)?;
+    let listed = descriptors_one_by_one(probe, COM_6, list, number)?;
     let printed = "mc_command_single_block_w";
     let object = listed.as_ref().iter().find(|object| object.name() == printed);
     let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));
     let expected = || format!("{printed} at (0x120101, 0x1)");
-    probe.check("COM-6", address == Some((0x12_0101, 1)), expected, || format!("{address:#x?}"));
+    probe.check(COM_6, address == Some((0x12_0101, 1)), expected, || format!("{address:#x?}"));
     Ok(())
 }

@@ -3,7 +3,8 @@
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Service, Task};
-use ads_cnc_vectors::{Direction, Hex, ProvenanceKind, Vector, vector, vectors};
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
 use super::kit::{Probe, RawCall};
 use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
@@ -64,18 +65,18 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     for id in reply.cited().into_iter().map(|one| one.id.as_str()) {
         // A target that claims the printed examples is judged at the level of the example.
         let rule = Rule { id, level: Some(reply.level()) };
-        let kept = match received {
+        let passed = match received {
             Some(bytes) if bytes != expected => !wrong.contains(&id),
             received => received.is_some(),
         };
         let printed = || format!("{} as printed", spaced(&expected));
-        probe.check_reply(rule, kept, &expected, printed, &found);
+        probe.check_reply(rule, passed, &expected, printed, &found);
     }
     Ok(())
 }
 
 /// Requirements that consist of a printed example: a difference in any field breaks them.
-const EXAMPLES: [&str; 3] = ["SDA-3", "SDA-10", "DYN-7"];
+const EXAMPLES: [ClauseId; 3] = [SDA_3, SDA_10, DYN_7];
 
 /// The requirements of the fields in which a reply differs from the printed one, and those of the
 /// example as a whole; all of the vector's if none is about these fields.
@@ -99,5 +100,6 @@ fn wrong_requirements<'v>(
     if !all().any(|id| clauses.contains(&id)) {
         return all().collect();
     }
-    all().filter(|id| clauses.contains(id) || EXAMPLES.contains(id)).collect()
+    let is_example = |id: &str| EXAMPLES.iter().any(|example| example.as_str() == id);
+    all().filter(|id| clauses.contains(id) || is_example(id)).collect()
 }

@@ -1,7 +1,9 @@
 //! A row of a table of cases.
 
+use ads_cnc_vectors::ClauseId;
+
 use super::kit::Probe;
-use crate::judge::{Needs, Step, in_catalogue};
+use crate::judge::{Needs, Step};
 
 /// The function of a case.
 pub(super) type Try = fn(&mut Probe<'_>) -> Step;
@@ -9,7 +11,7 @@ pub(super) type Try = fn(&mut Probe<'_>) -> Step;
 /// A case with its function.
 pub(super) struct CaseRow {
     pub(super) id: &'static str,
-    pub(super) clauses: &'static [&'static str],
+    pub(super) clauses: &'static [ClauseId],
     pub(super) needs: Needs,
     pub(super) run: Try,
     pub(super) title: &'static str,
@@ -17,10 +19,10 @@ pub(super) struct CaseRow {
 
 pub(super) const fn case(
     id: &'static str,
-    clauses: &'static [&'static str],
+    clauses: &'static [ClauseId],
     needs: Needs,
     run: Try,
     title: &'static str,
 ) -> CaseRow {
-    CaseRow { id, clauses: in_catalogue(clauses), needs, run, title }
+    CaseRow { id, clauses, needs, run, title }
 }

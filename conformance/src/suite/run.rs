@@ -37,7 +37,7 @@ pub fn run(
         cases.into_iter().partition(|case| case.needs == Needs::Codec);
     let mut outcomes = Vec::new();
     if !of_codec.is_empty() {
-        let mut own = testee::Own { defect: defect.cloned() };
+        let mut own = testee::CodecTestee { defect: defect.cloned() };
         let terms = Terms { seed, subject: CaseSubject::Codec, edition: None, strict: true };
         outcomes = testee::judge(&mut own, of_codec, terms).outcomes;
     }

@@ -1,26 +1,28 @@
 //! Cases that compare values over ADS with the simulated CNC's state: every content has another
 //! value, so that none is mistaken for another.
 
-use super::kit::{self, Addresses, JudgedAddress, Probe, is_permuted};
+use ads_cnc_vectors::ids::*;
+
+use super::kit::{self, Addresses, JudgedAddress, Probe, is_permutation};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, Stop};
 use crate::objects::{List, Object, ValueAddress};
-use crate::simulator::{Holder, StoredContent};
+use crate::simulator::{ContentOwner, StoredContent};
 use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("held-is-read",
-        &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-4", "COM-5",
-            "GEN-1", "GEN-6"],
+        &[ADR_1, ADR_2, ADR_3, ADR_5, ADR_6, ADR_7, ADR_12, ADR_13, COM_4, COM_5,
+            GEN_1, GEN_6],
         Needs::Simulator, is_read,
         "What the CNC holds is read at the address of what holds it, the lowest byte first"),
     case("written-is-held",
-        &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-5", "GEN-1",
-            "GEN-6"],
+        &[ADR_1, ADR_2, ADR_3, ADR_5, ADR_6, ADR_7, ADR_12, ADR_13, COM_5, GEN_1,
+            GEN_6],
         Needs::Simulator, is_held,
         "What is written is held by what has the address, and by nothing else"),
-    case("held-is-described", &["COM-2", "OBJ-1"], Needs::Simulator, is_described,
+    case("held-is-described", &[COM_2, OBJ_1], Needs::Simulator, is_described,
         "All that the CNC holds is in its list, an object with its own name and size"),
 ];
 
@@ -74,15 +76,15 @@ fn judge(
     (expected, found): (&[u8], Option<&[u8]>),
     result: &str,
 ) {
-    let kept = found.is_some_and(|found| same(held, expected, found));
-    let permuted = is_number(held) && found.is_some_and(|found| is_permuted(expected, found));
+    let passed = found.is_some_and(|found| same(held, expected, found));
+    let permuted = is_number(held) && found.is_some_and(|found| is_permutation(expected, found));
     let what = || format!("{} of {} ({:?})", spaced(expected), held.name, held.holder);
     let shown = || found.map_or_else(|| result.to_owned(), spaced);
     if is_number(held) && found.is_some_and(|found| found.len() == expected.len()) {
-        probe.check("GEN-1", !permuted, what, shown);
+        probe.check(GEN_1, !permuted, what, shown);
     }
-    let rules = rules.iter().filter(|rule| !permuted || rule.id == "COM-5").copied();
-    probe.check(&rules.collect::<Vec<_>>(), kept, what, shown);
+    let rules = rules.iter().filter(|rule| !permuted || rule.id == COM_5.as_str()).copied();
+    probe.check(&rules.collect::<Vec<_>>(), passed, what, shown);
 }
 
 /// Sets and reads every content in each round; the original values are restored in any case.
@@ -97,13 +99,13 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
     for round in 0..ROUNDS {
         let values: Vec<Vec<u8>> =
             (1..).zip(&all).map(|(number, held)| value(held, number, round)).collect();
-        all.iter().zip(&values).for_each(|(held, value)| cnc.hold(held, value));
+        all.iter().zip(&values).for_each(|(held, value)| cnc.set_content(held, value));
         let of_round = |held: &StoredContent| is_bit(held) || round < ROUNDS_OF_NUMBERS;
         for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
             done = done.and_then(|()| read(probe, &addresses, held, value));
         }
     }
-    all.iter().for_each(|held| cnc.hold(held, &held.value));
+    all.iter().for_each(|held| cnc.set_content(held, &held.value));
     done
 }
 
@@ -130,7 +132,7 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
             value(held, number, 0)
         };
         done = done.and_then(|()| write(probe, &all, held, &addresses.of(held)?, &value));
-        all.iter().for_each(|held| cnc.hold(held, &held.value));
+        all.iter().for_each(|held| cnc.set_content(held, &held.value));
     }
     done
 }
@@ -145,7 +147,8 @@ fn write(
     let cnc = probe.cnc()?;
     for (place, rules) in addresses {
         // Other cases judge that the platform's data is under both addresses.
-        let rules: Vec<Rule> = rules.iter().filter(|rule| rule.id != "COM-4").copied().collect();
+        let rules: Vec<Rule> =
+            rules.iter().filter(|rule| rule.id != COM_4.as_str()).copied().collect();
         let Ok(request) = place.write(value) else { continue };
         if probe.target.profile.leaves(&held.name.to_string()) || !probe.may(request)? {
             continue;
@@ -166,18 +169,19 @@ fn write(
         let expected = || format!("no change but that of {} ({:?})", held.name, held.holder);
         let found = others.join(", ");
         probe.check(&rules, others.is_empty(), expected, found);
-        all.iter().for_each(|held| cnc.hold(held, &held.value));
+        all.iter().for_each(|held| cnc.set_content(held, &held.value));
     }
     Ok(())
 }
 
 /// Whether a list has the objects of an owner; channel 1's includes the platform's.
-fn is_list_of(holder: Holder, list: List) -> bool {
+fn is_list_of(holder: ContentOwner, list: List) -> bool {
     match (holder, list) {
-        (Holder::Platform, List::Platform) => true,
-        (Holder::Channel(channel) | Holder::ChannelAxis { channel, .. }, List::Channel(number)) => {
-            channel == number
-        }
+        (ContentOwner::Platform, List::Platform) => true,
+        (
+            ContentOwner::Channel(channel) | ContentOwner::ChannelAxis { channel, .. },
+            List::Channel(number),
+        ) => channel == number,
         _ => false,
     }
 }
@@ -193,7 +197,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         if let Some(count) = addresses.count(held) {
             let expected = || format!("element {} of {:?}", held.element, held.holder);
             let found = || format!("{count} elements");
-            probe.check("OBJ-1", held.element <= count, expected, found);
+            probe.check(OBJ_1, held.element <= count, expected, found);
         }
         // That platform axes have lists is assumed; an owner that is not claimed has none.
         if !objects.iter().any(|object| mine(&object)) {
@@ -209,7 +213,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let listed = objects.iter().filter(mine).find(at);
         let what = format!("{} ({:?})", held.name, held.holder);
         probe.check(
-            ["COM-2", "OBJ-1"],
+            [COM_2, OBJ_1],
             listed.is_some(),
             || format!("{what} in its list"),
             "it is not",
@@ -217,12 +221,12 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let Some(object) = listed else { continue };
         let sized = u32::try_from(held.value.len()) == Ok(object.size());
         let expected = || format!("{} bytes of {what}", held.value.len());
-        probe.check("COM-2", sized, expected, || format!("{} bytes", object.size()));
+        probe.check(COM_2, sized, expected, || format!("{} bytes", object.size()));
         // The object may have another name, but not that of another object, nor half of its own.
         let taken = all.iter().any(|one| one.name == object.name);
         let cut = held.name.as_bytes().starts_with(object.name.as_bytes());
         let named = object.name == held.name || !taken && !cut;
-        probe.check("COM-2", named, || format!("the name of {what}"), || &object.name);
+        probe.check(COM_2, named, || format!("the name of {what}"), || &object.name);
     }
     Ok(())
 }
@@ -248,7 +252,7 @@ mod tests {
             if is_number(&all[at]) {
                 let mut reversed = one[0].clone();
                 reversed.reverse();
-                assert!(is_permuted(&one[0], &reversed));
+                assert!(is_permutation(&one[0], &reversed));
             }
             alike += sequences[..at].iter().filter(|other| *other == one).count();
         }

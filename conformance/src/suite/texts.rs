@@ -2,15 +2,16 @@
 
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, WriteCheck, same};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, IfThere as _, Needs, Rule, Step, assumed};
+use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("gen-characters-written", &["GEN-3"], Needs::Writes, written,
+    case("gen-characters-written", &[GEN_3], Needs::Writes, written,
         "Every character of CP1252 that is written to a text is read again"),
 ];
 
@@ -49,7 +50,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
         let Some(before) = probe.value_at(&address)?.filter(|value| value.len() > 1) else {
             continue;
         };
-        let rules = [Rule::from("GEN-3")];
+        let rules = [Rule::from(GEN_3)];
         let write_check = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
         probe.changing(
             &write_check,
@@ -69,7 +70,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
 /// Writes all characters, as many as fit at a time.
 fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
-    for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
+    for (bytes, rule) in [(&all[..], Rule::from(GEN_3)), (&UNASSIGNED, assumed(GEN_3))] {
         // The last byte is the NUL.
         for piece in bytes.chunks(size.saturating_sub(1)) {
             // As long as the old text, because another length may be rejected.
@@ -88,7 +89,7 @@ fn is_read_again(
     value: &[u8],
 ) -> Step {
     // Which texts are accepted is not documented.
-    let taken = [assumed("GEN-3")];
+    let taken = [assumed(GEN_3)];
     if !probe.write_checked(
         &WriteCheck { what, rules: &taken, is_text: true, name: None },
         address,
@@ -97,8 +98,8 @@ fn is_read_again(
         return Ok(());
     }
     let read = probe.value_at(address)?.unwrap_or_default();
-    let kept = same(&read, value, true);
+    let passed = same(&read, value, true);
     let expected = || format!("{} of {what}, as written", Hex(value.to_vec()));
-    probe.check(rule, kept, expected, || Hex(read));
+    probe.check(rule, passed, expected, || Hex(read));
     Ok(())
 }

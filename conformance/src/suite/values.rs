@@ -4,6 +4,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
 use ads_cnc::{Description, U32List, VariableType};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_count,
@@ -16,15 +17,15 @@ use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("val-whole-by-handle", &["VAR-8", "VAR-11", "VAR-14"], Needs::Queries, whole_by_handle,
+    case("val-whole-by-handle", &[VAR_8, VAR_11, VAR_14], Needs::Queries, whole_by_handle,
         "Without an index, a handle gives the whole variable, in its described size"),
-    case("val-whole-by-name", &["VAR-9", "VAR-14", "GEN-2"], Needs::Queries, whole_by_name,
+    case("val-whole-by-name", &[VAR_9, VAR_14, GEN_2], Needs::Queries, whole_by_name,
         "A name gives the same bytes as its handle"),
-    case("val-elements-by-handle", &["VAR-11", "VAR-14", "VAR-21"], Needs::Queries, elements_by_handle,
+    case("val-elements-by-handle", &[VAR_11, VAR_14, VAR_21], Needs::Queries, elements_by_handle,
         "An index gives the element of that place in the whole array"),
-    case("val-elements-by-name", &["VAR-14", "VAR-20"], Needs::Queries, elements_by_name,
+    case("val-elements-by-name", &[VAR_14, VAR_20], Needs::Queries, elements_by_name,
         "A name with [index] gives the same element as the handle"),
-    case("val-string-size", &["VAR-25"], Needs::Queries, string_size,
+    case("val-string-size", &[VAR_25], Needs::Queries, string_size,
         "A text is no longer than one can be declared"),
 ];
 
@@ -40,7 +41,7 @@ fn compare_with_whole<'r>(
     let (request, name) = (request.into(), &variable.name.text);
     let compared = compare(
         probe,
-        |probe| probe.ask("VAR-14", whole(channel, variable)).map(Some),
+        |probe| probe.ask(VAR_14, whole(channel, variable)).map(Some),
         |probe, _| probe.try_ask(request),
         |whole, read| part(whole) == *read,
     )?;
@@ -67,15 +68,15 @@ fn whole(channel: Channel, variable: &Description) -> ReadByHandle<'static> {
 
 fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
     each_variable(probe, |probe, channel, variable| {
-        let value = probe.ask("VAR-11", whole(channel, variable))?;
+        let value = probe.ask(VAR_11, whole(channel, variable))?;
         let name = &variable.name.text;
         let expected = "at most 2048 bytes";
         let found = || format!("{} bytes of {name}", value.len());
-        probe.check("VAR-14", value.len() <= 2048, expected, found);
+        probe.check(VAR_14, value.len() <= 2048, expected, found);
         if variable.var_type.element_size().is_some() {
             let same = u32::try_from(value.len()) == Ok(variable.size);
             let expected = || format!("the {} bytes of its description", variable.size);
-            probe.check(["VAR-8", "VAR-14"], same, expected, found);
+            probe.check([VAR_8, VAR_14], same, expected, found);
         }
         Ok(())
     })
@@ -91,10 +92,10 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
             let same = u32::try_from(value.len()) == Ok(variable.size);
             let expected = || format!("the {} bytes of its description", variable.size);
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);
-            probe.check(["VAR-14", "GEN-2"], same, expected, found);
+            probe.check([VAR_14, GEN_2], same, expected, found);
         }
         let at = (channel, variable);
-        compare_with_whole(&mut steady, probe, "VAR-9", at, request, <[u8]>::to_vec)
+        compare_with_whole(&mut steady, probe, VAR_9, at, request, <[u8]>::to_vec)
     })?;
     steady.finish()
 }
@@ -106,11 +107,11 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
             let indices = place.as_slice();
             let request = ReadByHandle::new(channel, variable.handle, indices);
             if variable.var_type.element_size().is_some() {
-                let element = probe.ask("VAR-11", request)?;
+                let element = probe.ask(VAR_11, request)?;
                 let found =
                     || format!("{} bytes of {} {place:?}", element.len(), variable.name.text);
                 let sized = element.len() == size;
-                probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
+                probe.check(VAR_14, sized, || format!("{size} bytes of one element"), found);
             }
             if let ([_], VariableType::STRING) = (&place[..], variable.var_type) {
                 text_by_name(probe, channel, variable, &place)?;
@@ -141,10 +142,10 @@ fn text_by_name(
         |named, handled| same(handled, named, true),
     )?;
     match compared {
-        Compared::Same => probe.pass("VAR-11"),
+        Compared::Same => probe.pass(VAR_11),
         Compared::Differs(named, handled, _) => {
             let expected = || format!("{} of {name}, by handle too", Hex(named));
-            probe.check("VAR-11", false, expected, || Hex(handled));
+            probe.check(VAR_11, false, expected, || Hex(handled));
         }
         Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
     }
@@ -162,7 +163,7 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
             {
                 let found = || format!("{} bytes of {name}", element.len());
                 let sized = element.len() == size;
-                probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
+                probe.check(VAR_14, sized, || format!("{size} bytes of one element"), found);
             }
             let (at, part) = ((channel, variable), part(number, size));
             compare_with_whole(&mut steady, probe, brackets(variable), at, request, part)?;
@@ -178,7 +179,7 @@ fn string_size(probe: &mut Probe<'_>) -> Step {
             let texts = element_count(&variable.dimensions);
             let one = variable.size.checked_div(texts).unwrap_or(0);
             let found = || format!("{one} bytes for each text of {}", variable.name.text);
-            probe.check("VAR-25", (1..=800).contains(&one), "1 to 800 bytes", found);
+            probe.check(VAR_25, (1..=800).contains(&one), "1 to 800 bytes", found);
         }
         Ok(())
     })?;

@@ -11,6 +11,8 @@ use ads_cnc::{
     Decode as _, Description, Kind, TextRef, U32List, VariableAccess, VariableCount, VariablePath,
     VariableType,
 };
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::row::{CaseRow, case};
@@ -19,28 +21,28 @@ use crate::objects::KINDS;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("var-count", &["VAR-1", "VAR-2"], Needs::Queries, count,
+    case("var-count", &[VAR_1, VAR_2], Needs::Queries, count,
         "Each kind has a number, and no kind at all asks for their sum"),
     case("var-descriptions",
-        &["VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-9", "GEN-1", "GEN-3"],
+        &[VAR_1, VAR_2, VAR_3, VAR_4, VAR_5, VAR_6, VAR_7, VAR_8, VAR_9, GEN_1, GEN_3],
         Needs::Queries, descriptions,
         "Every index from 0 on has a description that holds together"),
-    case("var-index-beyond-last", &["VAR-1", "VAR-2"], Needs::Queries, index_beyond_last,
+    case("var-index-beyond-last", &[VAR_1, VAR_2], Needs::Queries, index_beyond_last,
         "The index behind the last is answered by an error"),
-    case("var-other-channel", &["VAR-2", "VAR-3", "VAR-14"], Needs::Queries, other_channel,
+    case("var-other-channel", &[VAR_2, VAR_3, VAR_14], Needs::Queries, other_channel,
         "In a channel that is not there, there is no variable either"),
-    case("var-structures-are-resolved", &["VAR-20"], Needs::Queries, structures_are_resolved,
+    case("var-structures-are-resolved", &[VAR_20], Needs::Queries, structures_are_resolved,
         "A structure's own name addresses nothing"),
-    case("var-padded-name", &["VAR-1", "VAR-9"], Needs::Malformed, padded_name,
+    case("var-padded-name", &[VAR_1, VAR_9], Needs::Malformed, padded_name,
         "NULs may pad a name or a kind up to 256 bytes"),
 ];
 
 /// The number of variables of a kind, which the target must return.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
-    let data = probe.ask(["VAR-1", "VAR-2"], CountVariables::new(channel, kind))?;
+    let data = probe.ask([VAR_1, VAR_2], CountVariables::new(channel, kind))?;
     let count = VariableCount::decode(&data);
     let found = || format!("{} bytes", data.len());
-    probe.require("VAR-2", count.is_ok(), "a number of 4 bytes", found)?;
+    probe.require(VAR_2, count.is_ok(), "a number of 4 bytes", found)?;
     Ok(count?.0)
 }
 
@@ -50,12 +52,12 @@ fn count(probe: &mut Probe<'_>) -> Step {
         for (_, kind) in probe.kinds() {
             sum = sum.saturating_add(number(probe, channel, kind)?);
         }
-        let VariableCount(all) = probe.read("VAR-1", CountVariables::new(channel, Kind::ALL))?;
+        let VariableCount(all) = probe.read(VAR_1, CountVariables::new(channel, Kind::ALL))?;
         let found = || format!("{all} of channel {}", channel.number());
         // Kinds that are not claimed are not counted here, but may exist.
         let whole = probe.kinds().len() == KINDS.len();
-        let kept = if whole { all == sum } else { all >= sum };
-        probe.check("VAR-1", kept, || format!("{sum} variables of all kinds"), found);
+        let passed = if whole { all == sum } else { all >= sum };
+        probe.check(VAR_1, passed, || format!("{sum} variables of all kinds"), found);
         if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }
@@ -64,7 +66,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec));
         let same = data.as_deref() == Some(&all.to_le_bytes());
-        probe.check(assumed("VAR-1"), same, || format!("{all} as for one NUL"), &exchange);
+        probe.check(assumed(VAR_1), same, || format!("{all} as for one NUL"), &exchange);
     }
     Ok(())
 }
@@ -77,11 +79,11 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
             let mut all = Vec::new();
             for index in 0..number {
                 let request = DescribeByIndex::new(channel, index, kind);
-                let variable: Description = probe.read("VAR-4", request)?;
+                let variable: Description = probe.read(VAR_4, request)?;
                 holds_together(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
                 let found = || format!("{} again at index {index}", variable.name.text);
-                probe.check("VAR-3", unique, "another variable at each index", found);
+                probe.check(VAR_3, unique, "another variable at each index", found);
                 all.push(variable);
             }
             descriptions_backwards(probe, channel, kind, &all)?;
@@ -107,7 +109,7 @@ fn descriptions_backwards(
         let same = is_first()?;
         if same || is_first()? {
             let expected = || format!("{} at index {index} again", first.name.text);
-            probe.check("VAR-3", same, expected, "another description");
+            probe.check(VAR_3, same, expected, "another description");
         }
     }
     Ok(())
@@ -117,42 +119,42 @@ fn descriptions_backwards(
 pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, kind: &str) {
     let name = variable.name.text.to_string();
     let of_kind = name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
-    probe.check("VAR-3", of_kind, || format!("a name of {kind}"), || format!("{name:?}"));
+    probe.check(VAR_3, of_kind, || format!("a name of {kind}"), || format!("{name:?}"));
     let askable = name.chars().count() < TEXT_MAX;
-    probe.check("VAR-9", askable, "a name of at most 255 characters", || format!("{name:?}"));
+    probe.check(VAR_9, askable, "a name of at most 255 characters", || format!("{name:?}"));
     let readable = !name.chars().any(char::is_control);
-    probe.check(assumed("GEN-3"), readable, "a name of CP1252 characters", || format!("{name:?}"));
+    probe.check(assumed(GEN_3), readable, "a name of CP1252 characters", || format!("{name:?}"));
     let known = variable.var_type.name().is_some();
     let expected = "a type from 1 to 9";
-    probe.check("VAR-5", known, expected, || format!("{} of {name}", variable.var_type.0));
+    probe.check(VAR_5, known, expected, || format!("{} of {name}", variable.var_type.0));
     let access = variable.access;
     let known = matches!(access, VariableAccess::READ_ONLY | VariableAccess::READ_WRITE);
-    probe.check("VAR-6", known, "access 1 or 2", || format!("{} of {name}", access.0));
+    probe.check(VAR_6, known, "access 1 or 2", || format!("{} of {name}", access.0));
     let empty = variable.dimensions.contains(&0);
     let found = || format!("{:?} of {name}", variable.dimensions);
-    probe.check("VAR-4", !empty, "at least one element in each dimension", found);
-    probe.check("VAR-7", !empty, "no dimension where there is no array", found);
+    probe.check(VAR_4, !empty, "at least one element in each dimension", found);
+    probe.check(VAR_7, !empty, "no dimension where there is no array", found);
     let Description { var_type, access, .. } = variable;
     // Invalid in this order, but valid when exchanged.
     let exchanged = !(1..=2).contains(&access.0)
         && VariableType(access.0).name().is_some()
         && (1..=2).contains(&var_type.0);
     let found = || format!("{} and {} of {name}", var_type.0, access.0);
-    probe.check("VAR-4", !exchanged, "the type, and behind it the access", found);
+    probe.check(VAR_4, !exchanged, "the type, and behind it the access", found);
     let Some(size) = variable.var_type.element_size() else { return };
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
         let found = || format!("{} bytes of {name}", variable.size);
-        probe.check("VAR-7", one, "one element where there is no dimension", found);
+        probe.check(VAR_7, one, "one element where there is no dimension", found);
     }
     let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
     let expected =
         || format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
     let found = || format!("{} bytes of {name}", variable.size);
-    probe.check("VAR-8", variable.size == whole, expected, found);
+    probe.check(VAR_8, variable.size == whole, expected, found);
     // A size in the wrong byte order usually exceeds every limit.
     let plausible = variable.size <= 0x00FF_FFFF;
-    probe.check("GEN-1", plausible, "a little-endian size", || format!("{:#x}", variable.size));
+    probe.check(GEN_1, plausible, "a little-endian size", || format!("{:#x}", variable.size));
 }
 
 fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
@@ -161,12 +163,12 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             let number = number(probe, channel, kind)?;
             let Some(last) = number.checked_sub(1) else {
                 let first = DescribeByIndex::new(channel, 0, kind);
-                probe.refuses_alone("VAR-2", "index 0 of no variable", first)?;
+                probe.refuses_alone(VAR_2, "index 0 of no variable", first)?;
                 continue;
             };
             for index in probe.beyond(number) {
                 probe.refuses(
-                    "VAR-2",
+                    VAR_2,
                     "an index behind the last",
                     DescribeByIndex::new(channel, index, kind),
                     DescribeByIndex::new(channel, last, kind),
@@ -187,19 +189,19 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     let what = format!("channel {}", absent.number());
     for (_, kind) in probe.kinds().into_iter().chain([("", Kind::ALL)]) {
         let count = |channel| CountVariables::new(channel, kind);
-        probe.refuses("VAR-2", &what, count(absent), count(channel))?;
+        probe.refuses(VAR_2, &what, count(absent), count(channel))?;
     }
     let variables = probe.variables(channel)?;
     let Some(known) = variables.first() else { return Ok(()) };
     let kind = VariablePath::from_text(known.name.text.as_cnc_str()).map(|path| path.kind());
     if let Some((_, kind)) = probe.kinds().into_iter().find(|(_, one)| Ok(*one) == kind) {
         let first = |channel| DescribeByIndex::new(channel, 0, kind);
-        probe.refuses("VAR-3", &what, first(absent), first(channel))?;
+        probe.refuses(VAR_3, &what, first(absent), first(channel))?;
     }
     let read = |channel| ReadByName { channel, name: name_of(known) };
-    probe.refuses("VAR-14", &what, read(absent), read(channel))?;
+    probe.refuses(VAR_14, &what, read(absent), read(channel))?;
     let read = |channel| ReadByHandle::new(channel, known.handle, U32List::EMPTY);
-    probe.refuses("VAR-14", &what, read(absent), read(channel))
+    probe.refuses(VAR_14, &what, read(absent), read(channel))
 }
 
 /// The structures around a leaf: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
@@ -240,9 +242,9 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
                 let what = format!("the structure {structure}");
                 let (name, good) = (TextRef::new(structure)?, name_of(leaf));
                 let handle = |name| HandleByName { channel, name };
-                probe.refuses("VAR-20", &what, handle(name), handle(good))?;
+                probe.refuses(VAR_20, &what, handle(name), handle(good))?;
                 let read = |name| ReadByName { channel, name };
-                probe.refuses("VAR-20", &what, read(name), read(good))?;
+                probe.refuses(VAR_20, &what, read(name), read(good))?;
             }
         }
     }
@@ -258,22 +260,22 @@ fn padded_name(probe: &mut Probe<'_>) -> Step {
     let zeros = [0; 256];
     let tail = zeros.get(..255_usize.saturating_sub(text.len()));
     let padded = HandleByName { channel, name: TextRef::with_tail(text, tail) };
-    same(probe, "VAR-9", plain.into(), padded.into())?;
+    same(probe, VAR_9, plain.into(), padded.into())?;
     let tail = zeros.get(..252);
     let kind = Kind::from_field(TextRef::with_tail(Kind::V_E.text(), tail));
     let plain = CountVariables::new(channel, Kind::V_E);
-    same(probe, "VAR-1", plain.into(), CountVariables::new(channel, kind).into())
+    same(probe, VAR_1, plain.into(), CountVariables::new(channel, kind).into())
 }
 
 /// Sends the same request twice, the second time in an assumed form.
-fn same(probe: &mut Probe<'_>, rule: &'static str, plain: Request<'_>, odd: Request<'_>) -> Step {
+fn same(probe: &mut Probe<'_>, rule: ClauseId, plain: Request<'_>, odd: Request<'_>) -> Step {
     let expected = probe.send(plain)?;
     let exchange = probe.send(odd)?;
     let data = |exchange: &crate::exchange::Exchange| {
         exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec))
     };
-    let kept = data(&exchange).is_some() && data(&exchange) == data(&expected);
-    probe.check(assumed(rule), kept, "the same answer as without padding", &exchange);
+    let passed = data(&exchange).is_some() && data(&exchange) == data(&expected);
+    probe.check(assumed(rule), passed, "the same answer as without padding", &exchange);
     Ok(())
 }
 

@@ -5,7 +5,8 @@ use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{HandleByName, ReadByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString, Description, TextRef};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{Probe, name_of};
 use super::row::{CaseRow, case};
@@ -13,11 +14,11 @@ use crate::judge::{Checks as _, Needs, OrStop as _, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("var-unknown-name", &["ADS-4", "VAR-9", "VAR-10"], Needs::Queries, unknown_name,
+    case("var-unknown-name", &[ADS_4, VAR_9, VAR_10], Needs::Queries, unknown_name,
         "A name nobody has is answered by an error"),
-    case("var-similar-name", &["VAR-9", "VAR-20"], Needs::Queries, similar_name,
+    case("var-similar-name", &[VAR_9, VAR_20], Needs::Queries, similar_name,
         "A name with another character or index is not the variable's"),
-    case("var-known-types", &["VAR-5"], Needs::Queries, known_types,
+    case("var-known-types", &[VAR_5], Needs::Queries, known_types,
         "Variables whose type is documented have its number"),
 ];
 
@@ -30,15 +31,15 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
         let (what, name) = (format!("the name {name:?}"), TextRef::new(name)?);
         let (handle, good) =
             (HandleByName { channel, name }, HandleByName { channel, name: known });
-        probe.refuses("ADS-4", &what, handle, good)?;
+        probe.refuses(ADS_4, &what, handle, good)?;
         let good = ReadByName { channel, name: known };
-        probe.refuses("ADS-4", &what, ReadByName { channel, name }, good)?;
+        probe.refuses(ADS_4, &what, ReadByName { channel, name }, good)?;
         // A success must not return the handle of an existing variable.
         let given = probe.try_ask(handle)?;
         let none = given.is_none();
         let found = || Hex(given.clone().unwrap_or_default());
         probe.check(
-            ["VAR-9", "VAR-10"],
+            [VAR_9, VAR_10],
             none,
             || format!("no handle for {what}"),
             || format!("{} for it", found()),
@@ -96,12 +97,12 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
             for other in other_structures(&name) {
                 let Ok(other) = other.parse::<CncString>() else { continue };
                 if fits(&other.as_bytes().to_vec()) {
-                    apart(probe, channel, "VAR-20", other.as_cnc_str(), name_of(known))?;
+                    apart(probe, channel, VAR_20, other.as_cnc_str(), name_of(known))?;
                 }
             }
             for other in others.filter(fits) {
                 let Ok(other) = CncStr::from_bytes(&other) else { continue };
-                apart(probe, channel, "VAR-9", other, name_of(known))?;
+                apart(probe, channel, VAR_9, other, name_of(known))?;
             }
         }
     }
@@ -111,7 +112,7 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
 fn apart(
     probe: &mut Probe<'_>,
     channel: Channel,
-    rule: &'static str,
+    rule: ClauseId,
     other: CncStr<'_>,
     known: TextRef<'_>,
 ) -> Step {
@@ -130,7 +131,7 @@ fn known_types(probe: &mut Probe<'_>) -> Step {
             let Some(of_service) = ServiceVariable::by_name(&name) else { continue };
             let expected = || format!("the type {:?} of {name}", of_service.var_type());
             let found = || format!("{:?}", variable.var_type);
-            probe.check("VAR-5", variable.var_type == of_service.var_type(), expected, found);
+            probe.check(VAR_5, variable.var_type == of_service.var_type(), expected, found);
         }
     }
     probe.finish("no variable has a type that is documented")

@@ -2,7 +2,8 @@
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
     NOTHING_WRITABLE, Probe, WriteCheck, axis_address, dynamic_among_variables, each_of_access,
@@ -14,17 +15,17 @@ use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-by-handle", &["VAR-6", "VAR-10", "VAR-12", "VAR-17"], Needs::Writes, by_handle,
+    case("write-by-handle", &[VAR_6, VAR_10, VAR_12, VAR_17], Needs::Writes, by_handle,
         "What is written by a handle is read back, and the old value after it"),
-    case("write-by-name", &["VAR-6", "VAR-13", "VAR-14", "VAR-17"], Needs::Writes, by_name,
+    case("write-by-name", &[VAR_6, VAR_13, VAR_14, VAR_17], Needs::Writes, by_name,
         "What is written by a name is read back by name and by handle"),
-    case("write-axis-variable", &["VAR-17", "VAR-26"], Needs::Writes, axis_variables,
+    case("write-axis-variable", &[VAR_17, VAR_26], Needs::Writes, axis_variables,
         "What is written on the axis interface is read with the axis behind the name"),
-    case("write-axis-read-only", &["VAR-6", "VAR-26"], Needs::Writes, axis_read_only,
+    case("write-axis-read-only", &[VAR_6, VAR_26], Needs::Writes, axis_read_only,
         "An axis variable that is READ_ONLY takes no value on the axis interface either"),
-    case("write-by-name-only", &["VAR-18"], Needs::Writes, by_name_only,
+    case("write-by-name-only", &[VAR_18], Needs::Writes, by_name_only,
         "What is by name only is written by its name"),
-    case("write-dynamic-by-name", &["VAR-19"], Needs::Writes, dynamic_by_name,
+    case("write-dynamic-by-name", &[VAR_19], Needs::Writes, dynamic_by_name,
         "V.P, V.L and V.S are written among the variables, by name"),
 ];
 
@@ -36,7 +37,7 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
         if !probe.may_write(&address, &name)? {
             return Ok(());
         }
-        let rules = ["VAR-12", "VAR-17", "VAR-6", "VAR-10"].map(Rule::from);
+        let rules = [VAR_12, VAR_17, VAR_6, VAR_10].map(Rule::from);
         probe.try_write(&write_check(variable, &name, &rules), &address, |_, _, _| Ok(()))?;
         Ok(())
     })
@@ -51,17 +52,17 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
         }
         let handle = variable.handle;
         let by_handle = ValueAddress::of_handle(channel, handle);
-        let rules = ["VAR-13", "VAR-17", "VAR-6"].map(Rule::from);
+        let rules = [VAR_13, VAR_17, VAR_6].map(Rule::from);
         probe.try_write(&write_check(variable, &name, &rules), &address, |probe, _, new| {
             let named = probe.value_at(&address)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
             let is_text = variable.var_type == VariableType::STRING;
             let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
-            let kept = same(&read, new, is_text);
-            probe.check("VAR-13", kept, expected, || Hex(read.clone()));
+            let passed = same(&read, new, is_text);
+            probe.check(VAR_13, passed, expected, || Hex(read.clone()));
             // The value by name and by handle must be equal.
-            let kept = kept || !same(&named, new, is_text);
-            probe.check("VAR-14", kept, expected, || Hex(read));
+            let passed = passed || !same(&named, new, is_text);
+            probe.check(VAR_14, passed, expected, || Hex(read));
             Ok(())
         })?;
         Ok(())
@@ -86,27 +87,27 @@ fn each_of_axes(
 }
 
 fn axis_variables(probe: &mut Probe<'_>) -> Step {
-    let rules = ["VAR-26", "VAR-17"].map(Rule::from);
+    let rules = [VAR_26, VAR_17].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_WRITE, |probe, channel, variable, at, what| {
         let named = ValueAddress::Name { channel, name: variable.name.text.clone() };
         probe.try_write(&write_check(variable, what, &rules), at, |probe, _, new| {
             let read = probe.value_at(&named)?.unwrap_or_default();
             let expected = || format!("{} of {}", Hex(new.to_vec()), variable.name.text);
-            probe.check("VAR-26", read == new, expected, || Hex(read));
+            probe.check(VAR_26, read == new, expected, || Hex(read));
             Ok(())
         })
     })
 }
 
 fn axis_read_only(probe: &mut Probe<'_>) -> Step {
-    let rules = ["VAR-6", "VAR-26"].map(Rule::from);
+    let rules = [VAR_6, VAR_26].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_ONLY, |probe, _, variable, at, what| {
         probe.write_refused(&write_check(variable, what, &rules), at, None)
     })
 }
 
 /// Writes variables without a handle. That they are writable is stated only "with restrictions".
-fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) -> Step {
+fn by_names(probe: &mut Probe<'_>, rule: ClauseId, names: Vec<CncString>) -> Step {
     let channel = probe.channel()?;
     for name in names {
         let what = name.to_string();
@@ -129,10 +130,10 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let names = probe.target.profile.by_name_only.clone();
     let names: Result<Vec<CncString>, _> = names.iter().map(|name| name.parse()).collect();
-    by_names(probe, "VAR-18", names?)
+    by_names(probe, VAR_18, names?)
 }
 
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
     let all = dynamic_among_variables(probe)?;
-    by_names(probe, "VAR-19", all.into_iter().map(|(_, name)| name).collect())
+    by_names(probe, VAR_19, all.into_iter().map(|(_, name)| name).collect())
 }

@@ -3,6 +3,7 @@
 use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     NOTHING_WRITABLE, OF_PLACES, Probe, WritableNumber, changed_value, is_sendable,
@@ -14,12 +15,12 @@ use crate::objects::{List, ValueAddress};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-after-refusal", &["ADS-2", "ADS-4", "VAR-12", "VAR-13"],
+    case("write-after-refusal", &[ADS_2, ADS_4, VAR_12, VAR_13],
         Needs::MalformedWrites, after_refusal,
         "Behind a write that was refused the next one is done, and its result is its own"),
-    case("write-objects-of-wrong-size", &["COM-5"], Needs::MalformedWrites, objects_of_wrong_size,
+    case("write-objects-of-wrong-size", &[COM_5], Needs::MalformedWrites, objects_of_wrong_size,
         "Of a write of another size that is refused nothing is in the object"),
-    case("write-empty-places", &["SDA-11"], Needs::MalformedWrites, empty_places,
+    case("write-empty-places", &[SDA_11], Needs::MalformedWrites, empty_places,
         "A place without an axis reads as blank, whatever was written there"),
 ];
 
@@ -28,7 +29,7 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
         let WritableNumber { channel, variable, value } = &known;
         let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
         let handle = ValueAddress::of_handle(*channel, variable.handle);
-        for (id, address) in [("VAR-13", known.address()), ("VAR-12", handle)] {
+        for (id, address) in [(VAR_13, known.address()), (VAR_12, handle)] {
             let other = changed_value(value, false);
             let (good, back) = (address.write(&other), address.write(value));
             let (good, back) = (good?, back?);
@@ -47,13 +48,13 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
             let done = exchange.success().is_some();
             let name = &variable.name.text;
             let expected = || format!("{name} written behind a refusal");
-            probe.check([id, "ADS-2", "ADS-4"], done, expected, &exchange);
+            probe.check([id, ADS_2, ADS_4], done, expected, &exchange);
             let after = probe.value_at(&address)?.unwrap_or_default();
             // Another case judges values that never accept a change.
             let (again, read) = (taken(probe, good)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
-                probe.check([id, "ADS-2"], after == other, expected, || Hex(after.clone()));
+                probe.check([id, ADS_2], after == other, expected, || Hex(after.clone()));
             }
             taken(probe, back)?;
         }
@@ -84,7 +85,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
             if exchange.is_error() {
                 let after = probe.value_at(&address)?.unwrap_or_default();
                 let there = data.get(..after.len()).unwrap_or(data);
-                let kept = after == value || !after.starts_with(there);
+                let passed = after == value || !after.starts_with(there);
                 let expected = || {
                     format!(
                         "{} of {name}, as {} bytes were refused",
@@ -92,7 +93,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
                         data.len()
                     )
                 };
-                probe.check("COM-5", kept, expected, || Hex(after));
+                probe.check(COM_5, passed, expected, || Hex(after));
             }
             probe.send(address.write(&value)?)?;
         }
@@ -146,10 +147,10 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         let evidence = probe.evidence();
         let after = probe.value_at(&address)?.unwrap_or_default();
         probe.set_evidence(evidence);
-        let kept = after != other;
+        let passed = after != other;
         let expected = || format!("{} of {what}, blank as before", Hex(blank.clone()));
-        probe.check("SDA-11", kept, expected, || Hex(after));
-        if !kept {
+        probe.check(SDA_11, passed, expected, || Hex(after));
+        if !passed {
             probe.send(address.write(&blank)?)?;
         }
     }

@@ -3,6 +3,7 @@
 
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{NOTHING_WRITABLE, Probe, WritableElement, WriteCheck, elements_with_flag};
 use super::row::{CaseRow, case};
@@ -11,11 +12,11 @@ use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-objects-by-index", &["ADR-12"], Needs::Writes, objects_by_index,
+    case("write-objects-by-index", &[ADR_12], Needs::Writes, objects_by_index,
         "What an object takes by its channel's number it takes by its rank, and has it then"),
-    case("write-platform-axes-of-hld", &["SDA-13"], Needs::Writes, axes_of_hld,
+    case("write-platform-axes-of-hld", &[SDA_13], Needs::Writes, axes_of_hld,
         "A platform axis of the first channel's HLD is the one without a channel"),
-    case("written-by-name-only", &["VAR-18"], Needs::Simulator, by_name_only,
+    case("written-by-name-only", &[VAR_18], Needs::Simulator, by_name_only,
         "V.CYC that can be written within is written by its name"),
 ];
 
@@ -39,7 +40,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         if probe.try_ask(logical.write(&value)?)?.is_none() {
             continue;
         }
-        let rules = [Rule::from("ADR-12")];
+        let rules = [Rule::from(ADR_12)];
         let is_text = object.is_text();
         let write_check =
             WriteCheck { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
@@ -47,7 +48,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
             let (read, number) = (probe.value_at(&address)?, probe.value_at(logical)?);
             let same = number == read || probe.value_at(&address)? != read;
             let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
-            probe.check("ADR-12", same, expected, || Hex(number.unwrap_or_default()));
+            probe.check(ADR_12, same, expected, || Hex(number.unwrap_or_default()));
             Ok(())
         })?;
     }
@@ -79,7 +80,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
             let stood = probe.value_at(address)? == before && before.as_deref() == Some(new);
             let expected = || format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
             let found = || Hex(read.clone().unwrap_or_default());
-            probe.check("SDA-13", !stood || read == before, expected, found);
+            probe.check(SDA_13, !stood || read == before, expected, found);
             Ok(())
         })?;
     }
@@ -91,7 +92,7 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     for channel in probe.channels()? {
         for name in cnc.written_by_name_only(channel.number()) {
-            let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
+            let (what, rules) = (name.to_string(), [Rule::from(VAR_18)]);
             let address = ValueAddress::Name { channel, name };
             let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&write_check, &address, |_, _, _| Ok(()))?;

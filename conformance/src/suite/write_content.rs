@@ -3,6 +3,7 @@
 use ads_cnc::address::Class;
 use ads_cnc::operation::{CountElements, Service};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{
     NOTHING_WRITABLE, Probe, RawCall, WritableElement, WriteCheck, elements_with_flag,
@@ -13,17 +14,17 @@ use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-objects", &["COM-2", "COM-5"], Needs::Writes, objects,
+    case("write-objects", &[COM_2, COM_5], Needs::Writes, objects,
         "What is written to an object with write access is read back"),
-    case("write-read-only-objects", &["COM-2"], Needs::Writes, read_only_objects,
+    case("write-read-only-objects", &[COM_2], Needs::Writes, read_only_objects,
         "An object without write access takes no value"),
-    case("write-elements", &["SDA-1", "SDA-9"], Needs::Writes, elements,
+    case("write-elements", &[SDA_1, SDA_9], Needs::Writes, elements,
         "What is written to an element with its write flag set is read back, and nowhere else"),
-    case("write-read-only-elements", &["SDA-9"], Needs::Writes, read_only_elements,
+    case("write-read-only-elements", &[SDA_9], Needs::Writes, read_only_elements,
         "An element without its write flag set takes no value"),
-    case("write-elements-of-wrong-size", &["SDA-8"], Needs::MalformedWrites, wrong_size,
+    case("write-elements-of-wrong-size", &[SDA_8], Needs::MalformedWrites, wrong_size,
         "A value of another length than the element's is answered by an error"),
-    case("write-number-of-elements", &["SDA-4"], Needs::MalformedWrites, number_of_elements,
+    case("write-number-of-elements", &[SDA_4], Needs::MalformedWrites, number_of_elements,
         "The number of elements of an instance takes no value"),
 ];
 
@@ -47,7 +48,7 @@ fn objects(probe: &mut Probe<'_>) -> Step {
     for object in &all {
         let what = object.name.to_string();
         let is_text = object.is_text();
-        let rules = ["COM-5", "COM-2"].map(Rule::from);
+        let rules = [COM_5, COM_2].map(Rule::from);
         let write_check = WriteCheck { what: &what, rules: &rules, is_text, name: None };
         probe.try_write(&write_check, &object.address, |_, _, _| Ok(()))?;
     }
@@ -60,7 +61,7 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
     let all = writable(probe, false)?;
     for object in &all {
         let what = object.name.to_string();
-        let rules = ["COM-2".into()];
+        let rules = [COM_2.into()];
         let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
         probe.write_refused(&write_check, &object.address, known.as_ref())?;
     }
@@ -71,7 +72,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for one in &all {
         let siblings = siblings(probe, one)?;
-        let rules = ["SDA-9".into()];
+        let rules = [SDA_9.into()];
         let write_check =
             WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
@@ -89,12 +90,12 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         for (rule, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
             probe.set_evidence(evidence);
-            let kept = again.as_ref() != Some(before);
+            let passed = again.as_ref() != Some(before);
             let expected = || format!("{} at a place of its own", one.what);
-            probe.check(rule, kept, expected, || format!("written in {sibling} too"));
+            probe.check(rule, passed, expected, || format!("written in {sibling} too"));
         }
         if is_own && !siblings.is_empty() {
-            probe.pass("SDA-1");
+            probe.pass(SDA_1);
         }
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
@@ -110,8 +111,8 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
     let number = at.saturating_sub(start);
     let beside = match probe.target.cnc {
-        Some(_) => "SDA-9".into(),
-        None => assumed("SDA-9"),
+        Some(_) => SDA_9.into(),
+        None => assumed(SDA_9),
     };
     let mut others = Vec::new();
     for element in one.instance.elements().filter(|element| *element != one.element) {
@@ -124,7 +125,7 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
         let is_sibling = other.class == one.instance.class && !is_same && number <= other.count;
         if let (true, 1.., Ok(element)) = (is_sibling, number, other.first.nth(number)) {
-            others.push(("SDA-1".into(), other.to_string(), element));
+            others.push((SDA_1.into(), other.to_string(), element));
         }
     }
     let mut all = Vec::new();
@@ -153,11 +154,11 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
             let exchange = probe.send(write)?;
             let refused = exchange.is_error();
             let expected = || format!("an error for {} bytes of {what}", other.len());
-            probe.check(assumed("SDA-8"), refused, expected, &exchange);
+            probe.check(assumed(SDA_8), refused, expected, &exchange);
             let after = probe.value_at(address)?.unwrap_or_default();
-            let kept = !refused || after == value;
+            let passed = !refused || after == value;
             let expected = || format!("{} of {what} still", Hex(value.clone()));
-            probe.check("SDA-8", kept, expected, || Hex(after));
+            probe.check(SDA_8, passed, expected, || Hex(after));
             probe.send(address.write(&value)?)?;
         }
     }
@@ -169,7 +170,7 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     let known = known.map(|known| known.address);
     let all = elements_with_flag(probe, false)?;
     for WritableElement { address, what, .. } in &all {
-        let rules = ["SDA-9".into()];
+        let rules = [SDA_9.into()];
         let write_check = WriteCheck { what, rules: &rules, is_text: false, name: None };
         probe.write_refused(&write_check, address, known.as_ref())?;
     }
@@ -186,7 +187,7 @@ fn number_of_elements(probe: &mut Probe<'_>) -> Step {
         let exchange = probe.call(&write)?;
         let refused = exchange.is_error();
         let expected = || format!("an error number for a write of the number of {instance}");
-        probe.check("SDA-4", refused, expected, &exchange);
+        probe.check(SDA_4, refused, expected, &exchange);
     }
     Ok(())
 }

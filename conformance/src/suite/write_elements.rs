@@ -2,7 +2,8 @@
 
 use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{Probe, each_of_access, handle_of, same, write_check};
 use super::row::{CaseRow, case};
@@ -11,9 +12,9 @@ use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-elements-by-handle", &["VAR-12"], Needs::Writes, by_handle,
+    case("write-elements-by-handle", &[VAR_12], Needs::Writes, by_handle,
         "An index writes the element of that place, and no other"),
-    case("write-elements-by-name", &["VAR-13", "VAR-20"], Needs::Writes, by_name,
+    case("write-elements-by-name", &[VAR_13, VAR_20], Needs::Writes, by_name,
         "A name with [index] writes the element of that place, and no other"),
 ];
 
@@ -67,11 +68,11 @@ fn elements(
                 // back.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
-                let kept = same(&read, new, is_text);
+                let passed = same(&read, new, is_text);
                 let expected = || format!("{} of {name}, as written", Hex(new.to_vec()));
                 let stated: Vec<Rule> =
-                    write_check.rules.iter().map(|rule| rule.id.into()).collect();
-                probe.check(&stated, kept, expected, || Hex(read.clone()));
+                    write_check.rules.iter().map(|rule| Rule::of(rule.id)).collect();
+                probe.check(&stated, passed, expected, || Hex(read.clone()));
                 // The whole has changed in this element only.
                 let mut expected = before.clone();
                 let size = old.len();
@@ -89,13 +90,13 @@ fn elements(
 }
 
 /// The order of several dimensions, and of texts in an array, is assumed.
-fn of_order(variable: &Description, ids: &[&'static str]) -> Vec<Rule> {
+fn of_order(variable: &Description, ids: &[ClauseId]) -> Vec<Rule> {
     let is_assumed = variable.dimensions.len() > 1 || variable.var_type == VariableType::STRING;
     ids.iter().map(|&id| if is_assumed { assumed(id) } else { id.into() }).collect()
 }
 
 fn by_handle(probe: &mut Probe<'_>) -> Step {
-    let rules = |variable: &Description| of_order(variable, &["VAR-12"]);
+    let rules = |variable: &Description| of_order(variable, &[VAR_12]);
     elements(probe, rules, |probe, channel, variable, indices| {
         let handle = handle_of(probe, channel, variable)?;
         Ok(Some(ValueAddress::Handle { channel, handle, indices }))
@@ -103,7 +104,7 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
 }
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
-    let rules = |variable: &Description| of_order(variable, &["VAR-13", "VAR-20"]);
+    let rules = |variable: &Description| of_order(variable, &[VAR_13, VAR_20]);
     elements(probe, rules, |_, channel, variable, indices| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
         let name = path.and_then(|path| path.element(indices.as_slice().into()).ok());

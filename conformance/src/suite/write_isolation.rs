@@ -4,6 +4,7 @@ use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, axis_address, element_count, is_of_service, write_value};
 use super::row::{CaseRow, case};
@@ -12,11 +13,11 @@ use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-nothing-else-by-name", &["VAR-13"], Needs::MalformedWrites, by_name,
+    case("write-nothing-else-by-name", &[VAR_13], Needs::MalformedWrites, by_name,
         "A write by name changes what it names, and nothing else in any channel"),
-    case("write-nothing-else-by-handle", &["VAR-12"], Needs::MalformedWrites, by_handle,
+    case("write-nothing-else-by-handle", &[VAR_12], Needs::MalformedWrites, by_handle,
         "A write by handle changes what the handle stands for, and nothing else in any channel"),
-    case("write-nothing-else-of-axes", &["VAR-26"], Needs::MalformedWrites, of_axes,
+    case("write-nothing-else-of-axes", &[VAR_26], Needs::MalformedWrites, of_axes,
         "A write on the axis interface changes the variable of that place, and nothing else"),
 ];
 
@@ -187,9 +188,9 @@ fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -
                 break;
             }
         }
-        let (name, kept) = (&one.variable.name.text, one.value == one.start);
+        let (name, passed) = (&one.variable.name.text, one.value == one.start);
         let expected = || format!("{} of {name} again", Hex(one.start.clone()));
-        probe.check(rule, kept, expected, "another value");
+        probe.check(rule, passed, expected, "another value");
     }
     Ok(())
 }
@@ -215,12 +216,12 @@ fn both_ways(
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
     let all = steady_variables(probe)?;
-    both_ways(probe, "VAR-13".into(), all, |one| Some(one.by_name()), WatchedVariable::by_handle)
+    both_ways(probe, VAR_13.into(), all, |one| Some(one.by_name()), WatchedVariable::by_handle)
 }
 
 fn by_handle(probe: &mut Probe<'_>) -> Step {
     let all = steady_variables(probe)?;
-    both_ways(probe, "VAR-12".into(), all, |one| Some(one.by_handle()), WatchedVariable::by_name)
+    both_ways(probe, VAR_12.into(), all, |one| Some(one.by_handle()), WatchedVariable::by_name)
 }
 
 fn of_axes(probe: &mut Probe<'_>) -> Step {
@@ -231,7 +232,7 @@ fn of_axes(probe: &mut Probe<'_>) -> Step {
     if all.iter().all(|one| one.at.is_none()) {
         return Err(Stop::not_applicable("no axis variable is on the axis interface"));
     }
-    both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), WatchedVariable::by_handle)
+    both_ways(probe, VAR_26.into(), all, |one| one.at.clone(), WatchedVariable::by_handle)
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
 use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableType};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
     Probe, RawCall, WritableNumber, WriteCheck, changed_value, each_of_access, handle_of,
@@ -14,15 +15,15 @@ use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-read-only", &["VAR-6"], Needs::Writes, read_only,
+    case("write-read-only", &[VAR_6], Needs::Writes, read_only,
         "A variable that is READ_ONLY takes no value"),
-    case("write-read-only-changed", &["VAR-6"], Needs::MalformedWrites, read_only_changed,
+    case("write-read-only-changed", &[VAR_6], Needs::MalformedWrites, read_only_changed,
         "A variable that is READ_ONLY takes no other value, whatever is answered"),
-    case("write-unknown", &["VAR-12", "VAR-13", "ADS-4"], Needs::MalformedWrites, unknown,
+    case("write-unknown", &[VAR_12, VAR_13, ADS_4], Needs::MalformedWrites, unknown,
         "What is not there takes no value"),
-    case("write-index-out-of-bounds", &["VAR-12", "VAR-13"], Needs::MalformedWrites, out_of_bounds,
+    case("write-index-out-of-bounds", &[VAR_12, VAR_13], Needs::MalformedWrites, out_of_bounds,
         "An element that the array does not have takes no value, and no other one takes it"),
-    case("write-bad-requests", &["VAR-12", "VAR-13", "VAR-24"], Needs::MalformedWrites, bad_requests,
+    case("write-bad-requests", &[VAR_12, VAR_13, VAR_24], Needs::MalformedWrites, bad_requests,
         "A write whose name has no end, or whose count of indices lies, writes nothing"),
 ];
 
@@ -44,7 +45,7 @@ fn each_read_only(
             ValueAddress::of_handle(channel, handle),
         ] {
             if probe.may_write(&address, &name)? {
-                let rules = [Rule::from("VAR-6")];
+                let rules = [Rule::from(VAR_6)];
                 judge(probe, &write_check(variable, &name, &rules), &address)?;
             }
         }
@@ -71,7 +72,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
         let exchange = probe.send(write)?;
         let refused = exchange.is_error();
         let expected = || format!("an error number for a write of {}", write_check.what);
-        probe.check("VAR-6", refused, expected, &exchange);
+        probe.check(VAR_6, refused, expected, &exchange);
         let after = probe.value_at(address)?.unwrap_or_default();
         // A value that changes by itself proves nothing.
         if after != before && (moved || probe.moves(address, false)?) {
@@ -79,7 +80,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
         }
         let expected = || format!("{} of {} as before", Hex(before.clone()), write_check.what);
         probe
-            .check("VAR-6", after == before, expected, || Hex(after))
+            .check(VAR_6, after == before, expected, || Hex(after))
             .then_some(())
             .ok_or(Stop::Judged)
     })
@@ -88,7 +89,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
 /// Sends a write that must be rejected without an effect on `watched`; then the valid one again.
 fn refused(
     probe: &mut Probe<'_>,
-    rules: &[&'static str],
+    rules: &[ClauseId],
     what: &str,
     (bad, good): (Request<'_>, Request<'_>),
     watched: &ValueAddress,
@@ -99,7 +100,7 @@ fn refused(
 
 fn refused_call(
     probe: &mut Probe<'_>,
-    rules: &[&'static str],
+    rules: &[ClauseId],
     what: &str,
     (bad, good): (&RawCall, Request<'_>),
     watched: &ValueAddress,
@@ -133,10 +134,10 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
         let bad = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, value).into();
         let what = format!("a write to the handle {free:#x}");
-        refused(probe, &["ADS-4", "VAR-12"], &what, (bad, good), &watched)?;
+        refused(probe, &[ADS_4, VAR_12], &what, (bad, good), &watched)?;
     }
     let bad = known.by_handle((&[0]).into(), value);
-    refused(probe, &["VAR-12"], "an index of no array", (bad, good), &watched)?;
+    refused(probe, &[VAR_12], "an index of no array", (bad, good), &watched)?;
     let good = known.by_name(value);
     let text = known.name().to_string();
     let (longer, shorter) = (format!("{text}x"), text.get(..text.len().saturating_sub(1)));
@@ -151,11 +152,11 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         }
         let what = format!("a write to the name \"{unknown}\"");
         let bad = WriteByName { channel, name: unknown.as_cnc_str(), value: value.into() }.into();
-        refused(probe, &["ADS-4", "VAR-13"], &what, (bad, good), &watched)?;
+        refused(probe, &[ADS_4, VAR_13], &what, (bad, good), &watched)?;
     }
     let element: CncString = format!("{text}[0]").parse()?;
     let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
-    refused(probe, &["VAR-13"], "an element of no array", (bad, good), &watched)
+    refused(probe, &[VAR_13], "an element of no array", (bad, good), &watched)
 }
 
 /// Maximum number of arrays that are tried.
@@ -186,11 +187,11 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
             let what = format!("a write to {}[{beyond}] of {count}", name.text);
             let bad = ValueAddress::Handle { channel, handle: *handle, indices: vec![beyond] };
             let bad = bad.write(&other)?;
-            refused(probe, &["VAR-12"], &what, (bad, good), &whole)?;
+            refused(probe, &[VAR_12], &what, (bad, good), &whole)?;
             let bad = ValueAddress::Name { channel, name: by_name(beyond)? };
             let bad = bad.write(&other)?;
             let good = good_by_name.write(&value)?;
-            refused(probe, &["VAR-13"], &what, (bad, good), &whole)?;
+            refused(probe, &[VAR_13], &what, (bad, good), &whole)?;
         }
         Ok(())
     })
@@ -207,7 +208,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let data = [&name[..], &vec![b'A'; size]].concat();
             let what = format!("a write of {size} bytes to a name without NUL");
             let bad = call.with(|call| call.data = data);
-            refused_call(probe, &["VAR-13"], &what, (&bad, good), &watched)?;
+            refused_call(probe, &[VAR_13], &what, (&bad, good), &watched)?;
         }
         let good = known.by_handle(U32List::EMPTY, &known.value);
         let call = RawCall::new(good)?;
@@ -218,7 +219,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 .for_each(|four| four.copy_from_slice(&count.to_le_bytes()));
             let what = format!("a write with a count of {count:#x} indices");
             let bad = call.with(|call| call.data = data);
-            refused_call(probe, &["VAR-24", "VAR-12"], &what, (&bad, good), &watched)?;
+            refused_call(probe, &[VAR_24, VAR_12], &what, (&bad, good), &watched)?;
         }
     }
     Ok(())

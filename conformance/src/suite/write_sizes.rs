@@ -2,7 +2,8 @@
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
     Probe, axis_address, changed_value, each_of_access, is_of_service, is_sendable, is_taken,
@@ -14,13 +15,13 @@ use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-wrong-size", &["VAR-12", "VAR-13", "VAR-25", "VAR-26"], Needs::MalformedWrites, wrong_size,
+    case("write-wrong-size", &[VAR_12, VAR_13, VAR_25, VAR_26], Needs::MalformedWrites, wrong_size,
         "A value of another size than the variable's is answered by an error, or is there as it was sent"),
 ];
 
 /// An address of a value, and the requirement of writes to it.
 struct WriteAddress {
-    id: &'static str,
+    id: ClauseId,
     address: ValueAddress,
 }
 
@@ -31,11 +32,11 @@ fn write_addresses(
 ) -> Step<Vec<WriteAddress>> {
     let (name, handle) = (&variable.name.text, variable.handle);
     let by_name = |name: CncString| WriteAddress {
-        id: "VAR-13",
+        id: VAR_13,
         address: ValueAddress::Name { channel, name },
     };
     let by_handle = |indices| WriteAddress {
-        id: "VAR-12",
+        id: VAR_12,
         address: ValueAddress::Handle { channel, handle, indices },
     };
     let mut all = vec![by_handle(Vec::new()), by_name(name.clone())];
@@ -44,7 +45,7 @@ fn write_addresses(
         all.push(by_name(format!("{name}[0]").parse()?));
     }
     let of_axis = axis_address(probe, channel, variable)?;
-    all.extend(of_axis.map(|address| WriteAddress { id: "VAR-26", address }));
+    all.extend(of_axis.map(|address| WriteAddress { id: VAR_26, address }));
     Ok(all)
 }
 
@@ -124,7 +125,7 @@ impl WrongSizeWrite<'_> {
         if !is_sendable(&bad) || !is_sendable(&good) {
             return Ok(());
         }
-        let of_size: Rule = if is_text { online("VAR-25") } else { at.id.into() };
+        let of_size: Rule = if is_text { online(VAR_25) } else { at.id.into() };
         require_taken(probe, at.id, good)?;
         let before = probe.value_at(watched)?;
         let is_taken = is_taken(probe, at.id, what, bad)?;

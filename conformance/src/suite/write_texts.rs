@@ -1,7 +1,8 @@
 //! Cases that write texts and restore them.
 
 use ads_cnc::{CncString, VariableAccess, VariableType};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{Probe, WriteCheck, each_of_access, write_value};
 use super::row::{CaseRow, case};
@@ -11,7 +12,7 @@ use crate::values::until_nul;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-texts", &["VAR-12", "VAR-13", "VAR-25"], Needs::Writes, texts,
+    case("write-texts", &[VAR_12, VAR_13, VAR_25], Needs::Writes, texts,
         "A text as long as is described is read as written, and a shorter one behind it too"),
 ];
 
@@ -22,8 +23,8 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             return Ok(());
         }
         for (id, address) in [
-            ("VAR-13", ValueAddress::Name { channel, name: name.clone() }),
-            ("VAR-12", ValueAddress::of_handle(channel, variable.handle)),
+            (VAR_13, ValueAddress::Name { channel, name: name.clone() }),
+            (VAR_12, ValueAddress::of_handle(channel, variable.handle)),
         ] {
             if !probe.may_write(&address, &name.to_string())? {
                 continue;
@@ -43,9 +44,9 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                     write_value(probe, &address, &before)?;
                     // Without a reply the value is unknown.
                     let Some(after) = probe.value_at(&address)? else { return Ok(false) };
-                    let kept = until_nul(&after) == until_nul(&before);
+                    let passed = until_nul(&after) == until_nul(&before);
                     let expected = || format!("{} of {name} again", Hex(before.clone()));
-                    Ok(probe.check(id, kept, expected, || Hex(after)))
+                    Ok(probe.check(id, passed, expected, || Hex(after)))
                 },
             )?;
         }
@@ -56,7 +57,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
 /// The maximum length of a text is documented online; that an accepted text is stored is stated.
 fn of_lengths(
     probe: &mut Probe<'_>,
-    id: &'static str,
+    id: ClauseId,
     address: &ValueAddress,
     (name, size): (&CncString, u32),
 ) -> Step {
@@ -68,7 +69,7 @@ fn of_lengths(
         value.resize(size.max(1), 0);
         let taken = write_value(probe, address, &value)?;
         let expected = || format!("{name} takes a text of {len} characters");
-        probe.check(online("VAR-25"), taken, expected, "an error");
+        probe.check(online(VAR_25), taken, expected, "an error");
         if !taken {
             continue;
         }
@@ -77,7 +78,7 @@ fn of_lengths(
         let expected = || format!("{len} characters of {name}, as written");
         let found = || format!("{} bytes: {}", read.len(), Hex(read.clone()));
         probe.check(id, same, expected, found);
-        probe.check(online("VAR-25"), same, expected, found);
+        probe.check(online(VAR_25), same, expected, found);
     }
     shorter(probe, id, address, (name, size))
 }
@@ -86,7 +87,7 @@ fn of_lengths(
 /// end where the sent one ends.
 fn shorter(
     probe: &mut Probe<'_>,
-    id: &'static str,
+    id: ClauseId,
     address: &ValueAddress,
     (name, size): (&CncString, usize),
 ) -> Step {

@@ -10,7 +10,7 @@ use crate::text::hex::compact;
 pub(super) enum Difference {
     Other(String),
     /// The testee omits the bytes after a text.
-    Untold(String),
+    Omitted(String),
 }
 
 /// The first difference between the expected and the actual value.
@@ -43,7 +43,7 @@ fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
         };
         match difference {
             Some(Difference::Other(_)) => return difference,
-            Some(Difference::Untold(_)) => untold = untold.or(difference),
+            Some(Difference::Omitted(_)) => untold = untold.or(difference),
             None => {}
         }
     }
@@ -173,6 +173,6 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     if is_told {
         other(place, format_args!("{expected} is expected"))
     } else {
-        Some(Difference::Untold(format!("{place}: {expected}, which is not told")))
+        Some(Difference::Omitted(format!("{place}: {expected}, which is not told")))
     }
 }

@@ -13,7 +13,7 @@ use crate::process::interrupt;
 
 /// Maximum number of consecutive crashes or missing answers; after them no more questions are
 /// asked.
-const LOST_MAX: usize = 12;
+const UNANSWERED_MAX: usize = 12;
 
 /// Maximum memory of all answers in bytes; those to vectors may take a part of it.
 const ANSWERS_MAX: usize = 32 << 20;
@@ -114,8 +114,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             Purpose::Sanity { case, first } => protocol.sanity(case, first, question, reaction),
             Purpose::MadeUp => protocol.made_up(&question, &reaction),
         }
-        if lost >= LOST_MAX {
-            let why = format!("{LOST_MAX} questions in a row without an answer");
+        if lost >= UNANSWERED_MAX {
+            let why = format!("{UNANSWERED_MAX} questions in a row without an answer");
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
@@ -172,11 +172,11 @@ fn without_hello(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Own, Question};
+    use super::super::{CodecTestee, Question};
     use super::*;
 
     /// The codec, with an op that panics.
-    struct PanickingTestee(Own);
+    struct PanickingTestee(CodecTestee);
 
     impl Testee for PanickingTestee {
         fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
@@ -197,7 +197,7 @@ mod tests {
     fn only_a_case_that_panics_is_a_harness_error() {
         let cases = crate::judge::codec_cases();
         let terms = Terms { seed: 1, subject: CaseSubject::Codec, edition: None, strict: true };
-        let judged = judge(&mut PanickingTestee(Own::default()), cases, terms);
+        let judged = judge(&mut PanickingTestee(CodecTestee::default()), cases, terms);
         let (panicked, others): (Vec<_>, Vec<_>) = judged.outcomes.iter().partition(|outcome| {
             matches!(outcome.case.body, crate::judge::Body::Sequence(one) if one.kind() == "nc-check")
         });

@@ -1,6 +1,6 @@
 //! Testees that misbehave in general, each of which the suite must detect.
 
-use super::Own;
+use super::CodecTestee;
 use crate::codec::message::{
     Answer, Capabilities, Output, Question, Rejection, Reply, TesteeCommand, TesteeHello,
 };
@@ -64,7 +64,7 @@ impl Miniature {
         })
     }
 
-    pub fn hello(self, own: &Own) -> TesteeHello {
+    pub fn hello(self, own: &CodecTestee) -> TesteeHello {
         let mut hello = own.hello();
         hello.testee.name = format!("miniature {}", self.name());
         if self == Self::DecodesOnly {
@@ -75,24 +75,26 @@ impl Miniature {
     }
 
     /// Its reaction to a line, the `seq`th case.
-    pub fn act(self, own: &Own, line: &str, seq: u64) -> Act {
+    pub fn act(self, own: &CodecTestee, line: &str, seq: u64) -> MiniatureAction {
         let Ok(TesteeCommand::Case { question, .. }) = serde_json::from_str(line) else {
-            return Act::Say(r#"{"seq":null,"error":{"message":"no case"}}"#.to_owned());
+            return MiniatureAction::Say(
+                r#"{"seq":null,"error":{"message":"no case"}}"#.to_owned(),
+            );
         };
         let tenth = seq % 10 == 9;
         match self {
-            Self::Hangs if seq % 40 == 9 => return Act::Hang,
-            Self::Crashes if tenth => return Act::Crash,
-            Self::Mumbles if tenth => return Act::Say("what?".to_owned()),
+            Self::Hangs if seq % 40 == 9 => return MiniatureAction::Hang,
+            Self::Crashes if tenth => return MiniatureAction::Crash,
+            Self::Mumbles if tenth => return MiniatureAction::Say("what?".to_owned()),
             _ => {}
         }
         let answer = self.answer(own, &question, seq);
         let seq = if self == Self::Miscounts && tenth { seq.saturating_add(1) } else { seq };
         let line = serde_json::to_string(&Reply { seq: Some(seq), answer });
-        Act::Say(line.unwrap_or_default())
+        MiniatureAction::Say(line.unwrap_or_default())
     }
 
-    fn answer(self, own: &Own, question: &Question, seq: u64) -> Answer {
+    fn answer(self, own: &CodecTestee, question: &Question, seq: u64) -> Answer {
         let refused = || Answer::Reject(Rejection::default());
         let unsupported = |what: &str| Answer::Unsupported { what: what.to_owned() };
         let right = own.answer(question);
@@ -123,7 +125,7 @@ impl Miniature {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Act {
+pub enum MiniatureAction {
     /// Prints a line.
     Say(String),
     /// Hangs.

@@ -1,16 +1,16 @@
 //! Other codecs under test: a command that answers questions over stdin and stdout, one line of
 //! JSON each.
 //!
-//! The protocol is described in `adapters/README.md`. [`Own`] answers with this project's codec,
+//! The protocol is described in `adapters/README.md`. [`CodecTestee`] answers with this project's codec,
 //! [`TesteeProcess`] runs another one. [`judge`] asks either of them all questions of the golden
 //! vectors.
 
 mod check;
+mod codec_testee;
 mod compare;
 mod describe;
 mod judge;
 mod miniature;
-mod own;
 mod plan;
 mod process;
 mod protocol_rules;
@@ -22,9 +22,9 @@ pub use crate::codec::message::{
 };
 pub use crate::process::LINE_MAX;
 pub use check::{Finding, check_protocol};
+pub use codec_testee::CodecTestee;
 pub use judge::{JudgedTestee, judge};
-pub use miniature::{Act, Miniature};
-pub use own::Own;
+pub use miniature::{Miniature, MiniatureAction};
 pub use plan::questions;
 pub use process::{TesteeProcess, answered, greeted};
 pub use verdicts::Terms;
@@ -54,9 +54,9 @@ pub trait Testee {
 /// How a testee reacts to a question.
 pub type TesteeReaction = crate::process::Reaction<Answer>;
 
-impl Testee for Own {
+impl Testee for CodecTestee {
     fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
-        Ok(Own::hello(self))
+        Ok(CodecTestee::hello(self))
     }
 
     fn ask(&mut self, question: &Question) -> TesteeReaction {

@@ -201,8 +201,10 @@ impl Verdicts<'_> {
                 };
                 let (verdict, what) = match compare::compare(&accept.value, value)? {
                     compare::Difference::Other(what) => (Verdict::Fail, what),
-                    compare::Difference::Untold(what) if self.terms.strict => (Verdict::Fail, what),
-                    compare::Difference::Untold(what) => (Verdict::Differs, what),
+                    compare::Difference::Omitted(what) if self.terms.strict => {
+                        (Verdict::Fail, what)
+                    }
+                    compare::Difference::Omitted(what) => (Verdict::Differs, what),
                 };
                 Some(Deviation::new(verdict, expected, what))
             }

@@ -1,13 +1,13 @@
 //! Typed values: parsing and formatting, by a description, a descriptor or an element's attributes.
 
-mod given;
+mod format;
 mod json;
 mod parse;
 mod show;
 
-pub use given::{UnknownType, ValueFormat, type_by_name};
+pub use format::{UnknownType, ValueFormat, type_by_name};
 pub use json::value_of;
-pub use parse::{Unfit, parse};
+pub use parse::{InvalidValue, parse};
 pub(crate) use show::number;
 pub use show::{lines, plain, printable};
 

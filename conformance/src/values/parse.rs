@@ -10,7 +10,7 @@ use super::Type;
 /// Why a text is not a value of a type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct Unfit(String);
+pub struct InvalidValue(String);
 
 /// Parses a value: a number, decimal or with 0x, `TRUE` or `FALSE`, or a text; for an array all
 /// elements separated by commas, the last index running fastest. In an array of texts one with a
@@ -21,10 +21,10 @@ pub struct Unfit(String);
 ///
 /// # Errors
 /// Why the text is not a value of the type, and what is permitted.
-pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, Unfit> {
+pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, InvalidValue> {
     let Some(data_type) = ty.data_type else {
         let name = if ty.name.is_empty() { "its type" } else { ty.name.as_str() };
-        return Err(Unfit(format!("{name} is not known; --type says what to take it for")));
+        return Err(InvalidValue(format!("{name} is not known; --type says what to take it for")));
     };
     match data_type {
         DataType::Boolean => items(ty, text, boolean),
@@ -45,21 +45,21 @@ pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, Unfit> {
             within(number.is_finite(), number, text, (f64::MIN, f64::MAX), data_type)
         }),
         DataType::String => texts(ty, text),
-        other => Err(Unfit(format!("{other:?} cannot be written here"))),
+        other => Err(InvalidValue(format!("{other:?} cannot be written here"))),
     }
 }
 
-fn boolean(text: &str) -> Result<Boolean, Unfit> {
+fn boolean(text: &str) -> Result<Boolean, InvalidValue> {
     match text.to_ascii_uppercase().as_str() {
         "TRUE" | "1" => Ok(Boolean::TRUE),
         "FALSE" | "0" => Ok(Boolean::FALSE),
-        _ => Err(Unfit(format!(
+        _ => Err(InvalidValue(format!(
             "{text} is not of type BOOLEAN, which has TRUE and FALSE, or 1 and 0"
         ))),
     }
 }
 
-fn integer<T>(text: &str, least: T, most: T, ty: DataType) -> Result<T, Unfit>
+fn integer<T>(text: &str, least: T, most: T, ty: DataType) -> Result<T, InvalidValue>
 where
     T: TryFrom<i128> + Into<i128> + Copy,
 {
@@ -72,26 +72,30 @@ where
     let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_digit(radix));
     let name = ty.name();
     if !is_number {
-        return Err(Unfit(format!("{text} is not of type {name}, which is a whole number")));
+        return Err(InvalidValue(format!("{text} is not of type {name}, which is a whole number")));
     }
     // A number with too many digits is out of range.
     let number = i128::from_str_radix(digits, radix).unwrap_or(i128::MAX).checked_mul(sign);
     number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| {
         let (least, most) = (least.into(), most.into());
-        Unfit(format!("{text} is not of type {name}, which has {least} to {most}"))
+        InvalidValue(format!("{text} is not of type {name}, which has {least} to {most}"))
     })
 }
 
-fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T, Unfit> {
-    let no =
-        || Unfit(format!("{text} is not of type {}, which is a number such as -1.5e3", ty.name()));
+fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T, InvalidValue> {
+    let no = || {
+        InvalidValue(format!(
+            "{text} is not of type {}, which is a number such as -1.5e3",
+            ty.name()
+        ))
+    };
     // Without words such as "inf": an axis must not be sent to infinity.
     let in_digits = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
     let number = if in_digits { text.parse().map_err(|_| no())? } else { return Err(no()) };
     let digits = text.split(['e', 'E']).next().unwrap_or(text);
     let is_nothing = number == T::default() && digits.contains(|c: char| ('1'..='9').contains(&c));
     if is_nothing {
-        Err(Unfit(format!("{text} is not of type {}, which would round it to 0", ty.name())))
+        Err(InvalidValue(format!("{text} is not of type {}, which would round it to 0", ty.name())))
     } else {
         Ok(number)
     }
@@ -103,16 +107,19 @@ fn within<T: std::fmt::Debug>(
     text: &str,
     (least, most): (T, T),
     ty: DataType,
-) -> Result<T, Unfit> {
+) -> Result<T, InvalidValue> {
     if is_within {
         Ok(number)
     } else {
-        Err(Unfit(format!("{text} is not of type {}, which has {least:?} to {most:?}", ty.name())))
+        Err(InvalidValue(format!(
+            "{text} is not of type {}, which has {least:?} to {most:?}",
+            ty.name()
+        )))
     }
 }
 
 /// Checks the number of elements; any number is accepted if the dimensions are unknown.
-fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, Unfit> {
+fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
     let count = u32::try_from(given).unwrap_or(u32::MAX);
     if ty.size.is_none() && ty.dimensions.is_empty() {
         return Ok(if count == 1 { Vec::new() } else { vec![count] });
@@ -121,27 +128,27 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, Unfit> {
     if needed == count {
         Ok(ty.dimensions.clone())
     } else if needed == 1 {
-        Err(Unfit(format!("{ty} is one element, {count} are given")))
+        Err(InvalidValue(format!("{ty} is one element, {count} are given")))
     } else {
-        Err(Unfit(format!("{ty} has {needed} elements, {count} given")))
+        Err(InvalidValue(format!("{ty} has {needed} elements, {count} given")))
     }
 }
 
 fn items<T: Scalar>(
     ty: &Type,
     text: &str,
-    one: impl Fn(&str) -> Result<T, Unfit>,
-) -> Result<Vec<u8>, Unfit> {
+    one: impl Fn(&str) -> Result<T, InvalidValue>,
+) -> Result<Vec<u8>, InvalidValue> {
     let items: Vec<T> = text.split(',').map(|item| one(item.trim())).collect::<Result<_, _>>()?;
     counted(ty, items.len())?;
-    items.as_slice().value_to_vec().map_err(|error| Unfit(error.to_string()))
+    items.as_slice().value_to_vec().map_err(|error| InvalidValue(error.to_string()))
 }
 
-fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
+fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
     let all = if ty.dimensions.is_empty() { vec![given.to_owned()] } else { split(given)? };
     let dimensions = counted(ty, all.len())?;
     let encoded = |text| {
-        let foreign = |error| Unfit(format!("{text:?} is not of type STRING: {error}"));
+        let foreign = |error| InvalidValue(format!("{text:?} is not of type STRING: {error}"));
         CncStr::new(text).map_err(foreign)
     };
     let texts: Vec<CncStr<'_>> =
@@ -153,18 +160,18 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
     let each = size.checked_div(count).unwrap_or(0);
     if longest > each {
         let (most, given) = (each.saturating_sub(1), longest.saturating_sub(1));
-        return Err(Unfit(format!(
+        return Err(InvalidValue(format!(
             "a STRING of {each} bytes has at most {most} characters and its NUL, {given} are given"
         )));
     }
     let shape = Shape::new(DataType::String, U32List::from(dimensions.as_slice()), size);
     let mut room = vec![0; usize::try_from(size).unwrap_or(usize::MAX)];
     let done = shape.and_then(|shape| shape.encode_texts(&texts, &mut room).map(<[u8]>::to_vec));
-    done.map_err(|error| Unfit(error.to_string()))
+    done.map_err(|error| InvalidValue(error.to_string()))
 }
 
 /// The texts between commas.
-fn split(given: &str) -> Result<Vec<String>, Unfit> {
+fn split(given: &str) -> Result<Vec<String>, InvalidValue> {
     let (mut all, mut rest) = (Vec::new(), given);
     loop {
         let (text, after) = match rest.trim_start().strip_prefix('"') {
@@ -183,10 +190,10 @@ fn split(given: &str) -> Result<Vec<String>, Unfit> {
 }
 
 /// A text up to its closing quote, and the text after the comma.
-fn quoted_text(given: &str) -> Result<(String, Option<&str>), Unfit> {
+fn quoted_text(given: &str) -> Result<(String, Option<&str>), InvalidValue> {
     let (mut text, mut rest) = (String::new(), given);
     loop {
-        let open = || Unfit("a text in quotes does not end".to_owned());
+        let open = || InvalidValue("a text in quotes does not end".to_owned());
         let (before, after) = rest.split_once('"').ok_or_else(open)?;
         text.push_str(before);
         if let Some(more) = after.strip_prefix('"') {
@@ -198,7 +205,7 @@ fn quoted_text(given: &str) -> Result<(String, Option<&str>), Unfit> {
         return match after.strip_prefix(',') {
             Some(after) => Ok((text, Some(after))),
             None if after.is_empty() => Ok((text, None)),
-            None => Err(Unfit(format!("after a quote a comma is expected, not {after}"))),
+            None => Err(InvalidValue(format!("after a quote a comma is expected, not {after}"))),
         };
     }
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ads_cnc::streaming::{Ack, DiagnosticKind, LINE_END_ERROR, NcText, ProgramEnd};
 use ads_cnc_conformance::simulator::program::StreamingInterface;
-use ads_cnc_conformance::suite::replay::{Done, StreamActor, play_stream};
+use ads_cnc_conformance::suite::replay::{StepResult, StreamActor, play_stream};
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamError, StreamStep};
 
 use crate::{cases, stated_fault};
@@ -28,27 +28,27 @@ struct Cnc {
 }
 
 impl StreamActor for Cnc {
-    fn start(&mut self, _: Duration) -> Done<()> {
+    fn start(&mut self, _: Duration) -> StepResult<()> {
         self.running = true;
         self.program.clear();
         Ok(())
     }
 
-    fn reset(&mut self, _: Duration) -> Done<()> {
+    fn reset(&mut self, _: Duration) -> StepResult<()> {
         self.running = false;
         self.interface.reset();
         Ok(())
     }
 
-    fn held(&mut self) -> Done<usize> {
+    fn held(&mut self) -> StepResult<usize> {
         Ok(self.interface.len())
     }
 
-    fn write(&mut self, data: &[u8], _: StreamAck, _: &StreamStep, _: Duration) -> Done<Ack> {
+    fn write(&mut self, data: &[u8], _: StreamAck, _: &StreamStep, _: Duration) -> StepResult<Ack> {
         Ok(self.interface.write(data))
     }
 
-    fn take(&mut self, step: &StreamStep, _: Duration) -> Done<Option<&'static str>> {
+    fn take(&mut self, step: &StreamStep, _: Duration) -> StepResult<Option<&'static str>> {
         Ok(self.taken(step))
     }
 }

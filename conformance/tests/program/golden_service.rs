@@ -16,7 +16,10 @@ use crate::{cases, stated_fault};
 /// The cases that say when the interface sets REQUEST_STATE to 0 of itself.
 const ABOUT_CLEARING: [&str; 2] = ["interface-clears", "interface-clears-not"];
 
-fn goes_as_stated<P: Asking>(ask: fn(ServiceRequest) -> Result<P, CallError>, clears: Clears) {
+fn goes_as_stated<P: RequestingProgram>(
+    ask: fn(ServiceRequest) -> Result<P, CallError>,
+    clears: Clears,
+) {
     for case in cases("service", 50) {
         let Given::Service(given) = &case.given else { unreachable!() };
         if clears == Clears::Never && ABOUT_CLEARING.contains(&case.id.as_str()) {
@@ -52,14 +55,14 @@ impl<P> Interfaces<P> {
     }
 }
 
-impl<P: Asking> ServiceActor for Interfaces<P> {
+impl<P: RequestingProgram> ServiceActor for Interfaces<P> {
     type Program = P;
 
     fn ask(&self, request: ServiceRequest) -> Result<P, CallError> {
         (self.ask)(request)
     }
 
-    fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>> {
+    fn read(&mut self, channel: u32, variable: ServiceVariable) -> StepResult<Vec<u8>> {
         Ok(self.channel(channel).read(variable).to_vec())
     }
 
@@ -68,12 +71,12 @@ impl<P: Asking> ServiceActor for Interfaces<P> {
         channel: u32,
         variable: ServiceVariable,
         value: &[u8],
-    ) -> Done<Option<&'static str>> {
+    ) -> StepResult<Option<&'static str>> {
         let error = self.channel(channel).write(variable, value).err();
         Ok(error.map(|error| fault_class(error.kind())))
     }
 
-    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()> {
+    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> StepResult<()> {
         then(self.channel(channel));
         Ok(())
     }
@@ -94,7 +97,7 @@ fn call(request: ServiceRequest) -> Result<Call, CallError> {
 
 struct Call(ServiceCall);
 
-impl Asking for Call {
+impl RequestingProgram for Call {
     fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
         let Self(call) = self;
         call.poll();

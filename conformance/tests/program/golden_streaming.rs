@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ads_cnc::streaming::Ack;
 use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, Start, StreamingProgram};
-use ads_cnc_conformance::suite::replay::{Done, StreamActor, play_stream, take};
+use ads_cnc_conformance::suite::replay::{StepResult, StreamActor, play_stream, take};
 use ads_cnc_vectors::{Given, StreamAck, StreamStep};
 
 use crate::{cases, stated_fault};
@@ -23,25 +23,31 @@ fn streams_go_as_stated() {
 struct Direct(StreamingProgram);
 
 impl StreamActor for Direct {
-    fn start(&mut self, now: Duration) -> Done<()> {
+    fn start(&mut self, now: Duration) -> StepResult<()> {
         self.0.start(now).expect("it starts");
         Ok(())
     }
 
-    fn reset(&mut self, now: Duration) -> Done<()> {
+    fn reset(&mut self, now: Duration) -> StepResult<()> {
         self.0.reset(now);
         Ok(())
     }
 
-    fn held(&mut self) -> Done<usize> {
+    fn held(&mut self) -> StepResult<usize> {
         Ok(self.0.buffered())
     }
 
-    fn write(&mut self, data: &[u8], _: StreamAck, _: &StreamStep, now: Duration) -> Done<Ack> {
+    fn write(
+        &mut self,
+        data: &[u8],
+        _: StreamAck,
+        _: &StreamStep,
+        now: Duration,
+    ) -> StepResult<Ack> {
         Ok(self.0.write(data, now))
     }
 
-    fn take(&mut self, step: &StreamStep, now: Duration) -> Done<Option<&'static str>> {
+    fn take(&mut self, step: &StreamStep, now: Duration) -> StepResult<Option<&'static str>> {
         take(&mut self.0, step, now)
     }
 }

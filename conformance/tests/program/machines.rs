@@ -31,7 +31,7 @@ enum Phase {
     Read,
     Wait,
     Response(u32),
-    Done(u32, Vec<u8>),
+    StepResult(u32, Vec<u8>),
     TimedOut,
 }
 
@@ -81,7 +81,7 @@ impl CheckedCall {
             Phase::Read => CallStep::Read(ServiceVariable::ResponseState),
             Phase::Wait => CallStep::Wait { until: self.until },
             Phase::Response(_) => CallStep::Read(ServiceVariable::Response),
-            Phase::Done(state, text) => {
+            Phase::StepResult(state, text) => {
                 CallStep::Done { state: *state, response: CncStr::from_bytes(text).unwrap() }
             }
             Phase::TimedOut => CallStep::TimedOut,
@@ -115,7 +115,7 @@ impl CheckedCall {
             (Phase::Read, Some(_)) => (Phase::Wait, true),
             (Phase::Read, None) => (Phase::Read, false),
             (Phase::Response(state), _) if text(value).len() < 128 => {
-                (Phase::Done(*state, text(value).to_vec()), true)
+                (Phase::StepResult(*state, text(value).to_vec()), true)
             }
             (phase, _) => (phase.clone(), !matches!(phase, Phase::Response(_))),
         };

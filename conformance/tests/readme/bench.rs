@@ -10,7 +10,7 @@ use super::common::Serve;
 use super::shown::{Shown, fits, words};
 
 /// How long one call may take: what cargo has to build takes minutes.
-const PATIENCE: Duration = Duration::from_secs(900);
+const WAIT_MAX: Duration = Duration::from_secs(900);
 
 /// How long one that does not end may take to show what it should.
 const PATIENCE_ENDLESS: Duration = Duration::from_secs(60);
@@ -80,7 +80,7 @@ impl Bench {
         let out = File::create(&path).unwrap();
         let mut process =
             self.command(&call, &out).stdout(out).stdin(Stdio::null()).spawn().unwrap();
-        let end = Instant::now() + if is_endless { PATIENCE_ENDLESS } else { PATIENCE };
+        let end = Instant::now() + if is_endless { PATIENCE_ENDLESS } else { WAIT_MAX };
         let read = || fs::read_to_string(&path).unwrap();
         loop {
             if let Some(status) = process.try_wait().unwrap() {

@@ -5,9 +5,10 @@ use ads_cnc::address::{Addressing, Attribute, AxisStride, Class, Group, IndexGro
 use ads_cnc::operation::{Call, FindInstance, Reply, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
-use super::observed::Bench;
+use super::super::findings::{Observation, TrafficCase};
+use super::observed::ExchangeContext;
 use crate::judge::{Checks as _, Rule, assumed, online};
 
 /// Whether a type is one that the manual prints for elements.
@@ -18,10 +19,10 @@ fn is_known(name: CncStr<'_>) -> bool {
 
 /// The size of BOOLEAN is stated in the manual, other sizes are assumed.
 fn size_rule(data_type: DataType) -> Rule {
-    if data_type == DataType::Boolean { "GEN-5".into() } else { online("GEN-5") }
+    if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) }
 }
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn elements(
         &mut self,
         observation: &Observation<'_>,
@@ -36,17 +37,17 @@ impl Bench<'_> {
         }
         let Some(key) = key(call) else { return };
         let all = &mut self.cnc.elements.known;
-        if !all.contains_key(&key) && !self.room.take(0) {
+        if !all.contains_key(&key) && !self.budget.take(0) {
             return;
         }
         let element = all.entry(key).or_default();
-        let mut page = self.records.on(Topic::CncSda, observation);
+        let mut record = self.records.on(TrafficCase::CncSda, observation);
         match (request, reply) {
             (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
                 let name = text.text.text();
                 let found = || format!("{name:?}");
-                page.check(assumed("SDA-7"), is_known(name), "a type of the manual", found);
-                page.check("SDA-7", !name.is_empty(), "the name of a type", found);
+                record.check(assumed(SDA_7), is_known(name), "a type of the manual", found);
+                record.check(SDA_7, !name.is_empty(), "the name of a type", found);
                 element.data_type = DataType::by_name(name);
             }
             (Request::ReadElementLength(_), Some(Reply::ElementLength(length))) => {
@@ -54,26 +55,26 @@ impl Bench<'_> {
             }
             (Request::ReadElementWriteFlag(_), Some(Reply::ElementWriteFlag(flag))) => {
                 element.writable = Some(flag.is_writable());
-                page.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", || flag.0);
+                record.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", || flag.0);
                 return;
             }
             (Request::ReadElement(_), Some(Reply::Content(content))) => {
                 let given = u32::try_from(content.bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length.filter(|length| call.read_length >= *length) {
                     let expected = || format!("the {length} bytes it says to have");
-                    page.check("SDA-8", given == length, expected, || format!("{given} bytes"));
+                    record.check(SDA_8, given == length, expected, || format!("{given} bytes"));
                 }
                 return;
             }
             (Request::WriteElement(write), reply) => {
-                let kept = element.writable != Some(false) || reply.is_none();
+                let passed = element.writable != Some(false) || reply.is_none();
                 let expected = "an error number: its write flag is FALSE";
-                page.check(assumed("SDA-9"), kept, expected, "a success");
+                record.check(assumed(SDA_9), passed, expected, "a success");
                 let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length {
                     let expected = || format!("the {length} bytes of the element");
-                    let mut page = self.records.on(Topic::ClientSda, observation);
-                    page.check("SDA-8", given == length, expected, || format!("{given} bytes"));
+                    let mut record = self.records.on(TrafficCase::ClientSda, observation);
+                    record.check(SDA_8, given == length, expected, || format!("{given} bytes"));
                 }
                 return;
             }
@@ -84,7 +85,7 @@ impl Bench<'_> {
         let Some(size) = data_type.size() else { return };
         let found = || format!("a length of {length}");
         let expected = || format!("the {size} bytes of {}", data_type.name());
-        page.check(size_rule(data_type), length == size, expected, found);
+        record.check(size_rule(data_type), length == size, expected, found);
     }
 
     fn instance(
@@ -93,33 +94,33 @@ impl Bench<'_> {
         find: &FindInstance,
         address: ObjectAddress,
     ) {
-        let mut page = self.records.on(Topic::CncSda, observation);
+        let mut record = self.records.on(TrafficCase::CncSda, observation);
         let class = find.class_group().class;
         let query = find.query();
         if address == ObjectAddress::NONE {
-            page.pass("SDA-2");
+            record.pass(SDA_2);
             return;
         }
         let found = || format!("({}, {})", address.index_group, address.index_offset);
         let Some(Group::Class(group)) = address.index_group.parts() else {
-            page.check("ADR-5", false, "the group of a class", found);
+            record.check(ADR_5, false, "the group of a class", found);
             return;
         };
         let of_class = group.class == class && group.attribute == Attribute::Content;
-        page.check("ADR-5", of_class, || format!("the content of {class:?}"), found);
+        record.check(ADR_5, of_class, || format!("the content of {class:?}"), found);
         // Queried by index, the returned rank may differ from the requested one.
         if group.addressing == Addressing::Logical || class == Class::Spindle {
             let same = u32::from(group.instance) == query.channel;
-            page.check("ADR-5", same, || format!("the group of instance {}", query.channel), found);
+            record.check(ADR_5, same, || format!("the group of instance {}", query.channel), found);
         }
         let of = |stride| IndexOffset::for_axis(stride, query.axis, 0).ok();
         let (rule, expected) = match (class, query.axis) {
-            (_, 0) => (Rule::from("SDA-1"), vec![Some(IndexOffset::new(0))]),
-            (Class::Decoder, _) => (Rule::from("ADR-7"), vec![of(AxisStride::X10000)]),
-            _ => (assumed("ADR-7"), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
+            (_, 0) => (Rule::from(SDA_1), vec![Some(IndexOffset::new(0))]),
+            (Class::Decoder, _) => (Rule::from(ADR_7), vec![of(AxisStride::X10000)]),
+            _ => (assumed(ADR_7), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
         };
-        let kept = expected.contains(&Some(address.index_offset));
-        page.check(rule, kept, || format!("the first element of axis {}", query.axis), found);
+        let passed = expected.contains(&Some(address.index_offset));
+        record.check(rule, passed, || format!("the first element of axis {}", query.axis), found);
     }
 }
 

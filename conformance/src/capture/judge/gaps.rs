@@ -4,17 +4,20 @@ use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
 use ads_cnc::operation::Call;
 use ads_cnc::{Decode as _, Error};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
+use super::super::findings::{Observation, TrafficCase};
 use super::super::frames::Span;
 use super::super::table::{Ending, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
 use super::{
-    CapturedFrame, Lost, PATIENCE, TrafficJudge, is_cnc, is_reply, location, service_clause,
+    CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, is_cnc, is_reply, location,
+    service_clause,
 };
-use crate::judge::{Checks as _, Describe};
+use crate::judge::{Checks as _, Describe, Rule};
 
 impl TrafficJudge {
     pub(super) fn broken(
@@ -25,20 +28,20 @@ impl TrafficJudge {
         span: Span,
     ) {
         let observation = Observation::Bytes(bytes, location(way, Some(span), None));
-        let topic = self.side(way);
-        self.records.on(topic, &observation).check("ADS-5", false, "the headers of a frame", error);
+        let case = self.side(way);
+        self.records.on(case, &observation).check(ADS_5, false, "the headers of a frame", error);
         self.lost.entry(way.connection).or_default().gap = Some(span.last.packet);
     }
 
     /// Which side sent these bytes, as far as the ports show.
-    fn side(&self, way: &SegmentDirection) -> Topic {
+    fn side(&self, way: &SegmentDirection) -> TrafficCase {
         let asks = self.waiting.range((way.connection, 0)..=(way.connection, u32::MAX)).next();
         match asks.and_then(|(_, all)| all.front()) {
-            Some(asked) if asked.way.from == way.from => Topic::ClientFrames,
-            Some(_) => Topic::CncFrames,
+            Some(asked) if asked.way.from == way.from => TrafficCase::ClientFrames,
+            Some(_) => TrafficCase::CncFrames,
             // Usually the listener's port is the lower one.
-            None if way.to.port() < way.from.port() => Topic::ClientFrames,
-            None => Topic::CncFrames,
+            None if way.to.port() < way.from.port() => TrafficCase::ClientFrames,
+            None => TrafficCase::CncFrames,
         }
     }
 
@@ -50,16 +53,16 @@ impl TrafficJudge {
         let begin = FrameRef::HEADERS_LEN.saturating_sub(AMS_HEADER_LEN);
         let header = bytes.get(begin..FrameRef::HEADERS_LEN).map(AmsHeader::decode);
         let Some(Ok(header)) = header else {
-            let topic = self.side(way);
-            self.records.on(topic, &observation).open("ADS-5", found);
+            let case = self.side(way);
+            self.records.on(case, &observation).open(ADS_5, found);
             return;
         };
         if !is_reply(&header) {
             if is_cnc(header.target.port) {
                 let rule = service_clause(header.command);
                 self.open_service(
-                    Topic::ClientServices,
-                    Topic::ClientFrames,
+                    TrafficCase::ClientServices,
+                    TrafficCase::ClientFrames,
                     &observation,
                     rule,
                     found,
@@ -71,20 +74,26 @@ impl TrafficJudge {
         let asked = asked.filter(|asked| is_cnc(asked.header.target.port));
         let Some(asked) = asked else { return };
         let rule = service_clause(asked.header.command);
-        self.open_service(Topic::CncServices, Topic::CncFrames, &observation, rule, found);
+        self.open_service(
+            TrafficCase::CncServices,
+            TrafficCase::CncFrames,
+            &observation,
+            rule,
+            found,
+        );
         self.open_function(&asked, &observation, found);
     }
 
     fn open_service(
         &mut self,
-        topic: Topic,
-        frames: Topic,
+        case: TrafficCase,
+        frames: TrafficCase,
         observation: &Observation<'_>,
-        rule: &'static str,
+        rule: ClauseId,
         found: impl Describe,
     ) {
-        let topic = if rule == "ADS-5" { frames } else { topic };
-        self.records.on(topic, observation).open(rule, found);
+        let case = if rule == ADS_5 { frames } else { case };
+        self.records.on(case, observation).open(rule, found);
     }
 
     /// A lost reply leaves the requirement of the requested function undecided.
@@ -99,8 +108,8 @@ impl TrafficJudge {
         let Ok(request) = call.dispatch() else { return };
         let spec = request.function().spec();
         if spec.reply.is_some() {
-            let topic = Topic::of_reply(request.function());
-            self.records.on(topic, observation).open(spec.clause, found);
+            let case = TrafficCase::of_reply(request.function());
+            self.records.on(case, observation).open(Rule::of(spec.clause), found);
         }
     }
 
@@ -108,24 +117,24 @@ impl TrafficJudge {
         count(&mut self.tally.gaps);
         self.lost.entry(way.connection).or_default().gap = Some(mark.packet);
         self.gap = self.gap.max(Some(mark.packet));
-        self.lose();
+        self.forget_cncs();
         let span = Span { first: mark, last: mark, end: 0 };
         let observation = Observation::Bytes(&[], location(way, Some(span), None));
         let found = || format!("{length} bytes before this packet were not captured");
-        let topic = self.side(way);
-        self.records.on(topic, &observation).open("ADS-5", found);
+        let case = self.side(way);
+        self.records.on(case, &observation).open(ADS_5, found);
     }
 
     /// The bytes that were not captured may have changed any state: forgets what is known of all
     /// CNCs.
-    pub(super) fn lose(&mut self) {
+    pub(super) fn forget_cncs(&mut self) {
         self.cncs.clear();
         self.is_lost = true;
     }
 
     pub(super) fn ended(&mut self, ending: Ending) {
         let connection = ending.connection;
-        self.settle_all(connection);
+        self.judge_all_unmatched(connection);
         let mut lost = self.lost.remove(&connection).unwrap_or_default();
         if self.is_crossed {
             lost.gap = lost.gap.max(self.gap);
@@ -152,15 +161,15 @@ impl TrafficJudge {
     /// No segment of one direction was captured.
     fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
         let observation = Observation::Bytes(&[], location(way, None, None));
-        let (topic, found) = if is_cnc {
-            (Topic::CncFrames, "nothing of what the CNC sent was captured")
+        let (case, found) = if is_cnc {
+            (TrafficCase::CncFrames, "nothing of what the CNC sent was captured")
         } else {
-            (Topic::ClientFrames, "nothing of what the client sent was captured")
+            (TrafficCase::ClientFrames, "nothing of what the client sent was captured")
         };
-        self.records.on(topic, &observation).open("ADS-5", found);
+        self.records.on(case, &observation).open(ADS_5, found);
     }
 
-    fn unanswered(&mut self, asked: &CapturedFrame, lost: &Lost, ending: Ending) {
+    fn unanswered(&mut self, asked: &CapturedFrame, lost: &ConnectionLoss, ending: Ending) {
         count(&mut self.tally.unanswered);
         let observation =
             Observation::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));
@@ -175,11 +184,12 @@ impl TrafficJudge {
         };
         // No reply can follow if the CNC's side, or the rest of the connection, was not captured.
         let followed = ending.unseen.is_none() && ending.last > packet;
-        if waited > PATIENCE && !lost.joined && followed {
+        if waited > REPLY_TIMEOUT && !lost.joined && followed {
             let rule = service_clause(asked.header.command);
             let found = || format!("none within {} s", waited.as_secs());
-            let topic = if rule == "ADS-5" { Topic::CncFrames } else { Topic::CncServices };
-            self.records.on(topic, &observation).check(rule, false, "an answer", found);
+            let case =
+                if rule == ADS_5 { TrafficCase::CncFrames } else { TrafficCase::CncServices };
+            self.records.on(case, &observation).check(rule, false, "an answer", found);
         }
     }
 }

@@ -18,9 +18,11 @@ use std::time::Duration;
 
 use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request, Task};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
-use self::observed::{Bench, ObservedCnc, Room};
-use super::findings::{Location, Observation, Topic, TopicRecords};
+use self::observed::{ExchangeContext, MemoryBudget, ObservedCnc};
+use super::findings::{CaseRecords, Location, Observation, TrafficCase};
 use super::frames::Span;
 use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
 use super::tally::{CaptureTally, count, count_of};
@@ -28,14 +30,14 @@ use super::time::Time;
 use super::vectors::Collector;
 use crate::client::answer;
 use crate::exchange::{Exchange, ExchangeError, violations};
-use crate::judge::{CaseOutcome, Checks as _, Describe, assumed};
+use crate::judge::{CaseOutcome, Checks as _, Describe, Rule, assumed};
 use crate::wire_service;
 
 /// Maximum number of CNCs that are distinguished.
 const CNCS_MAX: usize = 64;
 
 /// A reply that is later than this counts as missing.
-const PATIENCE: Duration = Duration::from_secs(5);
+const REPLY_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A captured frame and its location.
 #[derive(Clone, Debug)]
@@ -50,7 +52,7 @@ struct CapturedFrame {
 
 /// What is missing of a connection.
 #[derive(Debug, Default)]
-struct Lost {
+struct ConnectionLoss {
     /// Its beginning was not captured.
     joined: bool,
     /// The last packet after a gap.
@@ -61,7 +63,7 @@ struct Lost {
 
 /// Replies whose request has not been captured yet, in the order of the capture.
 #[derive(Debug, Default)]
-struct Early {
+struct EarlyReplies {
     all: BTreeMap<u64, CapturedFrame>,
     /// Their numbers by invoke ID.
     ids: BTreeSet<(u32, u64)>,
@@ -72,7 +74,7 @@ struct Early {
 
 #[derive(Debug)]
 pub(super) struct TrafficJudge {
-    records: TopicRecords,
+    records: CaseRecords,
     pub(super) tally: CaptureTally,
     /// Requests without a reply, by connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
@@ -82,8 +84,8 @@ pub(super) struct TrafficJudge {
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
     /// Memory of all waiting requests.
     waiting_bytes: usize,
-    early: Early,
-    lost: BTreeMap<u64, Lost>,
+    early: EarlyReplies,
+    lost: BTreeMap<u64, ConnectionLoss>,
     /// The last packet after a gap in any connection.
     gap: Option<u64>,
     /// Whether a request and its reply were captured on different connections.
@@ -95,7 +97,7 @@ pub(super) struct TrafficJudge {
     now: Option<Time>,
     /// The last packet that completed a frame.
     newest: u64,
-    room: Room,
+    budget: MemoryBudget,
 }
 
 /// Whether this is the port of a task of a CNC.
@@ -119,20 +121,20 @@ fn location(way: &SegmentDirection, asked: Option<Span>, answered: Option<Span>)
 }
 
 /// The requirement of a command's service.
-fn service_clause(command: Command) -> &'static str {
-    wire_service::service_of(command).map_or("ADS-5", wire_service::clause)
+fn service_clause(command: Command) -> ClauseId {
+    wire_service::service_of(command).map_or(ADS_5, wire_service::clause)
 }
 
 impl TrafficJudge {
     pub(super) fn new(vectors: Option<Collector>) -> Self {
         Self {
-            records: TopicRecords::new(),
+            records: CaseRecords::new(),
             tally: CaptureTally::default(),
             waiting: BTreeMap::new(),
             waiting_ids: BTreeSet::new(),
             waiting_of: BTreeMap::new(),
             waiting_bytes: 0,
-            early: Early::default(),
+            early: EarlyReplies::default(),
             lost: BTreeMap::new(),
             gap: None,
             is_crossed: false,
@@ -141,15 +143,15 @@ impl TrafficJudge {
             vectors,
             now: None,
             newest: 0,
-            room: Room { left: Room::ALL, missed: 0 },
+            budget: MemoryBudget { left: MemoryBudget::ALL, missed: 0 },
         }
     }
 
     /// The outcomes of all cases.
     pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
-        self.tally.unkept = self.room.missed;
+        self.tally.unkept = self.budget.missed;
         for line in self.tally.lines().into_iter().skip(1) {
-            self.records.note(Topic::CncFrames, line);
+            self.records.note(TrafficCase::CncFrames, line);
         }
         (self.records.finish(), self.tally, self.vectors)
     }
@@ -176,7 +178,7 @@ impl TrafficJudge {
             ConnectionEvent::Joined(connection) => {
                 count(&mut self.tally.joined);
                 self.lost.entry(connection).or_default().joined = true;
-                self.lose();
+                self.forget_cncs();
             }
             ConnectionEvent::Unfinished => count(&mut self.tally.unfinished),
             ConnectionEvent::Ended(ending) => self.ended(ending),
@@ -200,7 +202,7 @@ impl TrafficJudge {
         } else {
             self.request(seen, table)
         }
-        self.tidy(table);
+        self.judge_expired(table);
     }
 
     fn request(&mut self, seen: CapturedFrame, table: &ConnectionTable) {
@@ -226,8 +228,8 @@ impl TrafficJudge {
         match call {
             Err(error) => {
                 let rule = service_clause(header.command);
-                let mut page = self.records.on(Topic::ClientServices, &observation);
-                page.check(rule, false, "what the service takes", error);
+                let mut record = self.records.on(TrafficCase::ClientServices, &observation);
+                record.check(rule, false, "what the service takes", error);
             }
             Ok(None) => {
                 count_of(&mut self.tally.commands, header.command.0);
@@ -235,7 +237,7 @@ impl TrafficJudge {
             }
             Ok(Some(call)) => {
                 self.records
-                    .on(Topic::ClientServices, &observation)
+                    .on(TrafficCase::ClientServices, &observation)
                     .pass(service_clause(header.command));
                 if let Some(unknown) = requests::judge(&mut self.records, &observation, &call) {
                     count_of(&mut self.tally.unknown, unknown);
@@ -282,27 +284,28 @@ impl TrafficJudge {
             return;
         }
         let cnc = self.cncs.entry(net_id).or_insert_with(|| ObservedCnc::new(self.is_lost));
-        let mut bench = Bench { records: &mut self.records, cnc, room: &mut self.room };
-        replies::judge(&mut bench, &observation, &call, answer);
+        let mut context =
+            ExchangeContext { records: &mut self.records, cnc, budget: &mut self.budget };
+        replies::judge(&mut context, &observation, &call, answer);
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {
-            let known = bench.cnc.variables.described(&request);
+            let known = context.cnc.variables.described(&request);
             vectors.add(&request, &call, answer.success(), known.as_ref());
         }
     }
 }
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     /// Judges a client's request for an index or name that, as a reply shows, does not exist. No
     /// manual forbids such a request, so the rule is assumed.
-    fn beyond(
+    fn judge_nonexistent(
         &mut self,
         observation: &Observation<'_>,
         request: &Request<'_>,
-        rule: &'static str,
+        rule: impl Into<Rule>,
         expected: impl Describe,
         found: impl Describe,
     ) {
-        let topic = Topic::of_request(request.function());
-        self.records.on(topic, observation).check(assumed(rule), false, expected, found);
+        let case = TrafficCase::of_request(request.function());
+        self.records.on(case, observation).check(assumed(rule), false, expected, found);
     }
 }

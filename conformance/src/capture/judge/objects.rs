@@ -3,13 +3,14 @@
 use ads_cnc::DescriptorsRef;
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, ReadDescriptors, Reply, Request};
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
-use super::observed::{Bench, ObservedContent, ObservedList};
+use super::super::findings::{Observation, TrafficCase};
+use super::observed::{ExchangeContext, ObservedContent, ObservedList};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::suite::descriptor_holds_together;
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn objects(
         &mut self,
         observation: &Observation<'_>,
@@ -36,8 +37,8 @@ impl Bench<'_> {
                     let sized = u32::try_from(given) == Ok(known.size);
                     let expected = || format!("the {} bytes of its descriptor", known.size);
                     let found = || format!("{given} bytes of {}", known.name);
-                    let mut page = self.records.on(Topic::CncCom, observation);
-                    page.check(["COM-5", "COM-2"], sized, expected, found);
+                    let mut record = self.records.on(TrafficCase::CncCom, observation);
+                    record.check([COM_5, COM_2], sized, expected, found);
                 }
             }
             (Request::WriteObject(write), reply) => {
@@ -48,13 +49,13 @@ impl Bench<'_> {
                     let expected = || format!("the {} bytes of {}", known.size, known.name);
                     let found = || format!("{given} bytes");
                     self.records
-                        .on(Topic::ClientCom, observation)
-                        .check("COM-5", sized, expected, found);
+                        .on(TrafficCase::ClientCom, observation)
+                        .check(COM_5, sized, expected, found);
                 }
-                let kept = known.writable || reply.is_none();
+                let passed = known.writable || reply.is_none();
                 let expected = || format!("an error number: {} may not be written", known.name);
-                let mut page = self.records.on(Topic::CncCom, observation);
-                page.check(assumed("COM-2"), kept, expected, "a success");
+                let mut record = self.records.on(TrafficCase::CncCom, observation);
+                record.check(assumed(COM_2), passed, expected, "a success");
             }
             _ => {}
         }
@@ -71,11 +72,11 @@ impl Bench<'_> {
             *list = ObservedList::default();
         }
         list.count = Some(count);
-        let beyond = list.known.last_key_value().map_or(0, |(&last, _)| last);
-        let kept = beyond <= count;
-        let found = || format!("{count} objects, but a descriptor of object {beyond}");
-        let mut page = self.records.on(Topic::CncCom, observation);
-        page.check("COM-1", kept, "the number of objects", found);
+        let judge_nonexistent = list.known.last_key_value().map_or(0, |(&last, _)| last);
+        let passed = judge_nonexistent <= count;
+        let found = || format!("{count} objects, but a descriptor of object {judge_nonexistent}");
+        let mut record = self.records.on(TrafficCase::CncCom, observation);
+        record.check(COM_1, passed, "the number of objects", found);
     }
 
     fn descriptors(
@@ -92,11 +93,11 @@ impl Bench<'_> {
         if let Some(count) = count.filter(|count| first > *count) {
             let expected = || format!("one of {count} objects");
             let asked = || format!("object {first}");
-            self.beyond(observation, request, "COM-2", expected, asked);
+            self.judge_nonexistent(observation, request, COM_2, expected, asked);
             let expected = || format!("an error number: there are {count} objects");
             let found = || format!("a descriptor of object {first}");
-            let mut page = self.records.on(Topic::CncCom, observation);
-            page.check("COM-2", given.is_none_or(|given| given.is_empty()), expected, found);
+            let mut record = self.records.on(TrafficCase::CncCom, observation);
+            record.check(COM_2, given.is_none_or(|given| given.is_empty()), expected, found);
             return;
         }
         let Some(given) = given else { return };
@@ -108,37 +109,45 @@ impl Bench<'_> {
             let expected = asked.min(left);
             // The manual does not state the end of the list, nor the result for another length: the
             // rule is assumed.
-            let rule: Rule = if exact && asked <= left { "COM-3".into() } else { assumed("COM-3") };
-            let kept = u32::try_from(given.len()) == Ok(expected);
+            let rule: Rule = if exact && asked <= left { COM_3.into() } else { assumed(COM_3) };
+            let passed = u32::try_from(given.len()) == Ok(expected);
             let expected = || format!("{expected} descriptors from object {first} on");
-            self.records.on(Topic::CncCom, observation).check(rule, kept, expected, given.len());
+            self.records.on(TrafficCase::CncCom, observation).check(
+                rule,
+                passed,
+                expected,
+                given.len(),
+            );
         }
         let alone = given.len() == 1;
         for (index, object) in (first..).zip(given.iter()) {
             let owned = object.to_owned();
-            descriptor_holds_together(&mut self.records.on(Topic::CncCom, observation), object);
+            descriptor_holds_together(
+                &mut self.records.on(TrafficCase::CncCom, observation),
+                object,
+            );
             let list = self.cnc.objects.lists.entry(group).or_default();
             let other = list.ids.get(&object.id()).copied().filter(|other| *other != index);
             let found =
                 || format!("ID {} of object {index}, and of {}", object.id(), other.unwrap_or(0));
             let known = list.known.get(&index).copied();
-            if list.ids.contains_key(&object.id()) || self.room.take(0) {
+            if list.ids.contains_key(&object.id()) || self.budget.take(0) {
                 list.ids.insert(object.id(), index);
             }
-            if known.is_some() || self.room.take(0) {
+            if known.is_some() || self.budget.take(0) {
                 list.known.insert(index, (owned, alone));
             }
-            let mut page = self.records.on(Topic::CncCom, observation);
-            page.check("COM-2", other.is_none(), "an ID no other object has", found);
+            let mut record = self.records.on(TrafficCase::CncCom, observation);
+            record.check(COM_2, other.is_none(), "an ID no other object has", found);
             if let Some((known, was_alone)) = known {
                 // Descriptors read one by one and read in a range must be equal.
-                let rule: Rule = if alone == was_alone { assumed("COM-2") } else { "COM-3".into() };
+                let rule: Rule = if alone == was_alone { assumed(COM_2) } else { COM_3.into() };
                 let found = || format!("another descriptor of object {index} than before");
-                page.check(rule, known == owned, "the same descriptor", found);
+                record.check(rule, known == owned, "the same descriptor", found);
             }
             let place = (object.index_group().get(), object.index_offset().get());
             let contents = &mut self.cnc.objects.contents;
-            if contents.contains_key(&place) || self.room.take(0) {
+            if contents.contains_key(&place) || self.budget.take(0) {
                 contents.insert(
                     place,
                     ObservedContent {

@@ -7,26 +7,26 @@ use ads_cnc::streaming::Checker;
 use ads_cnc::value::DataType;
 use ads_cnc::{Description, Descriptor};
 
-use crate::capture::findings::TopicRecords;
+use crate::capture::findings::CaseRecords;
 use crate::capture::tally::count;
 use crate::capture::time::Time;
 
 /// The state that the judgement of one exchange needs.
-pub(super) struct Bench<'j> {
-    pub(super) records: &'j mut TopicRecords,
+pub(super) struct ExchangeContext<'j> {
+    pub(super) records: &'j mut CaseRecords,
     pub(super) cnc: &'j mut ObservedCnc,
-    pub(super) room: &'j mut Room,
+    pub(super) budget: &'j mut MemoryBudget,
 }
 
 /// The memory left for names, objects and elements of all CNCs.
 #[derive(Debug)]
-pub(super) struct Room {
+pub(super) struct MemoryBudget {
     pub(super) left: usize,
     /// Number of entries that were not stored.
     pub(super) missed: u64,
 }
 
-impl Room {
+impl MemoryBudget {
     pub(super) const ALL: usize = 0x180_0000;
 
     /// Takes memory for an entry of this size plus overhead; returns whether enough was left.

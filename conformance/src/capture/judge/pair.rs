@@ -1,9 +1,11 @@
 //! Finds the request of each reply, also if both were captured in another order.
 
-use super::super::findings::{Observation, Topic};
+use ads_cnc_vectors::ids::*;
+
+use super::super::findings::{Observation, TrafficCase};
 use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, Early, TrafficJudge, is_cnc, location, service_clause};
+use super::{CapturedFrame, EarlyReplies, TrafficJudge, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Maximum number of waiting requests of a connection, and of bytes of those of all connections;
@@ -26,7 +28,7 @@ const ALIKE_MAX: usize = 512;
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
 
-impl Early {
+impl EarlyReplies {
     fn push(&mut self, reply: CapturedFrame) {
         self.bytes = self.bytes.saturating_add(reply.frame.len());
         self.ids.insert((reply.header.invoke_id, reply.number));
@@ -192,7 +194,7 @@ impl TrafficJudge {
     }
 
     /// Judges replies whose request can no longer arrive.
-    pub(super) fn tidy(&mut self, table: &ConnectionTable) {
+    pub(super) fn judge_expired(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
             let last = first.span.last.packet.saturating_add(REORDERED_MAX);
@@ -201,20 +203,20 @@ impl TrafficJudge {
                 return;
             }
             let Some(reply) = self.early.remove(number) else { return };
-            self.settle(reply);
+            self.judge_unmatched(reply);
         }
     }
 
     /// Judges the remaining replies of a connection.
-    pub(super) fn settle_all(&mut self, connection: u64) {
+    pub(super) fn judge_all_unmatched(&mut self, connection: u64) {
         while let Some(number) = self.early.first_of(connection) {
             let Some(reply) = self.early.remove(number) else { return };
-            self.settle(reply);
+            self.judge_unmatched(reply);
         }
     }
 
     /// Judges a reply without a request whose addresses match.
-    fn settle(&mut self, reply: CapturedFrame) {
+    fn judge_unmatched(&mut self, reply: CapturedFrame) {
         let header = reply.header;
         let connection = reply.way.connection;
         let key = (connection, header.invoke_id);
@@ -230,7 +232,7 @@ impl TrafficJudge {
             self.exchange(&asked, &reply);
         } else if !is_cnc(header.source.port) {
             count_of(&mut self.tally.other_ports, header.source.port.0);
-        } else if service_clause(header.command) == "ADS-5" {
+        } else if service_clause(header.command) == ADS_5 {
             count_of(&mut self.tally.commands, header.command.0);
         } else {
             count(&mut self.tally.unasked);
@@ -248,14 +250,14 @@ impl TrafficJudge {
     pub(super) fn unasked(&mut self, reply: &CapturedFrame, is_open: bool) {
         let observation =
             Observation::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
-        let mut page = self.records.on(Topic::CncFrames, &observation);
+        let mut record = self.records.on(TrafficCase::CncFrames, &observation);
         let found = || format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
         if is_open {
             let found = || format!("{}, whose request may not have been captured", found());
-            page.open("ADS-5", found);
+            record.open(ADS_5, found);
         } else {
             let expected = "an answer to a request that still waits for one";
-            page.check("ADS-5", false, expected, found);
+            record.check(ADS_5, false, expected, found);
         }
     }
 }

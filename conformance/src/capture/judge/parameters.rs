@@ -1,23 +1,24 @@
 //! Dynamic parameters, compared across exchanges.
 
 use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
-use super::observed::{Bench, ObservedParameters, Room};
+use super::super::findings::{Observation, TrafficCase};
+use super::observed::{ExchangeContext, MemoryBudget, ObservedParameters};
 use crate::judge::Checks as _;
 
 impl ObservedParameters {
     /// Stores a count. Names are not stored because indices move (DYN-4).
-    fn learn(&mut self, room: &mut Room, (group, kind): (u32, String), count: u32) {
+    fn learn(&mut self, budget: &mut MemoryBudget, (group, kind): (u32, String), count: u32) {
         let length = kind.len();
         let key = (group, kind);
-        if self.counts.contains_key(&key) || room.take(length) {
+        if self.counts.contains_key(&key) || budget.take(length) {
             self.counts.insert(key, count);
         }
     }
 }
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn parameters(
         &mut self,
         observation: &Observation<'_>,
@@ -29,7 +30,11 @@ impl Bench<'_> {
         let (kind, index) = match request {
             Request::CountDynamic(count) => {
                 if let Some(Reply::DynamicCount(number)) = reply {
-                    self.cnc.parameters.learn(self.room, (group, count.kind.to_string()), number.0);
+                    self.cnc.parameters.learn(
+                        self.budget,
+                        (group, count.kind.to_string()),
+                        number.0,
+                    );
                 }
                 return;
             }
@@ -43,18 +48,23 @@ impl Bench<'_> {
         if index > count {
             let expected = || format!("one of 1 to {count}");
             let found = || format!("index {index}");
-            self.beyond(observation, request, "DYN-5", expected, found);
+            self.judge_nonexistent(observation, request, DYN_5, expected, found);
         }
-        let kept = index <= count || reply.is_none();
+        let passed = index <= count || reply.is_none();
         let expected = || format!("an error number for index {index} of {count}");
-        self.records.on(Topic::CncDyn, observation).check("DYN-5", kept, expected, "a success");
+        self.records.on(TrafficCase::CncDyn, observation).check(
+            DYN_5,
+            passed,
+            expected,
+            "a success",
+        );
         let name = match reply {
             Some(Reply::DynamicName(name)) => name.name.text(),
             _ => return,
         };
         let prefix = kind.to_string();
         let of_kind = name.to_string().starts_with(&prefix);
-        let mut page = self.records.on(Topic::CncDyn, observation);
-        page.check("DYN-2", of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
+        let mut record = self.records.on(TrafficCase::CncDyn, observation);
+        record.check(DYN_2, of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
     }
 }

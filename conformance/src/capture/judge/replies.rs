@@ -3,52 +3,53 @@
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
 use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
+use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
-use super::super::findings::{Observation, Topic, TopicRecords};
-use super::observed::Bench;
+use super::super::findings::{CaseRecords, Observation, TrafficCase};
+use super::observed::ExchangeContext;
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::wire_service;
 
 /// Checks that apply to the headers of every reply.
 pub(super) fn headers(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     violations: &[Violation],
 ) {
-    let mut page = records.on(Topic::CncFrames, observation);
+    let mut record = records.on(TrafficCase::CncFrames, observation);
     for violation in violations {
         let expected = "the header of the answer to this request";
-        page.check(violation.requirement, false, expected, &violation.what);
+        record.check(violation.requirement, false, expected, &violation.what);
     }
     if violations.is_empty() {
-        page.pass("ADS-5");
+        record.pass(ADS_5);
     }
 }
 
 /// Judges the service's reply and returns it if it decodes.
 pub(super) fn service<'e>(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     exchange: &'e Exchange,
 ) -> Option<&'e AdsReply> {
     let clause = wire_service::clause(exchange.service);
-    let mut page = records.on(Topic::CncServices, observation);
+    let mut record = records.on(TrafficCase::CncServices, observation);
     match &exchange.outcome {
         Ok((answer, header)) => {
-            page.pass(clause);
-            page.pass("ADS-4");
+            record.pass(clause);
+            record.pass(ADS_4);
             let given = answer.data.as_ref().map_or(0, Vec::len);
-            let kept = usize::try_from(exchange.read_length).is_ok_and(|read| given <= read);
+            let passed = usize::try_from(exchange.read_length).is_ok_and(|read| given <= read);
             let expected =
                 || format!("at most the {} bytes that were asked for", exchange.read_length);
-            page.check(clause, kept, expected, || format!("{given} bytes of data"));
+            record.check(clause, passed, expected, || format!("{given} bytes of data"));
             short_error(records, observation, answer, header);
             Some(answer)
         }
         Err(fault) => {
-            page.check(clause, false, "what the service gives", || fault);
+            record.check(clause, false, "what the service gives", || fault);
             None
         }
     }
@@ -56,19 +57,19 @@ pub(super) fn service<'e>(
 
 /// An error reply may lack the fields that follow a success.
 fn short_error(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     answer: &AdsReply,
     header: &AmsHeader,
 ) {
     let is_error = !answer.ams_error.is_ok() || !answer.result.is_ok();
     if is_error && (answer.data.is_none() || header.data_length == 0) {
-        records.on(Topic::CncFrames, observation).pass("ADS-6");
+        records.on(TrafficCase::CncFrames, observation).pass(ADS_6);
     }
 }
 
 pub(super) fn judge(
-    bench: &mut Bench<'_>,
+    context: &mut ExchangeContext<'_>,
     observation: &Observation<'_>,
     call: &Call<'_>,
     answer: &AdsReply,
@@ -79,20 +80,22 @@ pub(super) fn judge(
         Err(DispatchError::Stream(error)) => {
             // That the CNC must reject the request is assumed, except if its count is too large.
             let spec = error.field().spec().map(|spec| spec.clause);
-            let spec = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { spec };
+            let spec =
+                if error.kind() == ErrorKind::TooMany { Some(VAR_24.as_str()) } else { spec };
             let Some(clause) = spec.filter(|id| requirement(id).is_some()) else { return };
-            let rule = if clause == "VAR-24" { Rule::from(clause) } else { assumed(clause) };
-            let topic = match clause.get(..3) {
-                Some("COM") => Topic::CncCom,
-                Some("SDA") => Topic::CncSda,
-                Some("DYN") => Topic::CncDyn,
-                Some("STM") => Topic::CncStream,
-                _ => Topic::CncVar,
+            let rule =
+                if clause == VAR_24.as_str() { VAR_24.into() } else { assumed(Rule::of(clause)) };
+            let case = match clause.get(..3) {
+                Some("COM") => TrafficCase::CncCom,
+                Some("SDA") => TrafficCase::CncSda,
+                Some("DYN") => TrafficCase::CncDyn,
+                Some("STM") => TrafficCase::CncStream,
+                _ => TrafficCase::CncVar,
             };
             let given = data.is_some_and(|data| !data.is_empty() || call.service == Service::Write);
-            let mut page = bench.records.on(topic, observation);
-            if given && page.knows(clause) {
-                page.check(rule, false, || format!("an error number for {error}"), "a success");
+            let mut record = context.records.on(case, observation);
+            if given && record.knows(clause) {
+                record.check(rule, false, || format!("an error number for {error}"), "a success");
             }
             return;
         }
@@ -103,11 +106,12 @@ pub(super) fn judge(
         None => None,
         Some(Ok(reply)) => {
             let spec = request.function().spec();
-            let mut page = bench.records.on(Topic::of_reply(request.function()), observation);
+            let mut record =
+                context.records.on(TrafficCase::of_reply(request.function()), observation);
             let clauses = [Some(spec.clause), spec.reply.map(|stream| stream.layout().clause)];
             for clause in clauses.into_iter().flatten() {
-                if page.knows(clause) {
-                    page.pass(clause);
+                if record.knows(clause) {
+                    record.pass(Rule::of(clause));
                 }
             }
             Some(reply)
@@ -115,20 +119,22 @@ pub(super) fn judge(
         Some(Err(error)) => {
             let spec = request.function().spec();
             let field = error.field().spec().map(|spec| spec.clause);
-            let field = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { field };
+            let field =
+                if error.kind() == ErrorKind::TooMany { Some(VAR_24.as_str()) } else { field };
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
-            let mut page = bench.records.on(Topic::of_reply(request.function()), observation);
-            let clause = if page.knows(clause) { clause } else { spec.clause };
-            page.check(clause, false, || format!("what {} gives", spec.name), error);
+            let mut record =
+                context.records.on(TrafficCase::of_reply(request.function()), observation);
+            let clause = if record.knows(clause) { clause } else { spec.clause };
+            record.check(Rule::of(clause), false, || format!("what {} gives", spec.name), error);
             return;
         }
     };
-    together(bench, observation, &request, reply.as_ref(), call);
+    together(context, observation, &request, reply.as_ref(), call);
 }
 
 /// Judges a reply together with earlier ones.
 fn together(
-    bench: &mut Bench<'_>,
+    context: &mut ExchangeContext<'_>,
     observation: &Observation<'_>,
     request: &Request<'_>,
     reply: Option<&Reply<'_>>,
@@ -138,8 +144,8 @@ fn together(
         Request::CountObjects(_)
         | Request::ReadDescriptors(_)
         | Request::ReadObject(_)
-        | Request::WriteObject(_) => bench.objects(observation, request, reply, call),
-        Request::WriteProgramStream(_) => bench.stream(observation, call, reply.is_some()),
+        | Request::WriteObject(_) => context.objects(observation, request, reply, call),
+        Request::WriteProgramStream(_) => context.stream(observation, call, reply.is_some()),
         Request::FindInstance(_)
         | Request::CountElements(_)
         | Request::ReadElement(_)
@@ -148,15 +154,15 @@ fn together(
         | Request::ReadElementType(_)
         | Request::ReadElementLength(_)
         | Request::ReadElementUnit(_)
-        | Request::ReadElementWriteFlag(_) => bench.elements(observation, request, reply, call),
+        | Request::ReadElementWriteFlag(_) => context.elements(observation, request, reply, call),
         Request::CountDynamic(_)
         | Request::DynamicNameByIndex(_)
         | Request::DynamicValueByName(_)
-        | Request::DynamicValueByIndex(_) => bench.parameters(observation, request, reply, call),
+        | Request::DynamicValueByIndex(_) => context.parameters(observation, request, reply, call),
         _ => {
-            bench.variables(observation, request, reply, call);
-            bench.values(observation, request, reply, call);
-            bench.service(observation, request, reply, call);
+            context.variables(observation, request, reply, call);
+            context.values(observation, request, reply, call);
+            context.service(observation, request, reply, call);
         }
     }
 }

@@ -4,43 +4,44 @@ use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, DispatchError, Function, Request, Service};
 use ads_cnc::{CncStr, ErrorKind, VariablePath};
+use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
-use super::super::findings::{Observation, Topic, TopicRecords};
+use super::super::findings::{CaseRecords, Observation, TrafficCase};
 use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::values::until_nul;
 use crate::wire_service;
 
 /// Checks that apply to the headers of every request.
 pub(super) fn headers(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     header: &AmsHeader,
     again: Option<bool>,
 ) {
-    let mut page = records.on(Topic::ClientFrames, observation);
+    let mut record = records.on(TrafficCase::ClientFrames, observation);
     let flags = header.state_flags;
     let found = || format!("state flags {:#06x}", flags.0);
-    page.check("ADS-5", flags == StateFlags::REQUEST, "state flags 0x0004", found);
-    let rule = assumed("ADS-5");
+    record.check(ADS_5, flags == StateFlags::REQUEST, "state flags 0x0004", found);
+    let rule = assumed(ADS_5);
     let none = header.error == AdsError::NO_ERROR;
     let found = || format!("AMS error {:#x}", header.error);
-    page.check(rule, none, "no AMS error in a request", found);
+    record.check(rule, none, "no AMS error in a request", found);
     if let Some(again) = again {
         let found = || format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
-        page.check(rule, !again, "an invoke ID of its own", found);
+        record.check(rule, !again, "an invoke ID of its own", found);
     }
 }
 
 /// Judges a request; returns its address if no manual documents it.
 pub(super) fn judge(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     call: &Call<'_>,
 ) -> Option<String> {
     match call.dispatch() {
         Ok(request) => {
-            records.on(Topic::ClientPorts, observation).pass(port_rule(call.port));
+            records.on(TrafficCase::ClientPorts, observation).pass(port_rule(call.port));
             documented(records, observation, call, &request);
             None
         }
@@ -50,17 +51,15 @@ pub(super) fn judge(
                 let clause = error.field().spec().map(|spec| spec.clause);
                 let known = clause.filter(|id| requirement(id).is_some());
                 let rule = match error.kind() {
-                    ErrorKind::TooMany => "VAR-24".into(),
-                    ErrorKind::TooLong if function == Function::WriteProgramStream => {
-                        "STM-2".into()
-                    }
+                    ErrorKind::TooMany => VAR_24.into(),
+                    ErrorKind::TooLong if function == Function::WriteProgramStream => STM_2.into(),
                     // The reply does not fit into the requested length: the minimum is assumed.
-                    ErrorKind::BufferTooSmall => assumed("COM-3"),
-                    _ => Rule::from(known.unwrap_or(spec.clause)),
+                    ErrorKind::BufferTooSmall => assumed(COM_3),
+                    _ => Rule::of(known.unwrap_or(spec.clause)),
                 };
                 let expected = || format!("what {} takes", spec.name);
                 records
-                    .on(Topic::of_request(function), observation)
+                    .on(TrafficCase::of_request(function), observation)
                     .check(rule, false, expected, error);
             }
             None
@@ -71,8 +70,8 @@ pub(super) fn judge(
             if let Ok(request) = elsewhere {
                 let spec = request.function().spec();
                 let expected = || format!("port {} for {}", spec.task.port(), spec.name);
-                let mut page = records.on(Topic::ClientPorts, observation);
-                page.check(port_rule(other), false, expected, || format!("port {}", call.port));
+                let mut record = records.on(TrafficCase::ClientPorts, observation);
+                record.check(port_rule(other), false, expected, || format!("port {}", call.port));
                 return None;
             }
             if matches!(refusal, DispatchError::Service { .. }) {
@@ -86,7 +85,7 @@ pub(super) fn judge(
 
 /// The manual states the port of COM; those of SDA and GEO are known from online sources.
 fn port_rule(port: AmsPort) -> Rule {
-    if port == AmsPort::COM { "GEN-4".into() } else { online("GEN-4") }
+    if port == AmsPort::COM { GEN_4.into() } else { online(GEN_4) }
 }
 
 /// The function at a call's address whose service fits.
@@ -105,7 +104,7 @@ fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Functi
 /// Judges a call of a function by the wrong service. On the decoder channel it may be a read of all
 /// elements in turn, whose offsets collide with functions (SDA-12): it is counted only.
 fn wrong_service(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     call: &Call<'_>,
     refusal: DispatchError,
@@ -117,47 +116,52 @@ fn wrong_service(
         let Call { port, service, index_group, index_offset, .. } = call;
         return Some(format!("{service} {index_group}, {index_offset} at {port}"));
     }
-    let mut page = records.on(Topic::of_request(function), observation);
-    page.check(spec.clause, false, || format!("{} for {}", spec.service, spec.name), || refusal);
+    let mut record = records.on(TrafficCase::of_request(function), observation);
+    record.check(
+        Rule::of(spec.clause),
+        false,
+        || format!("{} for {}", spec.service, spec.name),
+        || refusal,
+    );
     None
 }
 
 /// Judges a request that the codec decodes.
 fn documented(
-    records: &mut TopicRecords,
+    records: &mut CaseRecords,
     observation: &Observation<'_>,
     call: &Call<'_>,
     request: &Request<'_>,
 ) {
     let function = request.function();
     let spec = function.spec();
-    let topic = Topic::of_request(function);
-    let mut page = records.on(topic, observation);
-    page.pass(spec.clause);
+    let case = TrafficCase::of_request(function);
+    let mut record = records.on(case, observation);
+    record.pass(Rule::of(spec.clause));
     if let Some(clause) = spec.request.map(|stream| stream.layout().clause)
         && requirement(clause).is_some()
     {
-        page.pass(clause);
+        record.pass(Rule::of(clause));
     }
     if let Request::DynamicValueByName(request) = request {
         let ended = request.name.tail().is_some();
-        page.check(assumed("DYN-3"), ended, "a name with its NUL", "a name without");
+        record.check(assumed(DYN_3), ended, "a name with its NUL", "a name without");
     }
     if let Request::ReadByHandle(_) | Request::WriteByHandle(_) = request {
-        page.pass("VAR-24");
+        record.pass(VAR_24);
     }
     if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
-        let mut page = records.on(Topic::ClientServices, observation);
+        let mut record = records.on(TrafficCase::ClientServices, observation);
         let (expected, found) = (|| format!("room for {least} bytes"), || format!("for {asked}"));
-        page.check(rule, asked >= least, expected, found);
+        record.check(rule, asked >= least, expected, found);
     }
-    let mut page = records.on(topic, observation);
+    let mut record = records.on(case, observation);
     if let Some(name) = name_of(function, call) {
         let path = VariablePath::from_text(name);
         let found = path.err().map(|error| format!("{name}: {error}")).unwrap_or_default();
-        page.check(assumed("VAR-20"), found.is_empty(), "a name as the manual builds them", found);
+        record.check(assumed(VAR_20), found.is_empty(), "a name as the manual builds them", found);
     }
 }
 

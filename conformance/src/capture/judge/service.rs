@@ -3,13 +3,14 @@
 use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::service::ServiceVariable;
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic, TopicRecord};
-use super::observed::{Bench, ObservedInterface, Services};
+use super::super::findings::{CaseRecord, Observation, TrafficCase};
+use super::observed::{ExchangeContext, ObservedInterface, Services};
 use super::requests::name_of;
 use crate::judge::{Checks as _, assumed};
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn service(
         &mut self,
         observation: &Observation<'_>,
@@ -39,14 +40,14 @@ impl Bench<'_> {
         let interface = known.entry(group).or_insert_with(new);
         match (written, reply) {
             (Some(value), _) => {
-                let mut page = self.records.on(Topic::ClientService, observation);
-                form(&mut page, variable, value);
-                interface.write(&mut page, variable, value);
+                let mut record = self.records.on(TrafficCase::ClientService, observation);
+                form(&mut record, variable, value);
+                interface.write(&mut record, variable, value);
             }
             (None, Reply::Value(value)) => {
-                let mut page = self.records.on(Topic::CncService, observation);
-                form(&mut page, variable, value.bytes);
-                interface.read(&mut page, variable, value.bytes);
+                let mut record = self.records.on(TrafficCase::CncService, observation);
+                form(&mut record, variable, value.bytes);
+                interface.read(&mut record, variable, value.bytes);
             }
             _ => {}
         }
@@ -54,16 +55,16 @@ impl Bench<'_> {
 }
 
 /// A text has at most 128 bytes, a state is an UNS32.
-fn form(page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
+fn form(record: &mut CaseRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
     let found = || format!("{length} bytes of {}", variable.name());
     match variable {
         ServiceVariable::RequestState | ServiceVariable::ResponseState => {
-            page.check("SVC-1", length == 4, "an UNS32", found);
+            record.check(SVC_1, length == 4, "an UNS32", found);
         }
         ServiceVariable::Uuid => {}
         _ => {
-            page.check("SVC-1", length <= SERVICE_TEXT_MAX, "at most 128 bytes", found);
+            record.check(SVC_1, length <= SERVICE_TEXT_MAX, "at most 128 bytes", found);
         }
     }
 }
@@ -73,7 +74,7 @@ fn is_set(value: &[u8]) -> bool {
 }
 
 impl ObservedInterface {
-    fn read(&mut self, page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
+    fn read(&mut self, record: &mut CaseRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::RequestState => {
                 if is_set(value) && self.answered {
@@ -85,42 +86,42 @@ impl ObservedInterface {
             ServiceVariable::Uuid => self.read_id = true,
             // The service may have answered already, so a value other than 0 proves nothing.
             ServiceVariable::ResponseState if self.asked && !is_set(value) => {
-                page.pass(assumed("SVC-3"));
+                record.pass(assumed(SVC_3));
             }
             _ => {}
         }
     }
 
-    fn write(&mut self, page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
+    fn write(&mut self, record: &mut CaseRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::Uuid => self.wrote_id = true,
             ServiceVariable::Request => self.wrote_request = true,
             ServiceVariable::RequestState if is_set(value) => {
                 // The client acts as the NC program.
                 let found = "REQUEST_STATE before UUID and REQUEST";
-                let kept = self.is_lost || self.wrote_id && self.wrote_request;
-                page.check("SVC-12", kept, "UUID and REQUEST before it", found);
+                let passed = self.is_lost || self.wrote_id && self.wrote_request;
+                record.check(SVC_12, passed, "UUID and REQUEST before it", found);
                 *self = Self { asked: true, ..Self::default() };
             }
             ServiceVariable::RequestState => {
                 let found = "REQUEST_STATE after RESPONSE_STATE, which it resets";
-                page.check(assumed("SVC-4"), !self.answered, "RESPONSE_STATE last", found);
+                record.check(assumed(SVC_4), !self.answered, "RESPONSE_STATE last", found);
                 self.reset = true;
             }
             ServiceVariable::Response => self.response = true,
             ServiceVariable::ResponseState => {
                 self.asked = false;
                 let found = "RESPONSE_STATE = 0, which leaves the program waiting";
-                page.check("SVC-5", is_set(value), "another number than 0", found);
+                record.check(SVC_5, is_set(value), "another number than 0", found);
                 if !is_set(value) {
                     return;
                 }
                 let found = "RESPONSE_STATE before RESPONSE";
-                let kept = self.is_lost || self.response;
-                page.check("SVC-5", kept, "RESPONSE before it", found);
+                let passed = self.is_lost || self.response;
+                record.check(SVC_5, passed, "RESPONSE before it", found);
                 let found = "an answer to what was not read to be asked";
-                let kept = self.is_lost || self.read_state && self.read_id;
-                page.check("SVC-2", kept, "UUID and REQUEST_STATE read before", found);
+                let passed = self.is_lost || self.read_state && self.read_id;
+                record.check(SVC_2, passed, "UUID and REQUEST_STATE read before", found);
                 self.answered = true;
             }
         }

@@ -5,15 +5,16 @@ use std::time::Duration;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
-use super::observed::Bench;
-use crate::judge::{Checks as _, assumed};
+use super::super::findings::{Observation, TrafficCase};
+use super::ExchangeContext;
+use crate::judge::{Checks as _, Rule, assumed};
 
 /// After a rejected write, a client that is silent for this long has given up.
-const GIVEN_UP: Duration = Duration::from_secs(30);
+const RETRY_TIMEOUT: Duration = Duration::from_secs(30);
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn stream(
         &mut self,
         observation: &Observation<'_>,
@@ -21,28 +22,28 @@ impl Bench<'_> {
         accepted: bool,
     ) {
         let data = call.data;
-        let mut page = self.records.on(Topic::ClientStream, observation);
+        let mut record = self.records.on(TrafficCase::ClientStream, observation);
         let length = data.len();
-        let kept = length <= STREAM_PACKET_MAX;
-        page.check("STM-2", kept, "at most 992 bytes", || format!("{length} bytes"));
+        let passed = length <= STREAM_PACKET_MAX;
+        record.check(STM_2, passed, "at most 992 bytes", || format!("{length} bytes"));
         let whole = data.ends_with(b"\r\n");
-        page.check("STM-4", whole, "whole lines, each with CR LF", "an open line at the end");
+        record.check(STM_4, whole, "whole lines, each with CR LF", "an open line at the end");
         // `NcText` accepts every line end, so bare line feeds are detected here.
         let bare = data.windows(2).any(|two| matches!(two, [first, b'\n'] if *first != b'\r'))
             || data.first() == Some(&b'\n')
             || data.windows(2).any(|two| matches!(two, [b'\r', second] if *second != b'\n'));
-        page.check("STM-4", !bare, "lines that end in CR LF", "CR or LF alone");
+        record.check(STM_4, !bare, "lines that end in CR LF", "CR or LF alone");
         match NcText::new(data) {
             Ok(_) => {
-                page.pass("STM-7");
-                page.pass("STM-20");
+                record.pass(STM_7);
+                record.pass(STM_20);
             }
             Err(error) => {
-                let rule = error.kind().clause();
-                let rule = if rule == "STM-5" { "STM-4" } else { rule };
+                let clause = error.kind().clause();
+                let rule = if clause == STM_5.as_str() { STM_4.into() } else { Rule::of(clause) };
                 let is_line = matches!(error.kind(), LineErrorKind::TooLong { .. });
                 let expected = if is_line { "lines of at most 990 characters" } else { "ASCII" };
-                page.check(rule, false, expected, || error);
+                record.check(rule, false, expected, || error);
             }
         }
         let now = observation.time();
@@ -53,9 +54,9 @@ impl Bench<'_> {
                 (Some(now), Some(then)) => now.since(then),
                 _ => Duration::ZERO,
             };
-            if waited < GIVEN_UP {
+            if waited < RETRY_TIMEOUT {
                 let expected = || format!("the {} bytes that were refused before", refused.len());
-                page.check("STM-6", refused == data, expected, "other data");
+                record.check(STM_6, refused == data, expected, "other data");
             }
         }
         // After a gap the data may be inside a comment, where every byte is allowed.
@@ -67,26 +68,24 @@ impl Bench<'_> {
                     CheckEvent::ProgramEnd { .. } => ended = true,
                     CheckEvent::Diagnostic(finding) => {
                         let clause = match finding.kind {
-                            DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => {
-                                "STM-8"
-                            }
+                            DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => STM_8,
                             // After the end of a program the next one begins, or the rest of this
                             // one follows.
                             _ => continue,
                         };
-                        page.check(clause, false, "what a stream may have", || finding);
+                        record.check(clause, false, "what a stream may have", || finding);
                     }
                 }
             }
-            page.pass("STM-8");
+            record.pass(STM_8);
             if ended {
                 stream.checker = None;
             }
-        } else if !accepted && kept && whole {
+        } else if !accepted && passed && whole {
             stream.refused = Some((data.to_vec(), now));
         }
-        let mut page = self.records.on(Topic::CncStream, observation);
+        let mut record = self.records.on(TrafficCase::CncStream, observation);
         let expected = "an error number for more than 992 bytes";
-        page.check(assumed("STM-2"), kept || !accepted, expected, "a success");
+        record.check(assumed(STM_2), passed || !accepted, expected, "a success");
     }
 }

@@ -2,10 +2,11 @@
 
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
+use super::super::findings::{Observation, TrafficCase};
 use super::super::target::TargetVariable;
-use super::observed::Bench;
+use super::observed::ExchangeContext;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.
@@ -29,7 +30,7 @@ impl TargetVariable {
     }
 }
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn values(
         &mut self,
         observation: &Observation<'_>,
@@ -41,40 +42,40 @@ impl Bench<'_> {
         let name = &target.description.name.text;
         let by_handle = matches!(request, Request::ReadByHandle(_) | Request::WriteByHandle(_));
         let (clause, written) = match request {
-            Request::WriteByHandle(write) => ("VAR-12", Some(write.value.as_bytes())),
-            Request::WriteByName(write) => ("VAR-13", Some(write.value.as_bytes())),
-            _ => (if by_handle { "VAR-11" } else { "VAR-20" }, None),
+            Request::WriteByHandle(write) => (VAR_12, Some(write.value.as_bytes())),
+            Request::WriteByName(write) => (VAR_13, Some(write.value.as_bytes())),
+            _ => (if by_handle { VAR_11 } else { VAR_20 }, None),
         };
         let dimensions = target.description.dimensions.len();
         let indices = target.indices.len();
         let fits = target.has_valid_index_count();
-        let mut page = self.records.on(Topic::ClientVar, observation);
+        let mut record = self.records.on(TrafficCase::ClientVar, observation);
         let found = || format!("{indices} indices of {name}");
-        let rule = assumed(if by_handle { "VAR-11" } else { "VAR-20" });
-        page.check(rule, fits, || format!("none, or {dimensions} indices"), found);
+        let rule = assumed(if by_handle { VAR_11 } else { VAR_20 });
+        record.check(rule, fits, || format!("none, or {dimensions} indices"), found);
         if let (Some(written), Some(size), true) = (written, target.size(), fits) {
             let given = written.len();
             let sized = u32::try_from(given) == Ok(size);
             let expected = || format!("the {size} bytes of {name}");
-            page.check(clause, sized, expected, || format!("{given} bytes"));
+            record.check(clause, sized, expected, || format!("{given} bytes"));
         }
-        let mut page = self.records.on(Topic::CncVar, observation);
+        let mut record = self.records.on(TrafficCase::CncVar, observation);
         if !fits {
             let expected = || format!("an error number: {name} has {dimensions} dimensions");
-            page.check(rule, reply.is_none(), expected, "a success");
+            record.check(rule, reply.is_none(), expected, "a success");
             return;
         }
         if !target.is_inside() {
-            let rule = if by_handle { "VAR-11" } else { "VAR-20" };
+            let rule = if by_handle { VAR_11 } else { VAR_20 };
             let expected = || format!("an error number: {name} has not {:?}", target.indices);
-            page.check(rule, reply.is_none(), expected, "a success");
+            record.check(rule, reply.is_none(), expected, "a success");
             return;
         }
         if written.is_some() {
             let only_read = target.description.access == VariableAccess::READ_ONLY;
-            let kept = !only_read || reply.is_none();
+            let passed = !only_read || reply.is_none();
             let expected = || format!("an error number: {name} may only be read");
-            page.check(assumed("VAR-6"), kept, expected, "a success");
+            record.check(assumed(VAR_6), passed, expected, "a success");
             return;
         }
         let Some(Reply::Value(value)) = reply else { return };
@@ -82,10 +83,10 @@ impl Bench<'_> {
         let found = || format!("{given} bytes of {name}");
         if let Some(size) = target.size() {
             let sized = u32::try_from(given) == Ok(size);
-            page.check("VAR-14", sized, || format!("the {size} bytes of its description"), found);
+            record.check(VAR_14, sized, || format!("the {size} bytes of its description"), found);
         } else if target.description.var_type == VariableType::STRING && dimensions == 0 {
             let expected = || format!("a text of at most {TEXT_MAX} bytes");
-            page.check("VAR-25", given <= TEXT_MAX, expected, found);
+            record.check(VAR_25, given <= TEXT_MAX, expected, found);
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
+use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, Topic};
+use super::super::findings::{Observation, TrafficCase};
 use super::super::target::TargetVariable;
-use super::observed::{Bench, ChannelVariables, Room, Variables};
+use super::observed::{ChannelVariables, ExchangeContext, MemoryBudget, Variables};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
 
@@ -14,11 +15,11 @@ const CHANNELS_MAX: usize = 512;
 
 impl ChannelVariables {
     /// Stores the name of a handle, if there is memory for it.
-    fn handle(&mut self, handle: u32, name: &str, room: &mut Room) {
-        if self.handles.contains_key(&handle) || room.take(name.len()) {
+    fn handle(&mut self, handle: u32, name: &str, budget: &mut MemoryBudget) {
+        if self.handles.contains_key(&handle) || budget.take(name.len()) {
             self.handles.insert(handle, name.to_owned());
         }
-        if !self.names.contains_key(name) && room.take(name.len()) {
+        if !self.names.contains_key(name) && budget.take(name.len()) {
             self.names.insert(name.to_owned(), handle);
         }
     }
@@ -74,7 +75,7 @@ impl Variables {
     }
 }
 
-impl Bench<'_> {
+impl ExchangeContext<'_> {
     pub(super) fn variables(
         &mut self,
         observation: &Observation<'_>,
@@ -93,10 +94,10 @@ impl Bench<'_> {
                     let (index, none) = (describe.index, reply.is_none());
                     let expected = || format!("an index below {count}");
                     let found = || format!("index {index}");
-                    self.beyond(observation, request, "VAR-2", expected, found);
+                    self.judge_nonexistent(observation, request, VAR_2, expected, found);
                     let expected = || format!("an error number for index {index} of {count}");
-                    let mut page = self.records.on(Topic::CncVar, observation);
-                    page.check("VAR-2", none, expected, "a description");
+                    let mut record = self.records.on(TrafficCase::CncVar, observation);
+                    record.check(VAR_2, none, expected, "a description");
                     return;
                 }
                 if let Some(Reply::Description(variable)) = reply {
@@ -127,8 +128,8 @@ impl Bench<'_> {
                         && given.size == known.size
                         && given.dimensions.iter().eq(known.dimensions.iter().copied());
                     let found = || format!("{given:?}");
-                    let mut page = self.records.on(Topic::CncVar, observation);
-                    page.check("VAR-28", same, || format!("as by index: {known:?}"), found);
+                    let mut record = self.records.on(TrafficCase::CncVar, observation);
+                    record.check(VAR_28, same, || format!("as by index: {known:?}"), found);
                 }
             }
             _ => {}
@@ -160,7 +161,12 @@ impl Bench<'_> {
         if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
             let sum = g.saturating_add(e).saturating_add(a);
             let expected = || format!("{sum} variables of all kinds");
-            self.records.on(Topic::CncVar, observation).check("VAR-1", all == sum, expected, all);
+            self.records.on(TrafficCase::CncVar, observation).check(
+                VAR_1,
+                all == sum,
+                expected,
+                all,
+            );
         }
     }
 
@@ -172,24 +178,24 @@ impl Bench<'_> {
         kind: String,
         index: u32,
     ) {
-        let mut page = self.records.on(Topic::CncVar, observation);
-        holds_together(&mut page, &variable, &kind);
+        let mut record = self.records.on(TrafficCase::CncVar, observation);
+        holds_together(&mut record, &variable, &kind);
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let name = variable.name.text.to_string();
         let handle = variable.handle.0;
         if let Some((known, of, at)) = channel.described.get(&name) {
             let unique = *of == kind && *at == index;
             let found = || format!("{name} at index {index}, and at {at}");
-            page.check("VAR-3", unique, "another variable at each index", found);
+            record.check(VAR_3, unique, "another variable at each index", found);
             let found = || format!("{variable:?}");
-            page.check(assumed("VAR-4"), !unique || *known == variable, "as before", found);
+            record.check(assumed(VAR_4), !unique || *known == variable, "as before", found);
         }
         let other = channel.handles.get(&handle).filter(|other| **other != name);
         let found = || format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
-        page.check(assumed("VAR-10"), other.is_none(), "a handle of its own", found);
-        channel.handle(handle, &name, self.room);
+        record.check(assumed(VAR_10), other.is_none(), "a handle of its own", found);
+        channel.handle(handle, &name, self.budget);
         let length = name.len().saturating_add(variable.dimensions.len()).saturating_mul(4);
-        if channel.described.contains_key(&name) || self.room.take(length) {
+        if channel.described.contains_key(&name) || self.budget.take(length) {
             channel.described.insert(name, (variable, kind, index));
         }
     }
@@ -202,42 +208,42 @@ impl Bench<'_> {
         handle: u32,
     ) {
         let text = name.to_string();
-        let mut page = self.records.on(Topic::CncVar, observation);
+        let mut record = self.records.on(TrafficCase::CncVar, observation);
         // V.CYC has no list in either edition; V.P, V.L and V.S have none in one of them.
         let barred = text.starts_with("V.CYC");
         let expected = "an error number: V.CYC has no handles";
-        page.check("VAR-18", !barred, expected, || format!("{handle:#x}"));
+        record.check(VAR_18, !barred, expected, || format!("{handle:#x}"));
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let before = channel.names.get(&text).copied();
-        let rule = assumed("VAR-10");
+        let rule = assumed(VAR_10);
         if let Some(before) = before {
             let expected = || format!("{before:#x}, as before for {text}");
-            page.check(rule, before == handle, expected, || format!("{handle:#x}"));
+            record.check(rule, before == handle, expected, || format!("{handle:#x}"));
         }
         let other = channel.handles.get(&handle).filter(|other| **other != text).cloned();
         let found = || format!("the handle of {}", other.as_deref().unwrap_or_default());
-        page.check(rule, other.is_none(), || format!("a handle of {text} alone"), found);
-        channel.handle(handle, &text, self.room);
+        record.check(rule, other.is_none(), || format!("a handle of {text} alone"), found);
+        channel.handle(handle, &text, self.budget);
     }
 
     fn extended(&mut self, observation: &Observation<'_>, kind: &str, given: ExtendedReply) {
-        let mut page = self.records.on(Topic::CncVar, observation);
+        let mut record = self.records.on(TrafficCase::CncVar, observation);
         match (kind, given.0) {
             ("V.E", Some(extended)) => {
                 let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
-                let kept = known.contains(&extended.synchronisation);
+                let passed = known.contains(&extended.synchronisation);
                 let found = || format!("{:?}", extended.synchronisation);
-                page.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
+                record.check(VAR_15, passed, "a synchronisation of 1 or 2", found);
                 let known = [Validity::CHANNEL, Validity::GLOBAL];
-                let kept = known.contains(&extended.validity);
+                let passed = known.contains(&extended.validity);
                 let found = || format!("{:?}", extended.validity);
-                page.check("VAR-15", kept, "a validity of 1 or 2", found);
+                record.check(VAR_15, passed, "a validity of 1 or 2", found);
             }
             ("V.E", None) => {
-                page.check("VAR-15", false, "an extended description", "no data");
+                record.check(VAR_15, false, "an extended description", "no data");
             }
             ("V.G" | "V.A", given) => {
-                page.check("VAR-16", given.is_none(), "no data", "an extended description");
+                record.check(VAR_16, given.is_none(), "no data", "an extended description");
             }
             _ => {}
         }

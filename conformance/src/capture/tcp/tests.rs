@@ -5,7 +5,7 @@ use super::*;
 const MARK: Mark = Mark { packet: 1, time: None, acknowledged: None };
 
 /// The bytes emitted for segments, with `_` for each byte of a gap.
-fn joined(half: &mut Half, parts: &[(u32, &[u8])], end: bool) -> String {
+fn joined(half: &mut DirectionState, parts: &[(u32, &[u8])], end: bool) -> String {
     let mut all = String::new();
     let mut out = |piece: ReassembledPiece<'_>| match piece {
         ReassembledPiece::Data(bytes, _) => all.push_str(std::str::from_utf8(bytes).unwrap()),
@@ -28,7 +28,7 @@ fn segments_come_in_any_order() {
     for start in [0_u32, 100, u32::MAX, u32::MAX - 3, u32::MAX - 6, 0x7FFF_FFFE] {
         let at = |offset: u32| start.wrapping_add(offset);
         let begun = || {
-            let mut half = Half::default();
+            let mut half = DirectionState::default();
             let syn = DirectedSegment {
                 sequence: at(u32::MAX),
                 syn: true,
@@ -42,7 +42,7 @@ fn segments_come_in_any_order() {
         let parts: [(u32, &[u8]); 4] =
             [(at(0), b"abc"), (at(3), b"de"), (at(5), b"f"), (at(6), b"ghi")];
         for order in [[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]] {
-            let parts = order.map(|place: usize| parts[place]);
+            let parts = order.map(|offset: usize| parts[offset]);
             assert_eq!(joined(&mut begun(), &parts, false), "abcdefghi", "{start} {order:?}");
         }
         // Retransmitted, split differently and overlapping.
@@ -61,7 +61,7 @@ fn segments_come_in_any_order() {
 
 #[test]
 fn what_never_came_is_a_gap() {
-    let mut half = Half::default();
+    let mut half = DirectionState::default();
     assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"fg")], false), "ab");
     assert_eq!((half.ahead.len(), half.early), (1, 1));
     assert_eq!(joined(&mut half, &[], true), "___fg");
@@ -71,10 +71,10 @@ fn what_never_came_is_a_gap() {
 /// The other side has acknowledged the bytes: they were sent, but not captured.
 #[test]
 fn what_is_acknowledged_is_not_waited_for() {
-    let mut half = Half::default();
+    let mut half = DirectionState::default();
     assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"f"), (16, b"g")], false), "ab");
     half.acknowledge(17, MARK);
-    let more: Vec<u8> = (0..PATIENCE).map(|_| b'h').collect();
+    let more: Vec<u8> = (0..REORDERED_SEGMENTS_MAX).map(|_| b'h').collect();
     let more: Vec<(u32, &[u8])> = (17_u32..).zip(more.chunks(1)).collect();
     let all = joined(&mut half, &more, false);
     assert!(all.starts_with("___fghhhhh"), "{all}");
@@ -84,7 +84,7 @@ fn what_is_acknowledged_is_not_waited_for() {
 #[test]
 fn what_is_missing_at_the_end_is_a_gap() {
     let begun = || {
-        let mut half = Half::default();
+        let mut half = DirectionState::default();
         assert_eq!(joined(&mut half, &[(10, b"ab")], false), "ab");
         half
     };
@@ -103,11 +103,11 @@ fn what_is_missing_at_the_end_is_a_gap() {
 
 #[test]
 fn no_more_is_held_back_than_a_limit() {
-    let mut half = Half::default();
+    let mut half = DirectionState::default();
     let payload = vec![b'x'; 60_000];
     let mut out = |_: ReassembledPiece<'_>| {};
-    for place in 0..200_u32 {
-        let sequence = 10_u32.wrapping_add(place.wrapping_mul(70_000));
+    for offset in 0..200_u32 {
+        let sequence = 10_u32.wrapping_add(offset.wrapping_mul(70_000));
         half.push(
             DirectedSegment { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
             &mut out,
@@ -118,7 +118,7 @@ fn no_more_is_held_back_than_a_limit() {
 
 #[test]
 fn what_was_cut_off_is_a_gap() {
-    let mut half = Half::default();
+    let mut half = DirectionState::default();
     let mut all = Vec::new();
     let mut out = |piece: ReassembledPiece<'_>| all.push(format!("{piece:?}"));
     let part = DirectedSegment { sequence: 5, syn: false, payload: b"ab", missing: 3, mark: MARK };

@@ -6,14 +6,14 @@ use std::sync::Arc;
 use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
-use crate::cli::message::complain;
+use crate::cli::message::print_error;
 use crate::cli::report_output::show;
 use crate::cli::run_dry;
 use crate::faults::{Faulty, Seed};
 use crate::judge::{CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
-use crate::session::{self, Trouble};
+use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Changes, TargetState};
 use crate::text::Moment;
@@ -33,15 +33,15 @@ impl Run {
         let mut session = session.with_deadline(deadline);
         // A device must answer once before its cases run; afterwards silence is judged by each
         // case.
-        match session.greet(&profile) {
+        match session.check_reachable(&profile) {
             Ok(()) => {}
-            Err(Trouble::NotSent) => {
+            Err(ToolError::NotSent) => {
                 let (client, _) = session.into_parts();
                 let listed = show(|out| run_dry::list(&profile, client.gate().allowed(), out));
-                listed.map_err(|error| Trouble::Internal(error.to_string()))?;
-                return Err(Trouble::NotSent.into());
+                listed.map_err(|error| ToolError::Internal(error.to_string()))?;
+                return Err(ToolError::NotSent.into());
             }
-            Err(trouble) => return Err(trouble.into()),
+            Err(error) => return Err(error.into()),
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
@@ -66,7 +66,7 @@ impl Run {
         defect: Option<Seed>,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+        let internal = |error| ToolError::Internal(format!("the default model: {error}"));
         let settings = Settings { edition: Some(profile.edition), version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let faulty = Faulty::new(Cnc::new(model.map_err(internal)?), defect.as_ref());
@@ -100,13 +100,13 @@ impl Run {
         let (client, allow) = (&session.client, self.target.has_file());
         let usable = client.gate().check_target(client.target().net_id, Moment::now());
         if let Err(why) = &usable {
-            complain(format_args!("nothing is written: {why}"));
+            print_error(format_args!("nothing is written: {why}"));
         }
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
         let is_whole = outcomes.iter().all(|one| one.verdict() != Verdict::Interrupted);
         if allow && usable.is_ok() && is_whole && !outcomes.iter().any(has_written) {
-            complain(
+            print_error(
                 "nothing was written: nothing that the file for --allow-write names was found",
             );
         }
@@ -117,9 +117,9 @@ impl Run {
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
-    fn lost_capture(&self, error: &std::io::Error) -> Trouble {
+    fn lost_capture(&self, error: &std::io::Error) -> ToolError {
         let file = self.target.capture().unwrap_or(Path::new("the capture"));
-        Trouble::Internal(format!("{}: {error}", file.display()))
+        ToolError::Internal(format!("{}: {error}", file.display()))
     }
 }
 

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 
-use super::response::{Ended, KEPT, ServiceResponse, answer};
+use super::response::{Ended, STDOUT_MAX, ServiceResponse, answer};
 use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
@@ -19,7 +19,7 @@ use crate::process::interrupt::Interrupt;
 const GRACE: Duration = Duration::from_millis(500);
 
 /// Interval at which the command is polled.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 /// Maximum number of processes that hold the stdout of an ended command: each takes a thread. Only
 /// a process in a session of its own outlives the command.
@@ -95,7 +95,7 @@ impl ServiceCommand<'_> {
             if left.is_zero() {
                 return Ended::TimeOver(self.limit);
             }
-            if self.interrupt.sleep(left.min(LOOK)) {
+            if self.interrupt.sleep(left.min(POLL_INTERVAL)) {
                 return Ended::Interrupted;
             }
         }
@@ -143,7 +143,7 @@ fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     let mut chunk = [0; 4096];
     while let Ok(len @ 1..) = from.read(&mut chunk) {
         let mut kept = keep.lock().unwrap_or_else(PoisonError::into_inner);
-        let room = KEPT.saturating_sub(kept.len());
+        let room = STDOUT_MAX.saturating_sub(kept.len());
         kept.extend(chunk.iter().take(len.min(room)));
     }
 }

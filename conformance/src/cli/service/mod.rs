@@ -19,12 +19,12 @@ use ads_cnc::operation::{ReadByName, Task, WriteByName};
 use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
 use crate::process::interrupt::Interrupt;
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::simulator::program::{Repeat, Script, ScriptConfig};
 use crate::text::some_time;
 use command::ServiceCommand;
@@ -124,29 +124,29 @@ impl ServiceArguments {
 
     /// Connects to the device, or to a simulated CNC with the manual's NC program, which requests
     /// square roots.
-    fn open(&self) -> Result<Session, Trouble> {
+    fn open(&self) -> Result<Session, ToolError> {
         let channel = self.channel.channel;
         self.target.open_to_write(Entry::Service(channel), || {
             let cnc = default_cnc()?;
-            let internal = |error: &dyn std::error::Error| Trouble::Internal(error.to_string());
+            let internal = |error: &dyn std::error::Error| ToolError::Internal(error.to_string());
             let square_root = ScriptConfig::square_root().map_err(|error| internal(&error))?;
             let config = ScriptConfig { repeat: Repeat::Endless, ..square_root };
             let script = Script::new(config).map_err(|error| internal(&error))?;
             cnc.set_script(channel.number(), Some(script))
-                .map_err(|error| Trouble::Usage(format!("the simulated CNC: {error}")))?;
+                .map_err(|error| ToolError::Usage(format!("the simulated CNC: {error}")))?;
             Ok(cnc)
         })
     }
 
     /// Shows the requests of one poll and one answer, without sending them.
-    fn show(&self) -> Result<(), Trouble> {
+    fn show(&self) -> Result<(), ToolError> {
         use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 
         let mut session = self.open()?;
         let channel = self.channel.channel;
         for variable in [RequestState, Uuid, Request] {
             match session.call(&read(channel, variable)?).map(drop) {
-                Err(Trouble::NotSent) => {}
+                Err(ToolError::NotSent) => {}
                 other => other?,
             }
         }
@@ -155,14 +155,14 @@ impl ServiceArguments {
             [(Response, &b"\0"[..]), (RequestState, &[0; 4]), (ResponseState, &[1, 0, 0, 0])]
         {
             match session.call(&write(channel, variable, value)?).map(drop) {
-                Err(trouble @ Trouble::Refused(_)) => refused = Some(trouble),
+                Err(error @ ToolError::Refused(_)) => refused = Some(error),
                 other => other?,
             }
         }
         refused.map_or(Ok(()), Err)
     }
 
-    fn serve(&self) -> Result<(), Trouble> {
+    fn serve(&self) -> Result<(), ToolError> {
         let channel = self.channel.channel;
         // Checked before the first poll: an NC program would wait forever for an answer that may
         // not be written.
@@ -174,7 +174,7 @@ impl ServiceArguments {
             })
         };
         self.target.ask_gate(check)?;
-        let interrupt = Interrupt::catch().map_err(|error| Trouble::uncaught(&error))?;
+        let interrupt = Interrupt::catch().map_err(|error| ToolError::uncaught(&error))?;
         let mut session = self.open()?;
         check(&session)?;
         let mut serving = Serving {
@@ -193,7 +193,7 @@ impl ServiceArguments {
             last_warning: String::new(),
         };
         let answers = if self.once { Some(1) } else { self.answers };
-        complain(format_args!(
+        print_error(format_args!(
             "waiting for requests to {} in channel {}; Ctrl-C ends",
             self.uuid.iter().map(ServiceId::to_string).collect::<Vec<_>>().join(", "),
             channel.number()
@@ -229,7 +229,7 @@ impl Serving<'_> {
     }
 
     /// Does the next step; returns whether to wait before the one after it.
-    fn step(&mut self, session: &mut Session) -> Result<bool, Trouble> {
+    fn step(&mut self, session: &mut Session) -> Result<bool, ToolError> {
         match self.host.step() {
             HostStep::Read(variable) => {
                 let value = session.call(&read(self.channel, variable)?)?;
@@ -246,18 +246,18 @@ impl Serving<'_> {
                         self.host.written();
                         Ok(false)
                     }
-                    Err(trouble @ Trouble::Ads { .. }) => {
+                    Err(error @ ToolError::Ads { .. }) => {
                         self.failed_writes = self.failed_writes.saturating_add(1);
                         if self.failed_writes >= FAILED_WRITES_MAX {
                             self.unanswered();
-                            return Err(trouble);
+                            return Err(error);
                         }
                         self.host.failed();
                         Ok(true)
                     }
-                    Err(trouble) => {
+                    Err(error) => {
                         self.unanswered();
-                        Err(trouble)
+                        Err(error)
                     }
                 }
             }
@@ -270,15 +270,15 @@ impl Serving<'_> {
                     response.to_string()
                 );
                 for warning in warnings {
-                    complain(format_args!("warning: {warning}"));
+                    print_error(format_args!("warning: {warning}"));
                 }
                 let answered = self.host.answer(response.as_cnc_str(), state);
-                answered.map_err(|error| Trouble::Internal(error.to_string()))?;
+                answered.map_err(|error| ToolError::Internal(error.to_string()))?;
                 self.served = Some(shown);
                 Ok(false)
             }
             HostStep::Wait => {
-                self.tell_outcome()?;
+                self.print_outcome()?;
                 self.host.poll();
                 Ok(true)
             }
@@ -286,17 +286,17 @@ impl Serving<'_> {
     }
 
     /// Prints the outcome of the last answer.
-    fn tell_outcome(&mut self) -> Result<(), Trouble> {
+    fn print_outcome(&mut self) -> Result<(), ToolError> {
         let Some(served) = self.served.take() else { return Ok(()) };
         match self.host.outcome() {
             Some(Outcome::Answered) => {
                 self.answered = self.answered.saturating_add(1);
                 let mut out = io::stdout().lock();
                 let told = writeln!(out, "{served}").and_then(|()| out.flush());
-                told.map_err(|error| Trouble::Internal(format!("stdout is lost: {error}")))
+                told.map_err(|error| ToolError::Internal(format!("stdout is lost: {error}")))
             }
             _ => {
-                complain(format_args!("dropped, the request is no longer there: {served}"));
+                print_error(format_args!("dropped, the request is no longer there: {served}"));
                 Ok(())
             }
         }
@@ -304,7 +304,7 @@ impl Serving<'_> {
 
     fn unanswered(&self) {
         if let Some(served) = &self.served {
-            complain(format_args!(
+            print_error(format_args!(
                 "this answer may not have arrived, and the NC program may wait for it: {served}"
             ));
         }
@@ -313,20 +313,20 @@ impl Serving<'_> {
     /// Prints a warning, unless it is the same as the last one.
     fn warn_once(&mut self, what: &str) {
         if self.last_warning != what {
-            complain(format_args!("warning: no request: {what}"));
+            print_error(format_args!("warning: no request: {what}"));
             what.clone_into(&mut self.last_warning);
         }
     }
 }
 
-fn read(channel: Channel, variable: ServiceVariable) -> Result<ReadByName<'static>, Trouble> {
-    ReadByName::new(channel, variable.name()).map_err(Trouble::Unsendable)
+fn read(channel: Channel, variable: ServiceVariable) -> Result<ReadByName<'static>, ToolError> {
+    ReadByName::new(channel, variable.name()).map_err(ToolError::Unsendable)
 }
 
 fn write(
     channel: Channel,
     variable: ServiceVariable,
     value: &[u8],
-) -> Result<WriteByName<'_>, Trouble> {
-    WriteByName::new(channel, variable.name(), value).map_err(Trouble::Unsendable)
+) -> Result<WriteByName<'_>, ToolError> {
+    WriteByName::new(channel, variable.name(), value).map_err(ToolError::Unsendable)
 }

@@ -8,7 +8,7 @@ use ads_cnc::text::char_to_cp1252;
 use ads_cnc::{CncStr, CncString};
 
 /// Maximum number of stored bytes of stdout: more than fit into a response, in UTF-8 too.
-pub(super) const KEPT: usize = 1024;
+pub(super) const STDOUT_MAX: usize = 1024;
 
 const SUCCESS: u32 = 1;
 /// Response state for exit code 1.
@@ -96,7 +96,7 @@ fn cp1252(stdout: &[u8], warnings: &mut Vec<String>) -> Vec<u8> {
     let mut bytes = match std::str::from_utf8(stdout) {
         Ok(text) => to_cp1252(text, warnings),
         // The stored output was cut within a character.
-        Err(error) if error.error_len().is_none() && stdout.len() >= KEPT => {
+        Err(error) if error.error_len().is_none() && stdout.len() >= STDOUT_MAX => {
             let whole = stdout.get(..error.valid_up_to()).unwrap_or_default();
             to_cp1252(std::str::from_utf8(whole).unwrap_or_default(), warnings)
         }
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!((response, warnings.len()), (vec![0xE4; 127], 1));
         // Stored output may end within a character; a response must not.
         let captured = [&b"a"[..], "ä".repeat(512).as_bytes()].concat();
-        assert_eq!(of(&captured[..KEPT]).0, of(&captured).0);
+        assert_eq!(of(&captured[..STDOUT_MAX]).0, of(&captured).0);
         assert_eq!(of(b"L\xE4").0, b"L\xE4");
     }
 

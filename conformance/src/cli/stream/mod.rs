@@ -21,12 +21,12 @@ use ads_cnc::operation::{Task, WriteProgramStream};
 use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
-use super::message::complain;
+use super::message::print_error;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
 use crate::process::interrupt::Interrupt;
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::text::duration;
 use check::CheckedText;
 use progress::StreamProgress;
@@ -99,42 +99,42 @@ impl StreamArguments {
         self.target.end(self.run(), |_| None)
     }
 
-    fn run(&self) -> Result<Exit, Trouble> {
+    fn run(&self) -> Result<Exit, ToolError> {
         let name = self.name();
         let bytes = self.read(&name)?;
         let CheckedText { text, ends } = match check::check(&bytes, &name, &mut io::stderr().lock())
         {
             Some(checked) => checked,
             None => {
-                complain("nothing was sent: these lines cannot be");
+                print_error("nothing was sent: these lines cannot be");
                 return Ok(Exit::Failure);
             }
         };
         if ends > 0 && !self.force {
-            complain(
+            print_error(
                 "nothing was sent: the CNC would end streaming there; --force sends it all the same",
             );
             return Ok(Exit::Failure);
         }
         let Some(lines) = NonZeroUsize::new(text.line_count()) else {
-            return Err(Trouble::Usage(format!("{name} is empty: there is nothing to send")));
+            return Err(ToolError::Usage(format!("{name} is empty: there is nothing to send")));
         };
         if self.target.is_dry() { self.show(text) } else { self.send(&name, text, lines) }
     }
 
-    fn open(&self) -> Result<Session, Trouble> {
+    fn open(&self) -> Result<Session, ToolError> {
         self.target.open_to_write(Entry::Stream(self.channel.channel), default_cnc)
     }
 
     /// Shows every packet and whether the gate would allow it.
-    fn show(&self, text: NcText<'_>) -> Result<Exit, Trouble> {
+    fn show(&self, text: NcText<'_>) -> Result<Exit, ToolError> {
         let mut session = self.open()?;
         let mut sender = Sender::new(text);
         let mut refused = None;
         while let Some(packet) = sender.packet() {
             let shown = session.call(&WriteProgramStream::new(self.channel.channel, packet));
             match shown.map(drop) {
-                Err(trouble @ Trouble::Refused(_)) => refused = Some(trouble),
+                Err(error @ ToolError::Refused(_)) => refused = Some(error),
                 other => other?,
             }
             send::acknowledge(&mut sender, ads_cnc::streaming::Ack::Accepted)?;
@@ -142,12 +142,12 @@ impl StreamArguments {
         refused.map_or(Ok(Exit::Success), Err)
     }
 
-    fn send(&self, name: &str, text: NcText<'_>, lines: NonZeroUsize) -> Result<Exit, Trouble> {
+    fn send(&self, name: &str, text: NcText<'_>, lines: NonZeroUsize) -> Result<Exit, ToolError> {
         let mut first = Sender::new(text);
         let write =
             WriteProgramStream::new(self.channel.channel, first.packet().unwrap_or_default());
         self.target.ask_gate(|session| session.check(Task::Com, write))?;
-        let interrupt = Interrupt::catch().map_err(|error| Trouble::uncaught(&error))?;
+        let interrupt = Interrupt::catch().map_err(|error| ToolError::uncaught(&error))?;
         let mut session = self.open()?;
         let mut sending = Sending {
             sender: Sender::new(text),
@@ -162,37 +162,37 @@ impl StreamArguments {
         let channel = self.channel.channel.number();
         let summary = sending.summary(name, lines.get(), &end, progress.elapsed());
         if let Err(error) = writeln!(io::stdout().lock(), "{summary}") {
-            complain(format_args!("{summary}"));
-            return Err(Trouble::Internal(format!("that could not be written: {error}")));
+            print_error(format_args!("{summary}"));
+            return Err(ToolError::Internal(format!("that could not be written: {error}")));
         }
         Ok(match end {
             SendEnd::Done => Exit::Success,
             SendEnd::Interrupted => {
-                complain("interrupted. The machine runs what the CNC has taken");
+                print_error("interrupted. The machine runs what the CNC has taken");
                 Exit::Nothing
             }
             SendEnd::GivenUp(error) => {
-                complain(format_args!(
+                print_error(format_args!(
                     "given up: the CNC still refuses, with {error:#x}. Is the streaming program (see \
                      P-CHAN-00158) running in channel {channel}, and does nothing hold the machine? \
                      --retries waits longer"
                 ));
                 Exit::Failure
             }
-            SendEnd::Stopped(trouble) => {
-                complain(&trouble);
-                if trouble.ads_error().is_some() {
-                    complain(format_args!(
+            SendEnd::Stopped(error) => {
+                print_error(&error);
+                if error.ads_error().is_some() {
+                    print_error(format_args!(
                         "that is no refusal for the time being. Has channel {channel} a streaming \
                          program? It is off unless P-CHAN-00158 names one"
                     ));
                 }
-                trouble.exit()
+                error.exit()
             }
-            SendEnd::Unknown(trouble) => {
-                complain(&trouble);
-                complain("it is not sent again: lines that are run twice may do harm");
-                trouble.exit()
+            SendEnd::Unknown(error) => {
+                print_error(&error);
+                print_error("it is not sent again: lines that are run twice may do harm");
+                error.exit()
             }
         })
     }
@@ -206,8 +206,8 @@ impl StreamArguments {
         }
     }
 
-    fn read(&self, name: &str) -> Result<Vec<u8>, Trouble> {
-        let failed = |error: io::Error| Trouble::Usage(format!("{name}: {error}"));
+    fn read(&self, name: &str) -> Result<Vec<u8>, ToolError> {
+        let failed = |error: io::Error| ToolError::Usage(format!("{name}: {error}"));
         let from: &mut dyn Read = if self.file == Path::new("-") {
             &mut io::stdin().lock()
         } else {
@@ -217,7 +217,7 @@ impl StreamArguments {
         from.take(PROGRAM_MAX.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
         match u64::try_from(bytes.len()) {
             Ok(length) if length <= PROGRAM_MAX => Ok(bytes),
-            _ => Err(Trouble::Usage(format!(
+            _ => Err(ToolError::Usage(format!(
                 "{name} has more than {PROGRAM_MAX} bytes; send it in parts"
             ))),
         }

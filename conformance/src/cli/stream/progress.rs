@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::streaming::{self, NcText};
 
-use super::super::progress::{self, EVERY};
+use super::super::progress::{self, UPDATE_INTERVAL};
 
 /// The time between two lines if stderr is not a terminal.
-const ELSEWHERE: Duration = Duration::from_secs(5);
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Shows progress: one line that changes on a terminal, one every few seconds elsewhere.
 pub(super) struct StreamProgress {
@@ -39,12 +39,12 @@ impl StreamProgress {
     /// Shows how much was accepted, if an update is due, and why it waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
         let due = if !self.line.live {
-            ELSEWHERE
+            LINE_INTERVAL
         } else if waits.is_some() && !self.waited {
             // It may be the last update for a long time.
             Duration::ZERO
         } else {
-            EVERY
+            UPDATE_INTERVAL
         };
         self.waited = waits.is_some();
         if !self.quiet && self.line.is_due(due) {

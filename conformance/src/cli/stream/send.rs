@@ -10,7 +10,7 @@ use ads_cnc::streaming::{Ack, Sender};
 
 use super::progress::{ByteCount, Rate, StreamProgress};
 use crate::process::interrupt::Interrupt;
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 
 /// How a packet is repeated that the CNC cannot take for now.
 pub(super) struct Retry {
@@ -27,9 +27,9 @@ pub(super) enum SendEnd {
     /// A packet was rejected with "busy" too often.
     GivenUp(AdsError),
     /// A packet was rejected with another error, or not sent.
-    Stopped(Trouble),
+    Stopped(ToolError),
     /// A packet was sent, but without a reply it is unknown whether the CNC accepted it.
-    Unknown(Trouble),
+    Unknown(ToolError),
 }
 
 /// The state of sending a program.
@@ -58,18 +58,18 @@ impl Sending<'_> {
             let Some(packet) = self.sender.packet() else { return SendEnd::Done };
             self.out = packet.iter().filter(|&&byte| byte == b'\n').count();
             let write = WriteProgramStream::new(self.channel, packet);
-            let trouble = session.call(&write).err();
+            let error = session.call(&write).err();
             // Only an ADS error of the CNC is a reason to repeat a packet.
-            let ack = match &trouble {
+            let ack = match &error {
                 None => Ack::Accepted,
-                Some(trouble) => trouble.ads_error().map_or(Ack::Rejected, Ack::from_result),
+                Some(error) => error.ads_error().map_or(Ack::Rejected, Ack::from_result),
             };
-            if let Err(trouble) = acknowledge(&mut self.sender, ack) {
-                return SendEnd::Stopped(trouble);
+            if let Err(error) = acknowledge(&mut self.sender, ack) {
+                return SendEnd::Stopped(error);
             }
-            match trouble {
+            match error {
                 None => progress.show(self.sender.sent(), None),
-                Some(Trouble::Ads { error, .. }) if ack == Ack::Busy => {
+                Some(ToolError::Ads { error, .. }) if ack == Ack::Busy => {
                     self.refusals = self.refusals.saturating_add(1);
                     let times = self.sender.busy_count();
                     if times > self.retry.times {
@@ -84,10 +84,10 @@ impl Sending<'_> {
                     }
                 }
                 // The packet may have arrived.
-                Some(trouble @ (Trouble::NoAnswer(_) | Trouble::Reply(_))) => {
-                    return SendEnd::Unknown(trouble);
+                Some(error @ (ToolError::NoAnswer(_) | ToolError::Reply(_))) => {
+                    return SendEnd::Unknown(error);
                 }
-                Some(trouble) => return SendEnd::Stopped(trouble),
+                Some(error) => return SendEnd::Stopped(error),
             }
         }
     }
@@ -142,6 +142,6 @@ fn range(first: usize, last: usize) -> String {
     if first == last { format!("line {first}") } else { format!("lines {first} to {last}") }
 }
 
-pub(super) fn acknowledge(sender: &mut Sender<'_>, ack: Ack) -> Result<(), Trouble> {
-    sender.acknowledge(ack).map_err(|error| Trouble::Internal(error.to_string()))
+pub(super) fn acknowledge(sender: &mut Sender<'_>, ack: Ack) -> Result<(), ToolError> {
+    sender.acknowledge(ack).map_err(|error| ToolError::Internal(error.to_string()))
 }

@@ -13,9 +13,9 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, Descriptor, Handle, Kind, U32List};
 use serde_json::{Value, json};
 
-use super::error::Fail;
+use super::error::ActionError;
 use super::wire::Connection;
-use super::{Flaw, service, streaming};
+use super::{ClientFault, service, streaming};
 use crate::clients::Action;
 use crate::clients::message::DONE;
 use crate::values::{self, Type};
@@ -27,24 +27,24 @@ const AT_ONCE: u32 = 64;
 struct Arguments<'a>(std::slice::Iter<'a, String>);
 
 impl<'a> Arguments<'a> {
-    fn text(&mut self) -> Result<&'a str, Fail> {
+    fn text(&mut self) -> Result<&'a str, ActionError> {
         self.0.next().map(String::as_str).ok_or_else(|| "an argument is missing".into())
     }
 
-    fn number(&mut self) -> Result<u32, Fail> {
+    fn number(&mut self) -> Result<u32, ActionError> {
         Ok(self.text()?.parse()?)
     }
 
-    fn channel(&mut self) -> Result<Channel, Fail> {
+    fn channel(&mut self) -> Result<Channel, ActionError> {
         Ok(Channel::new(self.number()?)?)
     }
 
-    fn axis(&mut self) -> Result<ChannelAxis, Fail> {
+    fn axis(&mut self) -> Result<ChannelAxis, ActionError> {
         Ok(ChannelAxis::new(self.number()?)?)
     }
 
     /// `SGN32`, `SGN16[2,3]`.
-    fn data_type(&mut self) -> Result<Type, Fail> {
+    fn data_type(&mut self) -> Result<Type, ActionError> {
         let text = self.text()?;
         let (name, dimensions) = match text.strip_suffix(']').and_then(|text| text.split_once('['))
         {
@@ -58,7 +58,7 @@ impl<'a> Arguments<'a> {
         })
     }
 
-    fn parameters(&mut self) -> Result<DynamicKind, Fail> {
+    fn parameters(&mut self) -> Result<DynamicKind, ActionError> {
         Ok(match self.text()? {
             "P" => DynamicKind::P,
             "V.L" => DynamicKind::VL,
@@ -68,7 +68,7 @@ impl<'a> Arguments<'a> {
         })
     }
 
-    fn class(&mut self) -> Result<Class, Fail> {
+    fn class(&mut self) -> Result<Class, ActionError> {
         Ok(match self.text()? {
             "position-controller" => Class::PositionController,
             "interpolator" => Class::Interpolator,
@@ -81,13 +81,13 @@ impl<'a> Arguments<'a> {
     }
 }
 
-fn numbers(text: &str) -> Result<Vec<u32>, Fail> {
+fn numbers(text: &str) -> Result<Vec<u32>, ActionError> {
     text.split(',').map(|one| Ok(one.trim().parse()?)).collect()
 }
 
-fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
+fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, ActionError> {
     let mut ty = ty.clone();
-    if wire.has(Flaw::Unsigned) {
+    if wire.has(ClientFault::Unsigned) {
         ty.data_type = ty.data_type.map(|data_type| match data_type {
             DataType::Sgn16 => DataType::Uns16,
             DataType::Sgn32 => DataType::Uns32,
@@ -97,7 +97,7 @@ fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, Fail> {
     values::value_of(&ty, bytes).ok_or_else(|| format!("{} bytes are no {ty}", bytes.len()).into())
 }
 
-pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail> {
+pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, ActionError> {
     let mut args = Arguments(action.args.iter());
     let args = &mut args;
     let mut reply = Vec::new();
@@ -141,7 +141,7 @@ pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail>
                 (args.channel()?, args.number()?, Kind::new(args.text()?)?);
             let found = wire.call(&DescribeExtended::new(channel, index, kind), &mut reply)?;
             match found.0 {
-                None if wire.has(Flaw::NothingIsError) => return Err("it is empty".into()),
+                None if wire.has(ClientFault::NothingIsError) => return Err("it is empty".into()),
                 None => Value::Null,
                 Some(found) => json!({
                     "synchronisation": found.synchronisation.0,
@@ -204,7 +204,7 @@ pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Fail>
             let (class, channel, axis) = (args.class()?, args.number()?, args.number()?);
             let found = wire.call(&FindInstance::new(class, channel, axis), &mut reply)?;
             let (group, offset) = (found.index_group.get(), found.index_offset.get());
-            let is_none = (group, offset) == (0, 0) && !wire.has(Flaw::NoneIsZero);
+            let is_none = (group, offset) == (0, 0) && !wire.has(ClientFault::NoneIsZero);
             if is_none { Value::Null } else { json!([group, offset]) }
         }
         "stream" => streaming::stream(wire, args.channel()?, args.text()?)?,
@@ -222,7 +222,7 @@ fn by_handle(
     wire: &mut Connection,
     action: &Action,
     args: &mut Arguments<'_>,
-) -> Result<Value, Fail> {
+) -> Result<Value, ActionError> {
     let (channel, handle) = (args.channel()?, Handle(args.number()?));
     let indices = match args.text()? {
         "-" => Vec::new(),
@@ -239,7 +239,7 @@ fn by_handle(
     Ok(DONE)
 }
 
-fn list(wire: &mut Connection, channel: Channel) -> Result<Vec<Descriptor>, Fail> {
+fn list(wire: &mut Connection, channel: Channel) -> Result<Vec<Descriptor>, ActionError> {
     let (mut all, mut reply) = (Vec::new(), Vec::new());
     let count = wire.call(&CountObjects::new(channel), &mut reply)?.0;
     let mut next = 1_u32;
@@ -248,7 +248,7 @@ fn list(wire: &mut Connection, channel: Channel) -> Result<Vec<Descriptor>, Fail
         let read = ReadDescriptors::new(
             channel,
             next,
-            left.min(if wire.has(Flaw::OneByOne) { 1 } else { AT_ONCE }),
+            left.min(if wire.has(ClientFault::OneByOne) { 1 } else { AT_ONCE }),
         )?;
         let found = wire.call(&read, &mut reply)?;
         let before = all.len();
@@ -272,7 +272,7 @@ fn descriptor(object: &Descriptor) -> Value {
     })
 }
 
-fn object(wire: &mut Connection, args: &mut Arguments<'_>) -> Result<Descriptor, Fail> {
+fn object(wire: &mut Connection, args: &mut Arguments<'_>) -> Result<Descriptor, ActionError> {
     let (channel, name) = (args.channel()?, args.text()?);
     let found = list(wire, channel)?.into_iter().find(|object| object.name() == name);
     found.ok_or_else(|| "no such object".into())
@@ -288,7 +288,7 @@ fn element(
     wire: &mut Connection,
     action: &Action,
     args: &mut Arguments<'_>,
-) -> Result<Value, Fail> {
+) -> Result<Value, ActionError> {
     let (class, channel, axis) = (args.class()?, args.number()?, args.number()?);
     let number = if action.action == "count-elements" { 0 } else { args.number()? };
     let mut reply = Vec::new();

@@ -2,6 +2,10 @@
 
 use std::fmt;
 
+use ads_cnc_vectors::ids::*;
+
+use crate::judge::CLIENT;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClientDefect {
     /// For example `client.no-nul`.
@@ -10,7 +14,7 @@ pub struct ClientDefect {
     pub requirement: &'static str,
     /// What the client does differently.
     pub what: &'static str,
-    pub flaw: Flaw,
+    pub fault: ClientFault,
 }
 
 impl fmt::Display for ClientDefect {
@@ -19,127 +23,135 @@ impl fmt::Display for ClientDefect {
     }
 }
 
-macro_rules! flaws {
+macro_rules! client_faults {
+    (@id CLIENT) => {
+        CLIENT
+    };
+    (@id $requirement:tt) => {
+        $requirement.as_str()
+    };
     (
-        defects { $( $flaw:ident $id:literal $requirement:literal $what:literal; )+ }
-        habits { $( $habit:ident $habit_id:literal $other:literal; )+ }
+        defects { $( $fault:ident $id:literal $requirement:tt $what:literal; )+ }
+        variants { $( $variant:ident $habit_id:literal $other:literal; )+ }
     ) => {
         /// A defect or valid variant; its [`ClientDefect`] describes it.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
-        pub enum Flaw { $( $flaw, )+ $( $habit, )+ }
+        pub enum ClientFault { $( $fault, )+ $( $variant, )+ }
 
         const ALL: &[ClientDefect] = &[$(
-            ClientDefect { id: $id, requirement: $requirement, what: $what, flaw: Flaw::$flaw },
+            ClientDefect {
+                id: $id, requirement: client_faults!(@id $requirement), what: $what, fault: ClientFault::$fault,
+            },
         )+];
 
-        const HABITS: &[ClientDefect] = &[$(
-            ClientDefect { id: $habit_id, requirement: "", what: $other, flaw: Flaw::$habit },
+        const VARIANTS: &[ClientDefect] = &[$(
+            ClientDefect { id: $habit_id, requirement: "", what: $other, fault: ClientFault::$variant },
         )+];
     };
 }
 
-flaws! {
+client_faults! {
     defects {
     // Frames it sends.
-    TcpLength "client.tcp-length" "ADS-5" "says one byte more in the AMS/TCP header";
-    AmsLength "client.ams-length" "ADS-5" "says one byte less in the AMS header";
-    ResponseFlag "client.response-flag" "ADS-5" "marks its requests as responses";
-    ErrorSet "client.error-set" "ADS-5" "sends an error number in its requests";
-    OtherNetId "client.other-net-id" "ADS-5" "asks another NetId than it was told";
-    ReadTrailing "client.read-trailing" "ADS-1" "puts four more bytes behind a Read";
-    ReadShort "client.read-short" "ADS-1" "asks for two bytes of four in a Read";
-    WriteLength "client.write-length" "ADS-2" "says one byte more in a Write";
-    BothLength "client.read-write-length" "ADS-3" "says one byte less written in a ReadWrite";
-    ReadForBoth "client.read-for-read-write" "ADS-3" "reads where a ReadWrite is taken";
+    TcpLength "client.tcp-length" ADS_5 "says one byte more in the AMS/TCP header";
+    AmsLength "client.ams-length" ADS_5 "says one byte less in the AMS header";
+    ResponseFlag "client.response-flag" ADS_5 "marks its requests as responses";
+    ErrorSet "client.error-set" ADS_5 "sends an error number in its requests";
+    OtherNetId "client.other-net-id" ADS_5 "asks another NetId than it was told";
+    ReadTrailing "client.read-trailing" ADS_1 "puts four more bytes behind a Read";
+    ReadShort "client.read-short" ADS_1 "asks for two bytes of four in a Read";
+    WriteLength "client.write-length" ADS_2 "says one byte more in a Write";
+    BothLength "client.read-write-length" ADS_3 "says one byte less written in a ReadWrite";
+    ReadForBoth "client.read-for-read-write" ADS_3 "reads where a ReadWrite is taken";
     // Addresses it uses.
-    Port "client.port" "GEN-4" "asks the COM task for what the SDA task has";
-    NoChannel "client.no-channel" "ADR-5" "leaves the channel out of the group";
-    OtherChannel "client.other-channel" "ADR-5" "asks channel 1 for what is of another";
-    ElementAccess "client.element-access" "ADR-4" "asks for descriptors where contents are";
-    ComGroup "client.com-group" "ADR-3" "looks for a channel's contents at a platform axis";
-    SpindleLogical "client.spindle-logical" "ADR-2" "addresses spindles logically";
-    AxisStride "client.axis-stride" "ADR-7" "takes 0x1000 for the stride of the decoder's axes";
-    Attribute "client.attribute" "ADR-6" "asks for the unit where the name is";
-    CountAtOne "client.count-at-one" "COM-1" "asks for the number of objects at offset 1";
-    FromZero "client.descriptors-from-zero" "COM-2" "counts descriptors from 0";
-    DescriptorLength "client.descriptor-length" "COM-3" "takes a descriptor for 80 bytes long";
-    ContentOffset "client.content-offset" "COM-5" "looks for a content one beside its place";
-    SwappedQuery "client.swapped-query" "SDA-1" "asks for axis and channel";
-    ElementZero "client.element-zero" "SDA-4" "looks for the number of elements at the first";
-    ElementName "client.element-name" "SDA-6" "asks for the type instead of the name";
-    ElementType "client.element-type" "SDA-7" "asks for the length instead of the type";
-    ElementLength "client.element-length" "SDA-8" "asks for the unit instead of the length";
-    ElementFlag "client.element-flag" "SDA-9" "asks for the unit instead of the flag";
-    ParameterCount "client.parameter-count" "DYN-1" "counts V.L where P is meant";
-    ParameterName "client.parameter-name" "DYN-2" "asks for names where the values are";
-    ParameterValue "client.parameter-value" "DYN-3" "asks for values where the names are";
-    ParameterIndex "client.parameter-by-index" "DYN-4" "asks by index where names are taken";
-    ParameterZero "client.parameter-from-zero" "DYN-5" "counts parameters from 0";
-    ParameterCut "client.parameter-cut" "DYN-6" "leaves the last character of a parameter's name out";
-    CountPlace "client.count-place" "VAR-2" "counts variables one place beside";
-    DescribePlace "client.describe-place" "VAR-4" "asks for descriptions one place beside";
-    HandlePlace "client.handle-place" "VAR-10" "asks for handles one place beside";
-    ValuePlace "client.value-place" "VAR-14" "reads by name where handles are taken";
-    ExtendedPlace "client.extended-place" "VAR-15" "asks for what is extended one place beside";
-    AxisFromZero "client.axis-from-zero" "VAR-26" "counts axes from 0";
+    Port "client.port" GEN_4 "asks the COM task for what the SDA task has";
+    NoChannel "client.no-channel" ADR_5 "leaves the channel out of the group";
+    OtherChannel "client.other-channel" ADR_5 "asks channel 1 for what is of another";
+    ElementAccess "client.element-access" ADR_4 "asks for descriptors where contents are";
+    ComGroup "client.com-group" ADR_3 "looks for a channel's contents at a platform axis";
+    SpindleLogical "client.spindle-logical" ADR_2 "addresses spindles logically";
+    AxisStride "client.axis-stride" ADR_7 "takes 0x1000 for the stride of the decoder's axes";
+    Attribute "client.attribute" ADR_6 "asks for the unit where the name is";
+    CountAtOne "client.count-at-one" COM_1 "asks for the number of objects at offset 1";
+    FromZero "client.descriptors-from-zero" COM_2 "counts descriptors from 0";
+    DescriptorLength "client.descriptor-length" COM_3 "takes a descriptor for 80 bytes long";
+    ContentOffset "client.content-offset" COM_5 "looks for a content one beside its place";
+    SwappedQuery "client.swapped-query" SDA_1 "asks for axis and channel";
+    ElementZero "client.element-zero" SDA_4 "looks for the number of elements at the first";
+    ElementName "client.element-name" SDA_6 "asks for the type instead of the name";
+    ElementType "client.element-type" SDA_7 "asks for the length instead of the type";
+    ElementLength "client.element-length" SDA_8 "asks for the unit instead of the length";
+    ElementFlag "client.element-flag" SDA_9 "asks for the unit instead of the flag";
+    ParameterCount "client.parameter-count" DYN_1 "counts V.L where P is meant";
+    ParameterName "client.parameter-name" DYN_2 "asks for names where the values are";
+    ParameterValue "client.parameter-value" DYN_3 "asks for values where the names are";
+    ParameterIndex "client.parameter-by-index" DYN_4 "asks by index where names are taken";
+    ParameterZero "client.parameter-from-zero" DYN_5 "counts parameters from 0";
+    ParameterCut "client.parameter-cut" DYN_6 "leaves the last character of a parameter's name out";
+    CountPlace "client.count-place" VAR_2 "counts variables one place beside";
+    DescribePlace "client.describe-place" VAR_4 "asks for descriptions one place beside";
+    HandlePlace "client.handle-place" VAR_10 "asks for handles one place beside";
+    ValuePlace "client.value-place" VAR_14 "reads by name where handles are taken";
+    ExtendedPlace "client.extended-place" VAR_15 "asks for what is extended one place beside";
+    AxisFromZero "client.axis-from-zero" VAR_26 "counts axes from 0";
     // Data it sends.
-    NoNul "client.no-nul" "VAR-9" "sends names without NUL";
-    KindOpen "client.kind-open" "VAR-1" "sends kinds without NUL";
-    KindDot "client.kind-dot" "VAR-1" "sends kinds with a final dot";
-    IndexSwapped "client.index-swapped" "VAR-3" "sends the index of a description in big-endian";
-    Utf8 "client.utf-8" "GEN-3" "sends names in UTF-8";
-    NoCount "client.no-count" "VAR-11" "leaves the number of indices out where there is none";
-    WriteNoCount "client.write-no-count" "VAR-12" "leaves it out of writes";
-    NoSeparator "client.no-separator" "VAR-13" "sends no NUL between name and value";
-    ValueSwapped "client.value-swapped" "GEN-1" "writes contents in big-endian";
+    NoNul "client.no-nul" VAR_9 "sends names without NUL";
+    KindOpen "client.kind-open" VAR_1 "sends kinds without NUL";
+    KindDot "client.kind-dot" VAR_1 "sends kinds with a final dot";
+    IndexSwapped "client.index-swapped" VAR_3 "sends the index of a description in big-endian";
+    Utf8 "client.utf-8" GEN_3 "sends names in UTF-8";
+    NoCount "client.no-count" VAR_11 "leaves the number of indices out where there is none";
+    WriteNoCount "client.write-no-count" VAR_12 "leaves it out of writes";
+    NoSeparator "client.no-separator" VAR_13 "sends no NUL between name and value";
+    ValueSwapped "client.value-swapped" GEN_1 "writes contents in big-endian";
     // Replies it accepts.
-    AnyInvokeId "client.any-invoke-id" "ADS-5" "takes replies to any invoke ID";
-    AnyCommand "client.any-command" "ADS-5" "takes replies to any command";
-    AnyFlags "client.any-flags" "ADS-5" "takes requests for replies";
-    OneRead "client.one-read" "ADS-5" "takes what one read of its socket gives for a frame";
-    AmsLengthLie "client.believes-tcp" "ADS-5" "does not look at the length of the AMS header";
-    CutFrame "client.cut-frame" "ADS-5" "takes a frame that was cut for a whole one";
-    DataLengthLie "client.believes-frame" "ADS-3" "does not look at the length before the data";
-    ReadLengthLie "client.believes-frame-read" "ADS-1" "does not look at it in a Read";
-    NoResult "client.no-result" "ADS-4" "does not look at the result";
-    NoError "client.no-error" "ADS-5" "does not look at the error of the AMS header";
-    FillsUp "client.fills-up" "VAR-2" "fills up what is too short with zeros";
-    FillsUpHandle "client.fills-up-handle" "VAR-10" "fills up a handle";
-    FillsUpValue "client.fills-up-value" "VAR-14" "fills up a value with zeros, and cuts it";
-    FillsUpParameter "client.fills-up-parameter" "DYN-3" "fills up a parameter's value";
-    CutsOff "client.cuts-off" "COM-1" "cuts off what is too long";
-    TornList "client.torn-list" "COM-2" "fills up what is not a whole descriptor";
-    Dimensions "client.dimensions" "VAR-24" "takes dimensions that are not there for none";
-    Unsigned "client.unsigned" "VAR-14" "reads numbers with a sign as if they had none";
-    NoneIsZero "client.none-is-zero" "SDA-2" "takes index group 0 for a place";
-    NothingIsError "client.nothing-is-error" "VAR-16" "takes no extended description for an error";
-    Dies "client.dies" "ADS-3" "dies of a length that is too much";
-    DiesOfError "client.dies-of-error" "ADS-6" "dies of a reply without payload";
-    Hangs "client.hangs" "CLIENT" "waits for ever for a reply";
-    Garbles "client.garbles" "CLIENT" "answers the suite in something that is no JSON";
+    AnyInvokeId "client.any-invoke-id" ADS_5 "takes replies to any invoke ID";
+    AnyCommand "client.any-command" ADS_5 "takes replies to any command";
+    AnyFlags "client.any-flags" ADS_5 "takes requests for replies";
+    OneRead "client.one-read" ADS_5 "takes what one read of its socket gives for a frame";
+    AmsLengthLie "client.believes-tcp" ADS_5 "does not look at the length of the AMS header";
+    CutFrame "client.cut-frame" ADS_5 "takes a frame that was cut for a whole one";
+    DataLengthLie "client.believes-frame" ADS_3 "does not look at the length before the data";
+    ReadLengthLie "client.believes-frame-read" ADS_1 "does not look at it in a Read";
+    NoResult "client.no-result" ADS_4 "does not look at the result";
+    NoError "client.no-error" ADS_5 "does not look at the error of the AMS header";
+    FillsUp "client.fills-up" VAR_2 "fills up what is too short with zeros";
+    FillsUpHandle "client.fills-up-handle" VAR_10 "fills up a handle";
+    FillsUpValue "client.fills-up-value" VAR_14 "fills up a value with zeros, and cuts it";
+    FillsUpParameter "client.fills-up-parameter" DYN_3 "fills up a parameter's value";
+    CutsOff "client.cuts-off" COM_1 "cuts off what is too long";
+    TornList "client.torn-list" COM_2 "fills up what is not a whole descriptor";
+    Dimensions "client.dimensions" VAR_24 "takes dimensions that are not there for none";
+    Unsigned "client.unsigned" VAR_14 "reads numbers with a sign as if they had none";
+    NoneIsZero "client.none-is-zero" SDA_2 "takes index group 0 for a place";
+    NothingIsError "client.nothing-is-error" VAR_16 "takes no extended description for an error";
+    Dies "client.dies" ADS_3 "dies of a length that is too much";
+    DiesOfError "client.dies-of-error" ADS_6 "dies of a reply without payload";
+    Hangs "client.hangs" CLIENT "waits for ever for a reply";
+    Garbles "client.garbles" CLIENT "answers the suite in something that is no JSON";
     // NC programs.
-    StreamPlace "client.stream-place" "STM-1" "streams one place beside";
-    StreamLong "client.stream-long" "STM-2" "sends packets of 1000 bytes";
-    StreamSplit "client.stream-split" "STM-4" "splits lines between packets";
-    StreamLineFeed "client.stream-line-feed" "STM-4" "ends lines by LF";
-    StreamUnended "client.stream-unended" "STM-4" "does not end the last line";
-    StreamSkips "client.stream-skips" "STM-6" "goes on behind a packet that could not be taken";
-    StreamNul "client.stream-nul" "STM-7" "ends packets by NUL";
-    StreamAny "client.stream-any" "STM-7" "streams what is not ASCII";
-    StreamOrder "client.stream-order" "STM-15" "sends the second packet first";
-    StreamLine "client.stream-line" "STM-20" "splits a line that is too long";
+    StreamPlace "client.stream-place" STM_1 "streams one place beside";
+    StreamLong "client.stream-long" STM_2 "sends packets of 1000 bytes";
+    StreamSplit "client.stream-split" STM_4 "splits lines between packets";
+    StreamLineFeed "client.stream-line-feed" STM_4 "ends lines by LF";
+    StreamUnended "client.stream-unended" STM_4 "does not end the last line";
+    StreamSkips "client.stream-skips" STM_6 "goes on behind a packet that could not be taken";
+    StreamNul "client.stream-nul" STM_7 "ends packets by NUL";
+    StreamAny "client.stream-any" STM_7 "streams what is not ASCII";
+    StreamOrder "client.stream-order" STM_15 "sends the second packet first";
+    StreamLine "client.stream-line" STM_20 "splits a line that is too long";
     // Services.
-    ServiceText "client.service-text" "SVC-1" "fills its response up to 200 bytes";
-    ServiceAny "client.service-any" "SVC-2" "answers requests to other services";
-    ServiceIdle "client.service-idle" "SVC-2" "answers what is no request";
-    ServiceClears "client.service-clears" "SVC-3.1" "takes the request back behind its answer";
-    ServiceOrder "client.service-order" "SVC-5" "writes RESPONSE_STATE before RESPONSE";
-    ServiceZero "client.service-zero" "SVC-5" "answers with a response state of 0";
-    CallerWaits "client.caller-waits" "SVC-6" "reads RESPONSE at once";
-    CallerOrder "client.caller-order" "SVC-12" "writes REQUEST_STATE first";
+    ServiceText "client.service-text" SVC_1 "fills its response up to 200 bytes";
+    ServiceAny "client.service-any" SVC_2 "answers requests to other services";
+    ServiceIdle "client.service-idle" SVC_2 "answers what is no request";
+    ServiceClears "client.service-clears" SVC_3_1 "takes the request back behind its answer";
+    ServiceOrder "client.service-order" SVC_5 "writes RESPONSE_STATE before RESPONSE";
+    ServiceZero "client.service-zero" SVC_5 "answers with a response state of 0";
+    CallerWaits "client.caller-waits" SVC_6 "reads RESPONSE at once";
+    CallerOrder "client.caller-order" SVC_12 "writes REQUEST_STATE first";
     }
-    habits {
+    variants {
     ByIndex "client-habit.by-index" "addresses channels by index";
     Geo "client-habit.geo" "asks GEO for all classes but the decoder";
     PaddedNames "client-habit.padded-names" "pads names to 256 bytes";
@@ -161,11 +173,11 @@ pub const fn defects() -> &'static [ClientDefect] {
 }
 
 /// Valid variants: the client acts differently, but no requirement may fail.
-pub const fn habits() -> &'static [ClientDefect] {
-    HABITS
+pub const fn variants() -> &'static [ClientDefect] {
+    VARIANTS
 }
 
 /// The defect or valid variant with this ID.
 pub fn find_defect(id: &str) -> Option<&'static ClientDefect> {
-    ALL.iter().chain(HABITS).find(|one| one.id == id)
+    ALL.iter().chain(VARIANTS).find(|one| one.id == id)
 }

@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 
 /// The reason why an action has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Fail {
+pub(super) enum ActionError {
     /// An ADS error of the CNC.
     Refused(AdsError),
     /// Another error, in the client or in a reply.
@@ -15,7 +15,7 @@ pub(super) enum Fail {
     Hangs,
 }
 
-impl<T: std::fmt::Display> From<T> for Fail {
+impl<T: std::fmt::Display> From<T> for ActionError {
     fn from(why: T) -> Self {
         Self::Error(why.to_string())
     }

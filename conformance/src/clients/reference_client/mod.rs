@@ -11,18 +11,18 @@ mod wire;
 
 use std::time::Duration;
 
-pub use defects::{ClientDefect, Flaw, defects, find_defect, habits};
+pub use defects::{ClientDefect, ClientFault, defects, find_defect, variants};
 
 use super::message::{ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL};
-use super::{Action, Actor, VOCABULARY};
+use super::{Action, ClientUnderTest, VOCABULARY};
 use crate::codec::message::Identity;
-use error::Fail;
+use error::ActionError;
 use wire::Connection;
 
 /// This project's client, in this process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReferenceClient {
-    pub flaw: Option<Flaw>,
+    pub fault: Option<ClientFault>,
 }
 
 impl ReferenceClient {
@@ -40,13 +40,13 @@ impl ReferenceClient {
     }
 }
 
-impl Actor for ReferenceClient {
+impl ClientUnderTest for ReferenceClient {
     fn hello(&mut self, _: &CncAddress) -> Result<ClientHello, ClientReaction> {
         Ok(Self::hello())
     }
 
     fn act(&mut self, place: &CncAddress, _: &str, action: &Action) -> ClientReaction {
-        answer(self.flaw, place, action)
+        answer(self.fault, place, action)
     }
 
     fn bye(&mut self) -> Result<(), String> {
@@ -55,19 +55,19 @@ impl Actor for ReferenceClient {
 }
 
 /// The reaction to an action. A crash or a hang is only returned, so that the process can go on.
-pub fn answer(flaw: Option<Flaw>, place: &CncAddress, action: &Action) -> ClientReaction {
-    if flaw == Some(Flaw::Garbles) {
+pub fn answer(fault: Option<ClientFault>, place: &CncAddress, action: &Action) -> ClientReaction {
+    if fault == Some(ClientFault::Garbles) {
         return ClientReaction::Garbled("done!".to_owned());
     }
     let done =
-        Connection::connect(place, flaw).and_then(|mut wire| actions::act(&mut wire, action));
+        Connection::connect(place, fault).and_then(|mut wire| actions::act(&mut wire, action));
     match done {
         Ok(value) => ClientReaction::Answer(ActionResult::Result(value)),
-        Err(Fail::Error(why)) => ClientReaction::Answer(ActionResult::Error(why)),
-        Err(Fail::Refused(error)) => ClientReaction::Answer(ActionResult::Error(format!(
+        Err(ActionError::Error(why)) => ClientReaction::Answer(ActionResult::Error(why)),
+        Err(ActionError::Refused(error)) => ClientReaction::Answer(ActionResult::Error(format!(
             "the CNC refuses it, ADS error {error:#x}"
         ))),
-        Err(Fail::Dies) => ClientReaction::Died("it would have ended here".to_owned()),
-        Err(Fail::Hangs) => ClientReaction::Silent(Duration::MAX),
+        Err(ActionError::Dies) => ClientReaction::Died("it would have ended here".to_owned()),
+        Err(ActionError::Hangs) => ClientReaction::Silent(Duration::MAX),
     }
 }

@@ -8,9 +8,9 @@ use ads_cnc::operation::{ReadByName, WriteByName};
 use ads_cnc::service::{ServiceId, ServiceVariable};
 use serde_json::Value;
 
-use super::Flaw;
-use super::error::Fail;
-use super::streaming::{PATIENCE, PAUSE};
+use super::ClientFault;
+use super::error::ActionError;
+use super::streaming::{PAUSE, WAIT_MAX};
 use super::wire::Connection;
 use crate::values::until_nul;
 
@@ -18,7 +18,7 @@ fn read(
     wire: &mut Connection,
     channel: Channel,
     variable: ServiceVariable,
-) -> Result<Vec<u8>, Fail> {
+) -> Result<Vec<u8>, ActionError> {
     let mut reply = Vec::new();
     let read = ReadByName::new(channel, variable.name())?;
     Ok(wire.call(&read, &mut reply)?.bytes.to_vec())
@@ -29,7 +29,7 @@ fn write(
     channel: Channel,
     variable: ServiceVariable,
     value: &[u8],
-) -> Result<(), Fail> {
+) -> Result<(), ActionError> {
     let write = WriteByName::new(channel, variable.name(), value)?;
     wire.call(&write, &mut Vec::new()).map(drop)
 }
@@ -41,34 +41,34 @@ pub(super) fn serve(
     uuid: &str,
     requests: u32,
     seconds: f64,
-) -> Result<Value, Fail> {
+) -> Result<Value, ActionError> {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let own = ServiceId::new(uuid)?;
     let limit = Duration::try_from_secs_f64(seconds)?;
     let (begun, mut answered) = (Instant::now(), 0_u32);
     while answered < requests && begun.elapsed() < limit {
         let state = read(wire, channel, RequestState)?;
-        let is_request = state.iter().any(|&byte| byte != 0) || wire.has(Flaw::ServiceIdle);
+        let is_request = state.iter().any(|&byte| byte != 0) || wire.has(ClientFault::ServiceIdle);
         let asked = read(wire, channel, Uuid)?;
         let asked =
             std::str::from_utf8(until_nul(&asked)).ok().and_then(|id| ServiceId::new(id).ok());
-        if !is_request || asked != Some(own) && !wire.has(Flaw::ServiceAny) {
+        if !is_request || asked != Some(own) && !wire.has(ClientFault::ServiceAny) {
             thread::sleep(PAUSE);
             continue;
         }
         let request = read(wire, channel, Request)?;
         let mut response = until_nul(&request).to_vec();
         let mut len = response.len().saturating_add(1);
-        if wire.has(Flaw::ServiceText) {
+        if wire.has(ClientFault::ServiceText) {
             len = 200;
         }
         response.resize(len, 0);
-        let one = [if wire.has(Flaw::ServiceZero) { 0 } else { 1 }, 0, 0, 0];
+        let one = [if wire.has(ClientFault::ServiceZero) { 0 } else { 1 }, 0, 0, 0];
         let mut writes =
             [(Response, response.as_slice()), (RequestState, &[0; 4]), (ResponseState, &one)];
-        match wire.flaw {
-            Some(Flaw::ServiceOrder) => writes.swap(0, 2),
-            Some(Flaw::ServiceClears) => writes.swap(1, 2),
+        match wire.fault {
+            Some(ClientFault::ServiceOrder) => writes.swap(0, 2),
+            Some(ClientFault::ServiceClears) => writes.swap(1, 2),
             _ => {}
         }
         for (variable, value) in writes {
@@ -85,24 +85,24 @@ pub(super) fn ask(
     channel: Channel,
     uuid: &str,
     request: &str,
-) -> Result<Value, Fail> {
+) -> Result<Value, ActionError> {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let with_nul = |text: &str| [text.as_bytes(), b"\0"].concat();
     let (uuid, request) = (with_nul(uuid), with_nul(request));
     let mut writes: [(ServiceVariable, &[u8]); 3] =
         [(Uuid, &uuid), (Request, &request), (RequestState, &[1, 0, 0, 0])];
-    if wire.has(Flaw::CallerOrder) {
+    if wire.has(ClientFault::CallerOrder) {
         writes.rotate_right(1);
     }
     for (variable, value) in writes {
         write(wire, channel, variable, value)?;
     }
     let begun = Instant::now();
-    while !wire.has(Flaw::CallerWaits) {
+    while !wire.has(ClientFault::CallerWaits) {
         if read(wire, channel, ResponseState)?.iter().any(|&byte| byte != 0) {
             break;
         }
-        if begun.elapsed() > PATIENCE {
+        if begun.elapsed() > WAIT_MAX {
             return Err("no response in time".into());
         }
         thread::sleep(PAUSE);

@@ -10,8 +10,8 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, NcText};
 use serde_json::Value;
 
-use super::Flaw;
-use super::error::Fail;
+use super::ClientFault;
+use super::error::ActionError;
 use super::wire::Connection;
 use crate::clients::message::DONE;
 
@@ -19,24 +19,28 @@ use crate::clients::message::DONE;
 pub(super) const PAUSE: Duration = Duration::from_millis(10);
 
 /// How long a packet is repeated, and how long it waits for a response.
-pub(super) const PATIENCE: Duration = Duration::from_secs(10);
+pub(super) const WAIT_MAX: Duration = Duration::from_secs(10);
 
-pub(super) fn stream(wire: &mut Connection, channel: Channel, file: &str) -> Result<Value, Fail> {
+pub(super) fn stream(
+    wire: &mut Connection,
+    channel: Channel,
+    file: &str,
+) -> Result<Value, ActionError> {
     let program = fs::read(file)?;
-    let packets = packets(wire.flaw, &program)?;
+    let packets = packets(wire.fault, &program)?;
     for packet in packets {
         let begun = Instant::now();
         loop {
             let write = WriteProgramStream::new(channel, &packet);
             let ack = match wire.call(&write, &mut Vec::new()) {
                 Ok(_) => break,
-                Err(Fail::Refused(error)) => (Ack::from_result(error), error),
+                Err(ActionError::Refused(error)) => (Ack::from_result(error), error),
                 Err(fail) => return Err(fail),
             };
             match ack {
-                (Ack::Busy, _) if wire.has(Flaw::StreamSkips) => break,
-                (Ack::Busy, _) if begun.elapsed() < PATIENCE => thread::sleep(PAUSE),
-                (_, error) => return Err(Fail::Refused(error)),
+                (Ack::Busy, _) if wire.has(ClientFault::StreamSkips) => break,
+                (Ack::Busy, _) if begun.elapsed() < WAIT_MAX => thread::sleep(PAUSE),
+                (_, error) => return Err(ActionError::Refused(error)),
             }
         }
     }
@@ -44,9 +48,9 @@ pub(super) fn stream(wire: &mut Connection, channel: Channel, file: &str) -> Res
 }
 
 /// The packets of a program.
-fn packets(flaw: Option<Flaw>, program: &[u8]) -> Result<Vec<Vec<u8>>, Fail> {
-    let is = |one: Flaw| flaw == Some(one);
-    if is(Flaw::StreamAny) || is(Flaw::StreamLine) {
+fn packets(fault: Option<ClientFault>, program: &[u8]) -> Result<Vec<Vec<u8>>, ActionError> {
+    let is = |one: ClientFault| fault == Some(one);
+    if is(ClientFault::StreamAny) || is(ClientFault::StreamLine) {
         return Ok(program.chunks(STREAM_PACKET_MAX).map(<[u8]>::to_vec).collect());
     }
     let text = NcText::new(program)?;
@@ -59,30 +63,30 @@ fn packets(flaw: Option<Flaw>, program: &[u8]) -> Result<Vec<Vec<u8>>, Fail> {
         packets.push(packet.to_vec());
     }
     let whole = packets.concat();
-    Ok(match flaw {
-        Some(Flaw::StreamSplit) => whole.chunks(500).map(<[u8]>::to_vec).collect(),
-        Some(Flaw::StreamLineFeed) => {
+    Ok(match fault {
+        Some(ClientFault::StreamSplit) => whole.chunks(500).map(<[u8]>::to_vec).collect(),
+        Some(ClientFault::StreamLineFeed) => {
             let without =
                 |packet: &Vec<u8>| packet.iter().copied().filter(|&byte| byte != b'\r').collect();
             packets.iter().map(without).collect()
         }
-        Some(Flaw::StreamUnended) => {
+        Some(ClientFault::StreamUnended) => {
             if let Some(last) = packets.last_mut() {
                 last.truncate(last.len().saturating_sub(2));
             }
             packets
         }
-        Some(Flaw::StreamNul) => {
+        Some(ClientFault::StreamNul) => {
             packets.iter_mut().for_each(|packet| packet.push(0));
             packets
         }
-        Some(Flaw::StreamOrder) => {
+        Some(ClientFault::StreamOrder) => {
             if let [first, second, ..] = packets.as_mut_slice() {
                 std::mem::swap(first, second);
             }
             packets
         }
-        Some(Flaw::LineByLine) => text_lines(&whole),
+        Some(ClientFault::LineByLine) => text_lines(&whole),
         _ => packets,
     })
 }

@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort, FrameRef, StateFlags};
 use ads_cnc::operation::{Operation, Service};
 
-use super::Flaw;
-use super::error::Fail;
-use super::faults::{OutgoingRequest, believe, misread, spoil_frame};
+use super::ClientFault;
+use super::error::ActionError;
+use super::faults::{OutgoingRequest, apply_to_frame, misread, skip_check};
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::clients::CncAddress;
 use crate::net;
@@ -22,20 +22,23 @@ pub(super) struct Connection {
     stream: TcpStream,
     header: AmsHeader,
     received: Vec<u8>,
-    pub(super) flaw: Option<Flaw>,
+    pub(super) fault: Option<ClientFault>,
 }
 
 impl Connection {
-    pub(super) fn connect(place: &CncAddress, flaw: Option<Flaw>) -> Result<Self, Fail> {
-        let stream = net::rehearse(place.addr, TIMEOUT)?;
+    pub(super) fn connect(
+        place: &CncAddress,
+        fault: Option<ClientFault>,
+    ) -> Result<Self, ActionError> {
+        let stream = net::connect_ungated(place.addr, TIMEOUT)?;
         let source = AmsAddr { net_id: net_id_of(stream.local_addr()?.ip()), port: SOURCE_PORT };
         let target = AmsAddr { net_id: place.net_id, port: AmsPort::SDA };
         let header = AmsHeader::request(target, source, Service::Read.command(), 0);
-        Ok(Self { stream, header, received: Vec::new(), flaw })
+        Ok(Self { stream, header, received: Vec::new(), fault })
     }
 
-    pub(super) fn has(&self, flaw: Flaw) -> bool {
-        self.flaw == Some(flaw)
+    pub(super) fn has(&self, fault: ClientFault) -> bool {
+        self.fault == Some(fault)
     }
 
     /// Calls a function and decodes its reply, which borrows from `reply`.
@@ -43,7 +46,7 @@ impl Connection {
         &mut self,
         operation: &O,
         reply: &'r mut Vec<u8>,
-    ) -> Result<O::Reply<'r>, Fail> {
+    ) -> Result<O::Reply<'r>, ActionError> {
         let spec = O::FUNCTION.spec();
         let mut buf = vec![0; operation.encoded_len()];
         let data = operation.encode(&mut buf)?.to_vec();
@@ -55,17 +58,17 @@ impl Connection {
             length: operation.read_length(),
             data,
         };
-        if let Some(flaw) = self.flaw {
-            asked.spoil(flaw);
+        if let Some(fault) = self.fault {
+            asked.apply_fault(fault);
         }
         *reply = self.exchange(&asked)?;
-        if let Some(flaw) = self.flaw {
-            misread(flaw, &asked, reply);
+        if let Some(fault) = self.fault {
+            misread(fault, &asked, reply);
         }
         Ok(operation.decode_reply(reply)?)
     }
 
-    fn exchange(&mut self, asked: &OutgoingRequest) -> Result<Vec<u8>, Fail> {
+    fn exchange(&mut self, asked: &OutgoingRequest) -> Result<Vec<u8>, ActionError> {
         let call = asked.call();
         let invoke_id = self.header.invoke_id.wrapping_add(1);
         self.header = AmsHeader {
@@ -75,8 +78,8 @@ impl Connection {
             ..self.header
         };
         let mut bytes = frame(self.header, &call)?;
-        if let Some(flaw) = self.flaw {
-            spoil_frame(flaw, &mut bytes);
+        if let Some(fault) = self.fault {
+            apply_to_frame(fault, &mut bytes);
         }
         self.stream.write_all(&bytes)?;
         let begun = Instant::now();
@@ -89,7 +92,7 @@ impl Connection {
                 return Err(self.timeout());
             }
             match self.stream.read(&mut chunk) {
-                Ok(0) if self.has(Flaw::CutFrame) => return self.cut(),
+                Ok(0) if self.has(ClientFault::CutFrame) => return self.cut(),
                 Ok(0) => return Err("the connection was closed".into()),
                 Ok(count) => self.received.extend(chunk.iter().take(count)),
                 Err(error) => match error.kind() {
@@ -99,7 +102,7 @@ impl Connection {
                     _ => return Err(error.into()),
                 },
             }
-            if self.has(Flaw::OneRead)
+            if self.has(ClientFault::OneRead)
                 && matches!(FrameRef::split(&self.received, DATA_MAX), Ok(None))
             {
                 return Err("a frame that is not whole".into());
@@ -107,41 +110,41 @@ impl Connection {
         }
     }
 
-    fn timeout(&self) -> Fail {
-        if self.has(Flaw::Hangs) { Fail::Hangs } else { "no reply in time".into() }
+    fn timeout(&self) -> ActionError {
+        if self.has(ClientFault::Hangs) { ActionError::Hangs } else { "no reply in time".into() }
     }
 
     /// Removes the first frame from the received bytes.
-    fn cut(&mut self) -> Result<Vec<u8>, Fail> {
+    fn cut(&mut self) -> Result<Vec<u8>, ActionError> {
         Ok(self.received.get(46..).unwrap_or_default().to_vec())
     }
 
     /// The data of the reply, if it has arrived completely.
-    fn reply(&mut self, asked: &OutgoingRequest) -> Result<Option<Vec<u8>>, Fail> {
+    fn reply(&mut self, asked: &OutgoingRequest) -> Result<Option<Vec<u8>>, ActionError> {
         loop {
-            if let Some(flaw) = self.flaw {
-                believe(flaw, &mut self.received)?;
+            if let Some(fault) = self.fault {
+                skip_check(fault, &mut self.received)?;
             }
             let Some((frame, len)) = FrameRef::split(&self.received, DATA_MAX)? else {
                 return Ok(None);
             };
             let header = frame.header();
             let is_mine = header.invoke_id == self.header.invoke_id;
-            if !is_mine && !self.has(Flaw::AnyInvokeId) {
+            if !is_mine && !self.has(ClientFault::AnyInvokeId) {
                 self.received.drain(..len);
                 continue;
             }
-            let any = self.has(Flaw::AnyCommand);
+            let any = self.has(ClientFault::AnyCommand);
             if header.command != self.header.command && !any {
                 return Err("a reply to another command".into());
             }
-            if header.state_flags != StateFlags::RESPONSE && !self.has(Flaw::AnyFlags) {
+            if header.state_flags != StateFlags::RESPONSE && !self.has(ClientFault::AnyFlags) {
                 return Err("no response".into());
             }
-            if frame.data().is_empty() && self.has(Flaw::DiesOfError) {
-                return Err(Fail::Dies);
+            if frame.data().is_empty() && self.has(ClientFault::DiesOfError) {
+                return Err(ActionError::Dies);
             }
-            if !header.error.is_ok() && self.has(Flaw::NoError) {
+            if !header.error.is_ok() && self.has(ClientFault::NoError) {
                 return Ok(Some(Vec::new()));
             }
             let sent = AmsHeader { command: header.command, ..self.header };
@@ -149,13 +152,14 @@ impl Connection {
             let answer = read?;
             self.received.drain(..len);
             if !answer.ams_error.is_ok() {
-                return Err(Fail::Refused(answer.ams_error));
+                return Err(ActionError::Refused(answer.ams_error));
             }
-            if !answer.result.is_ok() && !self.has(Flaw::NoResult) {
-                return Err(Fail::Refused(answer.result));
+            if !answer.result.is_ok() && !self.has(ClientFault::NoResult) {
+                return Err(ActionError::Refused(answer.result));
             }
             let data = answer.data.unwrap_or_default();
-            let lenient = [Flaw::CutsOff, Flaw::FillsUpValue].map(Some).contains(&self.flaw);
+            let lenient =
+                [ClientFault::CutsOff, ClientFault::FillsUpValue].map(Some).contains(&self.fault);
             let most = usize::try_from(asked.length).unwrap_or(usize::MAX);
             if data.len() > most && !lenient {
                 return Err(format!("{} bytes for a read length of {most}", data.len()).into());

@@ -2,23 +2,25 @@
 
 use ads_cnc::operation::{ObjectList, ReadDescriptors};
 use ads_cnc::{Decode as _, DescriptorsRef};
+use ads_cnc_vectors::ids::*;
 use serde_json::{Value, json};
 
 use crate::clients::Scenario;
-use crate::clients::scenario::{Ask, Expect, Length, read, write};
+use crate::clients::scenario::{ExpectedAnswer, ExpectedRequest, ReadLength, read, write};
 use crate::clients::script::ScenarioScript;
 
 /// Number of objects of channel 1 in the default model: its own, the platform's, three of each of
 /// three axes, and the program stream.
 const COUNT: u32 = 30;
 
-fn content(offset: u32, size: u32) -> Ask {
-    read(553, 0x12_0101, offset, size).of("COM-5", "COM-5")
+fn content(offset: u32, size: u32) -> ExpectedRequest {
+    read(553, 0x12_0101, offset, size).of(COM_5, COM_5)
 }
 
 pub(super) fn scenarios() -> Vec<Scenario> {
-    let count = |group| read(553, group, 0, 4).of("COM-1", "COM-1");
-    let descriptors = Ask { length: Length::Times(84), ..read(553, 0x13_0101, 1, 84) };
+    let count = |group| read(553, group, 0, 4).of(COM_1, COM_1);
+    let descriptors =
+        ExpectedRequest { length: ReadLength::Times(84), ..read(553, 0x13_0101, 1, 84) };
     vec![
         Scenario::new("client-count-objects", "It counts objects", "count-objects 1")
             .asks(count(0x13_0101))
@@ -27,9 +29,9 @@ pub(super) fn scenarios() -> Vec<Scenario> {
             .asks(count(0x13_0106))
             .gives(12),
         Scenario::new("client-list-objects", "It lists objects", "list-objects 1")
-            .asks(descriptors.of("COM-2", "COM-2"))
-            .by("COM-2")
-            .expect(Expect::Asked(list)),
+            .asks(descriptors.of(COM_2, COM_2))
+            .by(COM_2)
+            .expect(ExpectedAnswer::Asked(list)),
         Scenario::new(
             "client-read-object",
             "It reads an object where its descriptor says",
@@ -57,7 +59,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
             "read-object 1 example_string_r",
         )
         .asks(content(0x1B, 21))
-        .by("GEN-3")
+        .by(GEN_3)
         .gives("Länge 5€"),
         Scenario::new(
             "client-read-object-full-name",
@@ -71,19 +73,19 @@ pub(super) fn scenarios() -> Vec<Scenario> {
             "It writes an object where its descriptor says",
             "write-object 1 mc_command_single_block_w TRUE",
         )
-        .asks(write(553, 0x12_0101, 1, &[1]).of("COM-5", "COM-5")),
+        .asks(write(553, 0x12_0101, 1, &[1]).of(COM_5, COM_5)),
         Scenario::new(
             "client-write-object-real",
             "It writes an LREAL",
             "write-object 1 example_lreal_w -2.5",
         )
-        .asks(write(553, 0x12_0101, 0x1A, &[0, 0, 0, 0, 0, 0, 0x04, 0xC0]).of("COM-5", "GEN-1")),
+        .asks(write(553, 0x12_0101, 0x1A, &[0, 0, 0, 0, 0, 0, 0x04, 0xC0]).of(COM_5, GEN_1)),
         Scenario::new(
             "client-write-object-signed",
             "It writes a negative INT",
             "write-object 1 example_int_w -2",
         )
-        .asks(write(553, 0x12_0101, 0x14, &[0xFE, 0xFF]).of("COM-5", "GEN-1")),
+        .asks(write(553, 0x12_0101, 0x14, &[0xFE, 0xFF]).of(COM_5, GEN_1)),
     ]
 }
 

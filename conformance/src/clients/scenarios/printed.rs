@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use crate::clients::Scenario;
 use crate::clients::literal::Literal;
-use crate::clients::scenario::Ask;
+use crate::clients::scenario::ExpectedRequest;
+use crate::judge::Rule;
 
 /// Action, expected result and vector of each example; the vector is its request or its reply.
 fn examples() -> Vec<(&'static str, Value, &'static str)> {
@@ -75,8 +76,8 @@ pub(super) fn scenarios() -> Vec<Scenario> {
 fn one(action: &str, result: Value, id: &str) -> Option<Scenario> {
     let example = vector(id)?;
     let literal = literal(example)?;
-    let rule = example.cited().first()?.id.as_str();
-    let ask = Ask {
+    let rule = Rule::of(example.cited().first()?.id.as_str());
+    let ask = ExpectedRequest {
         command: literal.command.into(),
         ..crate::clients::scenario::write(
             literal.port,
@@ -133,7 +134,7 @@ fn literal(example: &Vector) -> Option<Literal> {
 
 /// Examples that no action of the vocabulary covers.
 #[cfg(test)]
-const UNTOLD: &[&str] = &[
+const NOT_COVERED: &[&str] = &[
     // The same description with the name in the other edition, and the other value of a BOOLEAN.
     "description-printed-table-name",
     "content-printed-feedhold-0",
@@ -157,7 +158,7 @@ mod tests {
                 && (one.direction == Direction::Reply
                     || one.context.service == Some(Service::Write));
             let id = one.id.as_str();
-            assert!(!printed || told.contains(&id) || UNTOLD.contains(&id), "{id}");
+            assert!(!printed || told.contains(&id) || NOT_COVERED.contains(&id), "{id}");
         }
     }
 }

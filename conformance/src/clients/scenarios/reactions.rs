@@ -2,12 +2,14 @@
 //! never another value, and must not crash.
 
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 use serde_json::{Value, json};
 
 use crate::clients::Scenario;
-use crate::clients::scenario::Expect;
+use crate::clients::scenario::ExpectedAnswer;
 use crate::clients::tamper::{LengthField, Tamper, WrongLength};
-use crate::judge::{CLIENT, Rule, assumed};
+use crate::judge::{Rule, assumed};
 
 /// An action while its replies are changed.
 struct ReactionScenario {
@@ -15,8 +17,8 @@ struct ReactionScenario {
     action: &'static str,
     function: Function,
     /// The requirements of the service, of the data, and of its result.
-    service: &'static str,
-    data: &'static str,
+    service: ClauseId,
+    data: ClauseId,
     result: fn() -> Value,
 }
 
@@ -24,8 +26,8 @@ const NAME: ReactionScenario = ReactionScenario {
     id: "name",
     action: "read-by-name 1 V.E.Testvar SGN32[5]",
     function: Function::ReadByName,
-    service: "ADS-3",
-    data: "VAR-14",
+    service: ADS_3,
+    data: VAR_14,
     result: || json!([123, 234, 345, 456, 567]),
 };
 
@@ -33,8 +35,8 @@ const COUNT: ReactionScenario = ReactionScenario {
     id: "count",
     action: "count-objects 1",
     function: Function::CountObjects,
-    service: "ADS-1",
-    data: "COM-1",
+    service: ADS_1,
+    data: COM_1,
     result: || json!(30),
 };
 
@@ -42,8 +44,8 @@ const WRITE: ReactionScenario = ReactionScenario {
     id: "write",
     action: "write-by-name 1 V.E.test[4] SGN32 123",
     function: Function::WriteByName,
-    service: "ADS-2",
-    data: "VAR-17",
+    service: ADS_2,
+    data: VAR_17,
     result: || Value::Null,
 };
 
@@ -56,9 +58,9 @@ impl ReactionScenario {
 
     /// The reply is valid, but unusual.
     fn valid_reply(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
-        let scenario = self.scenario(id, what, tamper).by("ADS-5");
+        let scenario = self.scenario(id, what, tamper).by(ADS_5);
         match (self.result)() {
-            Value::Null => scenario.expect(Expect::Done),
+            Value::Null => scenario.expect(ExpectedAnswer::Done),
             result => scenario.gives(result),
         }
     }
@@ -70,7 +72,7 @@ impl ReactionScenario {
         tamper: Tamper,
         rule: impl Into<Rule>,
     ) -> Scenario {
-        self.scenario(id, what, tamper).expect(Expect::Error).by(rule)
+        self.scenario(id, what, tamper).expect(ExpectedAnswer::Error).by(rule)
     }
 }
 
@@ -99,28 +101,28 @@ fn ways(told: &ReactionScenario) -> Vec<Scenario> {
         // specified.
         Scenario {
             expect: match (told.result)() {
-                Value::Null => Expect::DoneOrError,
-                result => Expect::ResultOrError(result),
+                Value::Null => ExpectedAnswer::DoneOrError,
+                result => ExpectedAnswer::ResultOrError(result),
             },
             ..told.valid_reply("foreign", "after a reply to another invoke ID", Tamper::Foreign)
         },
         told.valid_reply("twice", "twice in one piece", Tamper::Twice),
-        told.invalid_reply("other-id", "to another invoke ID only", Tamper::OtherInvokeId, "ADS-5"),
+        told.invalid_reply("other-id", "to another invoke ID only", Tamper::OtherInvokeId, ADS_5),
         told.invalid_reply(
             "other-command",
             "as the answer to another command",
             Tamper::OtherCommand,
-            "ADS-5",
+            ADS_5,
         ),
-        told.invalid_reply("request", "marked as a request", Tamper::Request, "ADS-5"),
+        told.invalid_reply("request", "marked as a request", Tamper::Request, ADS_5),
     ]
 }
 
 fn lies(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = Vec::new();
     for (place, name, rule) in [
-        (LengthField::AmsTcp, "AMS/TCP length", "ADS-5"),
-        (LengthField::Ams, "AMS data length", "ADS-5"),
+        (LengthField::AmsTcp, "AMS/TCP length", ADS_5),
+        (LengthField::Ams, "AMS data length", ADS_5),
         (LengthField::Data, "length before the data", told.service),
     ] {
         if place == LengthField::Data && told.function == Function::WriteByName {
@@ -159,15 +161,15 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
         // That an AMS error has no payload is known from online help; how a client reports it is
         // not specified.
-        told.invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, "ADS-5")
-            .by("ADS-6"),
+        told.invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, ADS_5)
+            .by(ADS_6),
         told.invalid_reply(
             "bare-result",
             "an error as result, and nothing after it",
             Tamper::BareResult,
-            "ADS-4",
+            ADS_4,
         )
-        .by("ADS-6"),
+        .by(ADS_6),
     ];
     if told.function != Function::WriteByName {
         all.extend([
@@ -175,13 +177,13 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
                 "empty-result",
                 "an error as result, length 0",
                 Tamper::EmptyResult,
-                "ADS-4",
+                ADS_4,
             ),
             told.invalid_reply(
                 "result-data",
                 "an error as result, with data",
                 Tamper::ResultWithData,
-                "ADS-4",
+                ADS_4,
             ),
         ]);
     }
@@ -190,18 +192,13 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
 
 fn ends(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        told.invalid_reply("closed", "closed without a reply", Tamper::CutAt(0), "ADS-5"),
-        told.invalid_reply(
-            "closed-header",
-            "closed within the headers",
-            Tamper::CutAt(20),
-            "ADS-5",
-        ),
-        told.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, "ADS-5"),
+        told.invalid_reply("closed", "closed without a reply", Tamper::CutAt(0), ADS_5),
+        told.invalid_reply("closed-header", "closed within the headers", Tamper::CutAt(20), ADS_5),
+        told.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, ADS_5),
     ];
     // Each of these scenarios takes the full timeout of the client.
     if told.function == Function::ReadByName {
-        all.push(told.invalid_reply("silence", "no reply at all", Tamper::Silence, CLIENT));
+        all.push(told.invalid_reply("silence", "no reply at all", Tamper::Silence, Rule::CLIENT));
     }
     all
 }
@@ -227,45 +224,45 @@ fn streams() -> Vec<Scenario> {
         json!({"name": "V.E.Variable_3", "handle": 0x200_0002, "type": ty, "access": access,
             "size": 2, "dimensions": [2]})
     };
-    let short = |id: &str, action: &str, function, rule: &'static str, len| {
+    let short = |id: &str, action: &str, function, rule: ClauseId, len| {
         let title = format!("{action}: {len} bytes of data");
         Scenario::new(format!("client-{id}-short"), title, action)
             .with(function, Tamper::Only(len))
-            .expect(Expect::Error)
+            .expect(ExpectedAnswer::Error)
             .by(rule)
     };
     vec![
         describe("open", "the name ends with the reply", Tamper::Open)
             .gives(as_is(1, 1))
-            .by(assumed("VAR-4")),
+            .by(assumed(VAR_4)),
         describe("padded", "the name is padded to 256 bytes", Tamper::Padded(24))
             .gives(as_is(1, 1))
-            .by(assumed("VAR-4")),
+            .by(assumed(VAR_4)),
         describe("type", "a type that nobody knows", Tamper::Patch(4, [77, 0, 0, 0]))
             .gives(as_is(77, 1))
-            .by(assumed("VAR-23")),
+            .by(assumed(VAR_23)),
         describe("access", "an access that nobody knows", Tamper::Patch(8, [9, 0, 0, 0]))
             .gives(as_is(1, 9))
-            .by(assumed("VAR-23")),
+            .by(assumed(VAR_23)),
         describe(
             "dimensions",
             "more dimensions than there is room for",
             Tamper::Patch(16, [0xFF; 4]),
         )
-        .expect(Expect::Error)
-        .by("VAR-24"),
+        .expect(ExpectedAnswer::Error)
+        .by(VAR_24),
         describe("short", "it ends within the dimensions", Tamper::Only(22))
-            .expect(Expect::Error)
-            .by("VAR-4"),
-        describe("empty", "it is empty", Tamper::Only(0)).expect(Expect::Error).by("VAR-4"),
-        short("handle", "handle 1 V.E.vartest", Function::HandleByName, "VAR-10", 3),
-        short("count-variables", "count-variables 1 V.E", Function::CountVariables, "VAR-2", 2),
-        short("parameters", "count-parameters 1 P", Function::CountDynamic, "DYN-1", 1),
-        short("parameter", "parameter-by-name 1 P P1", Function::DynamicValueByName, "DYN-3", 7),
-        short("instance", "find-instance hld 1 0", Function::FindInstance, "SDA-1", 4),
-        short("extended", "describe-extended 1 3 V.E", Function::DescribeExtended, "VAR-15", 6),
-        short("element", "count-elements hld 1 0", Function::CountElements, "SDA-4", 3),
-        short("axis", "read-axis 1 2 V.A.WCS REAL64", Function::AxisReadByName, "VAR-14", 7),
+            .expect(ExpectedAnswer::Error)
+            .by(VAR_4),
+        describe("empty", "it is empty", Tamper::Only(0)).expect(ExpectedAnswer::Error).by(VAR_4),
+        short("handle", "handle 1 V.E.vartest", Function::HandleByName, VAR_10, 3),
+        short("count-variables", "count-variables 1 V.E", Function::CountVariables, VAR_2, 2),
+        short("parameters", "count-parameters 1 P", Function::CountDynamic, DYN_1, 1),
+        short("parameter", "parameter-by-name 1 P P1", Function::DynamicValueByName, DYN_3, 7),
+        short("instance", "find-instance hld 1 0", Function::FindInstance, SDA_1, 4),
+        short("extended", "describe-extended 1 3 V.E", Function::DescribeExtended, VAR_15, 6),
+        short("element", "count-elements hld 1 0", Function::CountElements, SDA_4, 3),
+        short("axis", "read-axis 1 2 V.A.WCS REAL64", Function::AxisReadByName, VAR_14, 7),
     ]
 }
 
@@ -275,19 +272,19 @@ fn lists() -> Vec<Scenario> {
         Scenario::new(format!("client-list-{id}"), title, "list-objects 1")
             .with(Function::ReadDescriptors, tamper)
     };
-    let right = |scenario: Scenario| scenario.expect(Expect::Asked(super::objects::list));
+    let right = |scenario: Scenario| scenario.expect(ExpectedAnswer::Asked(super::objects::list));
     vec![
-        right(list("bytewise", "one byte at a time", Tamper::Bytewise)).by("ADS-5"),
+        right(list("bytewise", "one byte at a time", Tamper::Bytewise)).by(ADS_5),
         right(list("late", "after the reply to the request before", Tamper::Late))
-            .by(assumed("ADS-5")),
-        right(list("twice", "twice in one piece", Tamper::Twice)).by(assumed("ADS-5")),
+            .by(assumed(ADS_5)),
+        right(list("twice", "twice in one piece", Tamper::Twice)).by(assumed(ADS_5)),
         // The client requests the rest, or reports an error because the list is incomplete.
         list("fewer", "fewer descriptors than it asks for", Tamper::Descriptors(5))
-            .expect(Expect::AskedOrError(super::objects::list))
-            .by(assumed("COM-3")),
+            .expect(ExpectedAnswer::AskedOrError(super::objects::list))
+            .by(assumed(COM_3)),
         list("torn", "the last descriptor is not whole", Tamper::Less(1))
-            .expect(Expect::Error)
-            .by("COM-2"),
-        list("none", "no descriptors", Tamper::Only(0)).expect(Expect::Error).by("COM-2"),
+            .expect(ExpectedAnswer::Error)
+            .by(COM_2),
+        list("none", "no descriptors", Tamper::Only(0)).expect(ExpectedAnswer::Error).by(COM_2),
     ]
 }

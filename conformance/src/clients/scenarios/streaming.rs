@@ -1,27 +1,29 @@
 //! NC programs, written packet by packet.
 
 use ads_cnc::ads::AdsError;
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use crate::clients::Scenario;
-use crate::clients::scenario::Expect;
-use crate::clients::scenario::Order;
+use crate::clients::scenario::ExpectedAnswer;
+use crate::clients::scenario::RequestOrder;
 
-const JUDGED: &[&str] = &["STM-1", "STM-2", "STM-4", "STM-7", "STM-15", "STM-20", "ADS-2"];
+const JUDGED: &[ClauseId] = &[STM_1, STM_2, STM_4, STM_7, STM_15, STM_20, ADS_2];
 
 fn program(id: &str, title: &str, text: Vec<u8>) -> Scenario {
     let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
-        .by("STM-1")
-        .ordered(Order::Stream, JUDGED);
+        .by(STM_1)
+        .ordered(RequestOrder::Stream, JUDGED);
     scenario.program = Some(text);
     scenario
 }
 
-fn refused(id: &str, title: &str, text: &[u8], rule: &'static str) -> Scenario {
+fn refused(id: &str, title: &str, text: &[u8], rule: ClauseId) -> Scenario {
     let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
-        .expect(Expect::Error)
-        .ordered(Order::NoStream(rule), &[rule]);
+        .expect(ExpectedAnswer::Error)
+        .ordered(RequestOrder::NoStream(rule), &[rule]);
     scenario = match rule {
-        "STM-8" => scenario.by(crate::judge::assumed(rule)),
+        STM_8 => scenario.by(crate::judge::assumed(rule)),
         _ => scenario.by(rule),
     };
     scenario.program = Some(text.to_vec());
@@ -49,11 +51,11 @@ pub(super) fn scenarios() -> Vec<Scenario> {
         let mut scenario = program(id, title, lines(60, "\r\n"));
         scenario.refused =
             refusals.iter().map(|&number| (number, AdsError::INVALID_DATA)).collect();
-        scenario.by("STM-6")
+        scenario.by(STM_6)
     };
     let mut for_good = program("refused", "It gives up what is refused for good", lines(3, "\n"));
     for_good.refused = (0..64).map(|number| (number, AdsError::INVALID_ACCESS)).collect();
-    (for_good.watch, for_good.more) = (None, vec!["ADS-2"]);
+    (for_good.watch, for_good.more) = (None, vec![ADS_2]);
     vec![
         program("short", "It streams a few lines", lines(3, "\r\n")),
         program("packets", "It streams a program in packets of whole lines", lines(90, "\r\n")),
@@ -62,14 +64,14 @@ pub(super) fn scenarios() -> Vec<Scenario> {
         program("longest", "It streams a line of 990 characters", longest),
         later("later", "It writes again what could not be taken", &[1]),
         later("later-first", "It writes the first packet again, and again", &[0, 1, 2]),
-        for_good.expect(Expect::Error).by(crate::judge::assumed("STM-6")),
-        refused("too-long", "It refuses a line of 991 characters", &too_long, "STM-20"),
-        refused("no-ascii", "It refuses what is not ASCII", b"N10 (L\xE4nge)\r\nM30\r\n", "STM-7"),
+        for_good.expect(ExpectedAnswer::Error).by(crate::judge::assumed(STM_6)),
+        refused("too-long", "It refuses a line of 991 characters", &too_long, STM_20),
+        refused("no-ascii", "It refuses what is not ASCII", b"N10 (L\xE4nge)\r\nM30\r\n", STM_7),
         refused(
             "loop",
             "It refuses a loop",
             b"$FOR V.P.I = 1, 3, 1\nG00 X1\n$ENDFOR\nM30\n",
-            "STM-8",
+            STM_8,
         ),
     ]
 }

@@ -1,15 +1,16 @@
 //! Variables and dynamic parameters.
 
+use ads_cnc_vectors::ids::*;
 use serde_json::{Value, json};
 
 use crate::clients::Scenario;
-use crate::clients::scenario::{Ask, both, read, write};
+use crate::clients::scenario::{ExpectedRequest, both, read, write};
 
 /// Index group of the decoder of channel 1, which has the variables.
 const GROUP: u32 = 0x12_2301;
 
-fn named(offset: u32, name: &[u8], least: u32) -> Ask {
-    let ask = both(GROUP, offset, &[name, b"\0"].concat(), least).of("VAR-14", "VAR-9");
+fn named(offset: u32, name: &[u8], least: u32) -> ExpectedRequest {
+    let ask = both(GROUP, offset, &[name, b"\0"].concat(), least).of(VAR_14, VAR_9);
     // A name may be padded to 256 bytes.
     let mut padded = name.to_vec();
     padded.resize(256, 0);
@@ -25,7 +26,7 @@ fn value(id: &str, title: &str, name: &str, wire: &[u8], ty: &str, size: u32) ->
 fn written(id: &str, title: &str, action: &str, name: &[u8], bytes: &[u8]) -> Scenario {
     let data = [name, b"\0", bytes].concat();
     Scenario::new(format!("client-write-{id}"), title, action)
-        .asks(write(552, GROUP, 0x4A, &data).of("VAR-13", "VAR-13"))
+        .asks(write(552, GROUP, 0x4A, &data).of(VAR_13, VAR_13))
 }
 
 pub(super) fn scenarios() -> Vec<Scenario> {
@@ -38,16 +39,16 @@ pub(super) fn scenarios() -> Vec<Scenario> {
 }
 
 fn kinds() -> Vec<Scenario> {
-    let count = |group, kind: &[u8]| both(group, 0x44, kind, 4).of("VAR-2", "VAR-1");
+    let count = |group, kind: &[u8]| both(group, 0x44, kind, 4).of(VAR_2, VAR_1);
     let indexed =
-        |offset, data: &[u8], least, place| both(GROUP, offset, data, least).of(place, "VAR-3");
+        |offset, data: &[u8], least, place| both(GROUP, offset, data, least).of(place, VAR_3);
     vec![
         Scenario::new("client-count-variables", "It counts V.E", "count-variables 1 V.E")
             .asks(count(GROUP, b"V.E\0"))
             .gives(123),
         Scenario::new("client-count-all", "It counts all kinds", "count-variables 1 all")
             .asks(count(GROUP, b"\0").tolerating(b""))
-            .expect(crate::clients::scenario::Expect::Done),
+            .expect(crate::clients::scenario::ExpectedAnswer::Done),
         Scenario::new(
             "client-count-variables-6",
             "It counts of channel 6",
@@ -56,7 +57,7 @@ fn kinds() -> Vec<Scenario> {
         .asks(count(0x12_2306, b"V.E\0"))
         .gives(2),
         Scenario::new("client-describe", "It reads a description", "describe 1 2 V.E")
-            .asks(indexed(0x45, b"\x02\0\0\0V.E\0", 39, "VAR-4"))
+            .asks(indexed(0x45, b"\x02\0\0\0V.E\0", 39, VAR_4))
             .gives(json!({"name": "V.E.Variable_3", "handle": 0x200_0002, "type": 1,
                 "access": 1, "size": 2, "dimensions": [2]})),
         Scenario::new(
@@ -64,7 +65,7 @@ fn kinds() -> Vec<Scenario> {
             "It reads a description without dimensions",
             "describe 1 4 V.E",
         )
-        .asks(indexed(0x45, b"\x04\0\0\0V.E\0", 32, "VAR-4"))
+        .asks(indexed(0x45, b"\x04\0\0\0V.E\0", 32, VAR_4))
         .gives(json!({"name": "V.E.vartest", "handle": 0x200_0004, "type": 5, "access": 2,
             "size": 2, "dimensions": []})),
         Scenario::new(
@@ -72,15 +73,15 @@ fn kinds() -> Vec<Scenario> {
             "It reads an extended description",
             "describe-extended 1 3 V.E",
         )
-        .asks(indexed(0x4B, b"\x03\0\0\0V.E\0", 8, "VAR-15"))
+        .asks(indexed(0x4B, b"\x03\0\0\0V.E\0", 8, VAR_15))
         .gives(json!({"synchronisation": 2, "validity": 2})),
         Scenario::new(
             "client-describe-extended-none",
             "It takes that V.G has no extended description",
             "describe-extended 1 0 V.G",
         )
-        .asks(indexed(0x4B, b"\0\0\0\0V.G\0", 0, "VAR-16"))
-        .by("VAR-16")
+        .asks(indexed(0x4B, b"\0\0\0\0V.G\0", 0, VAR_16))
+        .by(VAR_16)
         .gives(Value::Null),
     ]
 }
@@ -127,7 +128,7 @@ fn by_name() -> Vec<Scenario> {
             "REAL64",
             8,
         )
-        .by("GEN-1")
+        .by(GEN_1)
         .gives(-2.25),
         value(
             "tiny",
@@ -137,15 +138,15 @@ fn by_name() -> Vec<Scenario> {
             "REAL64",
             8,
         )
-        .by("GEN-1")
+        .by(GEN_1)
         .gives(1e-300),
         value("boolean", "It reads a BOOLEAN", "V.E.boolean", b"V.E.boolean", "BOOLEAN", 1)
             .gives(true),
         value("cp1252", "It sends a name as CP1252", "V.E.Länge", b"V.E.L\xE4nge", "REAL64", 8)
-            .by("GEN-3")
+            .by(GEN_3)
             .gives(1234.5),
         value("long-name", "It sends a name of 255 characters", &long, long.as_bytes(), "UNS08", 1)
-            .by("VAR-9")
+            .by(VAR_9)
             .gives(255),
         value(
             "text",
@@ -155,7 +156,7 @@ fn by_name() -> Vec<Scenario> {
             "STRING",
             21,
         )
-        .by(crate::judge::assumed("VAR-22"))
+        .by(crate::judge::assumed(VAR_22))
         .gives("Länge 5€"),
         value(
             "matrix",
@@ -165,7 +166,7 @@ fn by_name() -> Vec<Scenario> {
             "SGN16[2,3]",
             12,
         )
-        .by(crate::judge::assumed("VAR-21"))
+        .by(crate::judge::assumed(VAR_21))
         .gives(json!([[11, 12, 13], [21, 22, 23]])),
         value(
             "structure",
@@ -218,7 +219,7 @@ fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
         data.resize(front.len() + zeros, 0);
         data
     };
-    let ask = write(552, GROUP, 0x4A, &with(1)).of("VAR-13", "VAR-13").also(&with(0));
+    let ask = write(552, GROUP, 0x4A, &with(1)).of(VAR_13, VAR_13).also(&with(0));
     let filled = with(21_usize.saturating_sub(bytes.len()));
     let action = format!("write-by-name 1 {name} STRING {text}");
     Scenario::new("client-write-text", "It writes a text as CP1252", action).asks(ask.also(&filled))
@@ -227,11 +228,11 @@ fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
 fn by_handle() -> Vec<Scenario> {
     let whole = b"\x34\x12\0\x02\0\0\0\0";
     let one = b"\x34\x12\0\x02\x01\0\0\0\x04\0\0\0";
-    let read = |data: &[u8], least| both(GROUP, 0x47, data, least).of("VAR-14", "VAR-11");
-    let write = |data: &[u8]| write(552, GROUP, 0x49, data).of("VAR-12", "VAR-12");
+    let read = |data: &[u8], least| both(GROUP, 0x47, data, least).of(VAR_14, VAR_11);
+    let write = |data: &[u8]| write(552, GROUP, 0x49, data).of(VAR_12, VAR_12);
     vec![
         Scenario::new("client-handle", "It asks for a handle", "handle 1 V.E.vartest")
-            .asks(named(0x46, b"V.E.vartest", 4).of("VAR-10", "VAR-9"))
+            .asks(named(0x46, b"V.E.vartest", 4).of(VAR_10, VAR_9))
             .gives(0x200_0004),
         Scenario::new(
             "client-handle-read",
@@ -263,7 +264,7 @@ fn by_handle() -> Vec<Scenario> {
 }
 
 fn of_axes() -> Vec<Scenario> {
-    let axis = |offset, least| named(offset, b"V.A.WCS", least).of("VAR-26", "VAR-9");
+    let axis = |offset, least| named(offset, b"V.A.WCS", least).of(VAR_26, VAR_9);
     vec![
         Scenario::new(
             "client-axis-handle",
@@ -291,7 +292,7 @@ fn of_axes() -> Vec<Scenario> {
             "It writes an axis's variable",
             "write-axis 1 2 V.A.WCS REAL64 -2.5",
         )
-        .asks(write(552, GROUP, 0x2_0006, b"V.A.WCS\0\0\0\0\0\0\0\x04\xC0").of("VAR-26", "VAR-13")),
+        .asks(write(552, GROUP, 0x2_0006, b"V.A.WCS\0\0\0\0\0\0\0\x04\xC0").of(VAR_26, VAR_13)),
     ]
 }
 
@@ -319,14 +320,14 @@ fn dynamic() -> Vec<Scenario> {
                 format!("It counts {kind}"),
                 format!("count-parameters 1 {kind}"),
             )
-            .asks(read(552, GROUP, number, 4).of("DYN-1", "DYN-1"))
+            .asks(read(552, GROUP, number, 4).of(DYN_1, DYN_1))
             .gives(count),
             Scenario::new(
                 format!("client-parameter-name-{id}"),
                 format!("It asks for a name of {kind}, counting from 1"),
                 format!("parameter-name 1 {kind} {place}"),
             )
-            .asks(both(GROUP, base, &index, 96).of("DYN-2", "DYN-5"))
+            .asks(both(GROUP, base, &index, 96).of(DYN_2, DYN_5))
             .gives(name),
             Scenario::new(
                 format!("client-parameter-value-{id}"),
@@ -335,7 +336,7 @@ fn dynamic() -> Vec<Scenario> {
             )
             .asks(
                 both(GROUP, base + 1, &zeroed, 8)
-                    .of("DYN-3", "DYN-6")
+                    .of(DYN_3, DYN_6)
                     .also(&padded)
                     .tolerating(name.as_bytes()),
             )
@@ -345,7 +346,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("It reads a {kind} by its index"),
                 format!("parameter-by-index 1 {kind} {place}"),
             )
-            .asks(both(GROUP, base + 2, &index, 8).of("DYN-4", "DYN-5"))
+            .asks(both(GROUP, base + 2, &index, 8).of(DYN_4, DYN_5))
             .gives(parameter),
         ]);
     }

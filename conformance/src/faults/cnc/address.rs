@@ -3,6 +3,7 @@
 use ads_cnc::address::{Access, Addressing, Class, ComTable};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, LOGICAL, class, com_group, group, is, offset, row};
 
@@ -21,26 +22,26 @@ fn by_index(call: &Call<'_>) -> bool {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.index-as-logical", &["ADR-1"],
+    row("cnc.adr.index-as-logical", &[ADR_1],
         "the bit of logical addressing is ignored: a channel by index is the one with that number",
         |cnc, call| if of_channel(call) {
             cnc.at(call, group(call) | LOGICAL, offset(call))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.adr.logical-as-index", &["ADR-1"], "a channel addressed logically is the one of that rank",
+    row("cnc.adr.logical-as-index", &[ADR_1], "a channel addressed logically is the one of that rank",
         |cnc, call| if of_channel(call) {
             cnc.at(call, group(call) & !LOGICAL, offset(call))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.adr.index-from-0", &["ADR-1", "GEN-6"], "ranks of channels are counted from 0",
+    row("cnc.adr.index-from-0", &[ADR_1, GEN_6], "ranks of channels are counted from 0",
         |cnc, call| if by_index(call) && class(call).is_some_and(|class| class.class != Class::Spindle) {
             cnc.at(call, group(call).wrapping_add(1), offset(call))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.adr.rank-of-configured", &["ADR-11"],
+    row("cnc.adr.rank-of-configured", &[ADR_11],
         "by index a channel is addressed by its rank among all, those that are deactivated too",
         |cnc, call| {
             let rank = usize::try_from(group(call) & 0xFF).unwrap_or_default();
@@ -53,7 +54,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 _ => cnc.answer(call),
             }
         }),
-    row("cnc.adr.spindle-from-1", &["ADR-2", "GEN-6"], "spindles are counted from 1",
+    row("cnc.adr.spindle-from-1", &[ADR_2, GEN_6], "spindles are counted from 1",
         |cnc, call| match class(call) {
             Some(at) if at.class == Class::Spindle && at.instance > 0 => {
                 cnc.at(call, group(call).wrapping_sub(1), offset(call))
@@ -63,46 +64,46 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.spindle-logical", &["ADR-2", "ADR-5"],
+    row("cnc.adr.spindle-logical", &[ADR_2, ADR_5],
         "spindles are addressed with the bit of logical addressing, and not without",
         |cnc, call| match group(call) & 0xFF_F000 {
             0x02_5000 => Err(AdsError::INVALID_GROUP),
             0x12_5000 => cnc.at(call, group(call) & !LOGICAL, offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.spindle-first", &["ADR-2"], "every group of a spindle is the first one's",
+    row("cnc.adr.spindle-first", &[ADR_2], "every group of a spindle is the first one's",
         |cnc, call| match group(call) & 0xFF_F000 {
             0x02_5000 => cnc.at(call, group(call) & !0xFF, offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-100-missing", &["ADR-3", "COM-4"],
+    row("cnc.adr.platform-100-missing", &[ADR_3, COM_4],
         "the platform has no group 0x120100, only 0x120101",
         |cnc, call| match group(call) & !LOGICAL {
             0x02_0100 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-axis-from-0", &["ADR-3", "GEN-6"], "platform axes of COM are counted from 0",
+    row("cnc.adr.platform-axis-from-0", &[ADR_3, GEN_6], "platform axes of COM are counted from 0",
         |cnc, call| match com_group(call) {
             Some(com) if com.table == ComTable::Axis && offset(call) < 0x1_0000 => {
                 cnc.at(call, group(call).wrapping_add(1), offset(call))
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-axis-first", &["ADR-3", "ADR-13"], "every platform axis of COM is the first one",
+    row("cnc.adr.platform-axis-first", &[ADR_3, ADR_13], "every platform axis of COM is the first one",
         |cnc, call| match com_group(call) {
             Some(com) if com.table == ComTable::Axis && com.instance > 1 => {
                 cnc.at(call, group(call) & !0xFF | 1, offset(call))
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.object-access-added", &["ADR-4"],
+    row("cnc.adr.object-access-added", &[ADR_4],
         "0x30000 is added to 0x20000: objects are described at 0x150101",
         |cnc, call| match (group(call) & 0x0F_0000, com_group(call)) {
             (0x05_0000, _) => cnc.at(call, group(call).wrapping_sub(0x02_0000), offset(call)),
             (_, Some(com)) if com.access == Access::Object => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.object-access-is-content", &["ADR-4"],
+    row("cnc.adr.object-access-is-content", &[ADR_4],
         "0x30000 in place of 0x20000 makes no difference: content is read",
         |cnc, call| match com_group(call) {
             Some(com) if com.access == Access::Object && offset(call) != 0 => {
@@ -110,12 +111,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.classes-swapped", &["ADR-5"], "the HLD is at 0x124300, path preparation at 0x123300",
+    row("cnc.adr.classes-swapped", &[ADR_5], "the HLD is at 0x124300, path preparation at 0x123300",
         |cnc, call| match group(call) & 0xEF_F000 {
             0x02_3000 | 0x02_4000 => cnc.at(call, group(call) ^ 0x7000, offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.interpolator-is-position-controller", &["ADR-5"],
+    row("cnc.adr.interpolator-is-position-controller", &[ADR_5],
         "the bits of the class are counted from the interpolator on: it is at 0x120300",
         |cnc, call| match (group(call) & 0xEF_F000, group(call) & 0xF00) {
             (0x02_0000, 0x300..=0x900) => {
@@ -124,19 +125,19 @@ pub(super) const ROWS: &[CncSeed] = &[
             (0x02_1000, _) => cnc.at(call, group(call).wrapping_sub(0x1000), offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.name-type-swapped", &["ADR-6"], "attribute 0x100 is the type, 0x200 the name",
+    row("cnc.adr.name-type-swapped", &[ADR_6], "attribute 0x100 is the type, 0x200 the name",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x400) => cnc.at(call, group(call).wrapping_add(0x100), offset(call)),
             (Some(_), 0x500) => cnc.at(call, group(call).wrapping_sub(0x100), offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.length-unit-swapped", &["ADR-6"], "attribute 0x300 is the unit, 0x400 the length",
+    row("cnc.adr.length-unit-swapped", &[ADR_6], "attribute 0x300 is the unit, 0x400 the length",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x600) => cnc.at(call, group(call).wrapping_add(0x100), offset(call)),
             (Some(_), 0x700) => cnc.at(call, group(call).wrapping_sub(0x100), offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.attribute-of-first", &["ADR-6"],
+    row("cnc.adr.attribute-of-first", &[ADR_6],
         "attributes are those of the first element, whichever is asked for",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x400..=0x800) if offset(call) & 0xFFF > 1 => {
@@ -144,13 +145,13 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.attribute-of-next", &["ADR-6"],
+    row("cnc.adr.attribute-of-next", &[ADR_6],
         "attributes are counted from 0: they are those of the element behind",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x400..=0x800) => cnc.at(call, group(call), offset(call).wrapping_add(1)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.stride-1000", &["ADR-7"], "an axis of SDA and GEO takes 0x1000 of the index offset",
+    row("cnc.adr.stride-1000", &[ADR_7], "an axis of SDA and GEO takes 0x1000 of the index offset",
         |cnc, call| match class(call) {
             Some(at) if (at.class != Class::Hld || at.instance != 0) && !is(call, FUNCTIONS) => {
                 let (axis, element) = (offset(call) >> 12, offset(call) & 0xFFF);
@@ -158,27 +159,27 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.axis-ignored", &["ADR-7"], "the axis in the index offset is ignored: it is always the first",
+    row("cnc.adr.axis-ignored", &[ADR_7], "the axis in the index offset is ignored: it is always the first",
         |cnc, call| match class(call) {
             Some(_) if offset(call) > 0x1_FFFF => {
                 cnc.at(call, group(call), offset(call) & 0xFFFF | 0x1_0000)
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.axis-from-0", &["ADR-7", "GEN-6"], "axes in the index offset are counted from 0",
+    row("cnc.adr.axis-from-0", &[ADR_7, GEN_6], "axes in the index offset are counted from 0",
         |cnc, call| match class(call) {
             Some(_) if offset(call) > 0xFFFF => {
                 cnc.at(call, group(call), offset(call).wrapping_add(0x1_0000))
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.com-index-missing", &["ADR-12"],
+    row("cnc.adr.com-index-missing", &[ADR_12],
         "groups of COM without the bit of logical addressing are refused",
         |cnc, call| match com_group(call) {
             Some(com) if com.addressing == Addressing::Index => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.sda-index-missing", &["ADR-12"],
+    row("cnc.adr.sda-index-missing", &[ADR_12],
         "groups of SDA and GEO without the bit of logical addressing are refused, spindles apart",
         |cnc, call| match class(call) {
             Some(at) if at.class != Class::Spindle && at.addressing == Addressing::Index => {
@@ -186,7 +187,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-axis-exchanged", &["ADR-13"],
+    row("cnc.adr.platform-axis-exchanged", &[ADR_13],
         "axis exchange in channel 1 changes the addresses of platform axes too",
         |cnc, call| match com_group(call) {
             Some(com)
@@ -200,7 +201,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.place-keeps-axis", &["ADR-13"],
+    row("cnc.adr.place-keeps-axis", &[ADR_13],
         "a place of channel 1 stays that of its first axis: exchange does not show in COM",
         |cnc, call| match com_group(call) {
             Some(com)

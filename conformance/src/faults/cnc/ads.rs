@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Service};
+use ads_cnc_vectors::ids::*;
 
 use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
 use super::{CncSeed, row, set_u32, within_length};
@@ -10,12 +11,12 @@ const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.ads.read-more", &["ADS-1"], "a Read is answered with all there is, however short the length",
+    row("cnc.ads.read-more", &[ADS_1], "a Read is answered with all there is, however short the length",
         |cnc, call| match call.service { Service::Read => cnc.whole(call), _ => cnc.answer(call) }),
-    row("cnc.ads.read-write-more", &["ADS-3"],
+    row("cnc.ads.read-write-more", &[ADS_3],
         "a ReadWrite is answered with all there is, however short the read length",
         |cnc, call| match call.service { Service::ReadWrite => cnc.whole(call), _ => cnc.answer(call) }),
-    row("cnc.ads.read-padded", &["ADS-1"], "the data of a Read is padded with zeros to the length asked for",
+    row("cnc.ads.read-padded", &[ADS_1], "the data of a Read is padded with zeros to the length asked for",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
             cnc.answer(call).map(|mut bytes| {
@@ -25,7 +26,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    row("cnc.ads.read-write-padded", &["ADS-3"],
+    row("cnc.ads.read-write-padded", &[ADS_3],
         "the data of a ReadWrite is padded with zeros to the read length",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
@@ -36,7 +37,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    row("cnc.ads.read-write-echo", &["ADS-3"],
+    row("cnc.ads.read-write-echo", &[ADS_3],
         "the data of a ReadWrite begins with the data that was written",
         |cnc, call| match call.service {
             Service::ReadWrite => {
@@ -44,14 +45,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.ads.errors-as-nothing", &["ADS-4", "ADS-7"], "errors are answered as success without data",
+    row("cnc.ads.errors-as-nothing", &[ADS_4, ADS_7], "errors are answered as success without data",
         |cnc, call| cnc.answer(call).or_else(|_| Ok(Vec::new()))),
-    row("cnc.ads.errors-as-zeros", &["ADS-4", "ADS-7"], "errors of reads are answered as success with zeros",
+    row("cnc.ads.errors-as-zeros", &[ADS_4, ADS_7], "errors of reads are answered as success with zeros",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(2048);
             cnc.answer(call).or_else(|_| Ok(vec![0; len]))
         }),
-    row("cnc.ads.service-any", &["ADS-7"], "a Write is taken for a ReadWrite and the other way round",
+    row("cnc.ads.service-any", &[ADS_7], "a Write is taken for a ReadWrite and the other way round",
         |cnc, call| match cnc.answer(call) {
             Err(AdsError::SERVICE_NOT_SUPPORTED) => match call.service {
                 Service::ReadWrite => {
@@ -63,14 +64,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             },
             answer => answer,
         }),
-    sent("cnc.ads.read-without-length", &["ADS-1"], "the reply to a Read has no length before the data",
+    sent("cnc.ads.read-without-length", &[ADS_1], "the reply to a Read has no length before the data",
         |_, request, mut bytes| {
             if is(request, &[Command::READ]) && bytes.len() >= DATA {
                 bytes.drain(LENGTH..DATA);
             }
             measured(bytes)
         }),
-    sent("cnc.ads.read-write-without-length", &["ADS-3"],
+    sent("cnc.ads.read-write-without-length", &[ADS_3],
         "the reply to a ReadWrite has no length before the data",
         |_, request, mut bytes| {
             if is(request, &[Command::READ_WRITE]) && bytes.len() >= DATA {
@@ -78,7 +79,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             measured(bytes)
         }),
-    sent("cnc.ads.read-length-as-asked", &["ADS-1", "ADS-3"],
+    sent("cnc.ads.read-length-as-asked", &[ADS_1, ADS_3],
         "the length in a reply is that of the reply with result and length",
         |_, request, mut bytes| {
             let length = u32::try_from(bytes.len()).unwrap_or_default();
@@ -87,38 +88,38 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         }),
-    sent("cnc.ads.read-length-0", &["ADS-1", "ADS-3"], "the length in a reply is 0", |_, request, mut bytes| {
+    sent("cnc.ads.read-length-0", &[ADS_1, ADS_3], "the length in a reply is 0", |_, request, mut bytes| {
         if is(request, READS) {
             set_u32(&mut bytes, LENGTH, 0);
         }
         bytes
     }),
-    sent("cnc.ads.read-length-16-bit", &["ADS-4"], "the length in a reply takes 2 bytes",
+    sent("cnc.ads.read-length-16-bit", &[ADS_4], "the length in a reply takes 2 bytes",
         |_, request, mut bytes| {
             if is(request, READS) && bytes.len() >= DATA {
                 bytes.drain(44..46);
             }
             measured(bytes)
         }),
-    sent("cnc.ads.result-16-bit", &["ADS-4"], "the result takes 2 bytes", |_, _, mut bytes| {
+    sent("cnc.ads.result-16-bit", &[ADS_4], "the result takes 2 bytes", |_, _, mut bytes| {
         if bytes.len() >= LENGTH {
             bytes.drain(40..42);
         }
         measured(bytes)
     }),
-    sent("cnc.ads.result-1", &["ADS-4"], "the result of success is 1", |_, _, mut bytes| {
+    sent("cnc.ads.result-1", &[ADS_4], "the result of success is 1", |_, _, mut bytes| {
         if result(&bytes) == 0 {
             set_u32(&mut bytes, RESULT, 1);
         }
         bytes
     }),
-    sent("cnc.ads.result-missing", &["ADS-4"], "a reply has no result", |_, _, mut bytes| {
+    sent("cnc.ads.result-missing", &[ADS_4], "a reply has no result", |_, _, mut bytes| {
         if bytes.len() >= LENGTH {
             bytes.drain(RESULT..LENGTH);
         }
         measured(bytes)
     }),
-    sent("cnc.ads.write-reply-length", &["ADS-2", "VAR-17"],
+    sent("cnc.ads.write-reply-length", &[ADS_2, VAR_17],
         "the reply to a Write has a length, 0, behind the result",
         |_, request, mut bytes| {
             if is(request, &[Command::WRITE]) {
@@ -126,7 +127,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             measured(bytes)
         }),
-    sent("cnc.ads.write-reply-data", &["ADS-2", "VAR-17"],
+    sent("cnc.ads.write-reply-data", &[ADS_2, VAR_17],
         "the reply to a Write has the data that was written",
         |_, request, mut bytes| {
             if is(request, &[Command::WRITE]) {
@@ -134,7 +135,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             measured(bytes)
         }),
-    sent("cnc.ads.write-reply-empty", &["ADS-2"], "the reply to a Write has no result",
+    sent("cnc.ads.write-reply-empty", &[ADS_2], "the reply to a Write has no result",
         |_, request, mut bytes| {
             if is(request, &[Command::WRITE]) {
                 bytes.truncate(RESULT);

@@ -3,6 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
+use ads_cnc_vectors::ids::*;
 
 use super::handle::{joined, parts};
 use super::lookup::{indexed, instance, with_indices};
@@ -17,7 +18,7 @@ const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.logical-beyond-number", &["ADR-1"],
+    row("cnc.adr.logical-beyond-number", &[ADR_1],
         "logical numbers of channels go up to the number of channels: in SDA and GEO channel 6 is refused",
         |cnc, call| match (group(call) & 0xFF_0F00, usize::try_from(instance(call))) {
             (0x12_0300..=0x12_0800, Ok(channel)) if channel > cnc.channels().len() => {
@@ -25,7 +26,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-axis-last", &["ADR-3"],
+    row("cnc.adr.platform-axis-last", &[ADR_3],
         "the contents of the last platform axis are refused, its descriptors are not",
         |cnc, call| {
             let next = cnc.read(call.port, (group(call) | 0x13_0000).wrapping_add(1), 0);
@@ -35,13 +36,13 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.adr.axis-8-bit", &["ADR-7", "SDA-5"],
+    row("cnc.adr.axis-8-bit", &[ADR_7, SDA_5],
         "of the axis in an index offset of SDA and GEO the lowest 8 bits count: axis 257 is axis 1",
         |cnc, call| match group(call) & 0xF00 {
             0x300..=0x800 => cnc.at(call, group(call), offset(call) & 0xFF_FFFF),
             _ => cnc.answer(call),
         }),
-    row("cnc.com.count-without-platform", &["COM-1", "COM-4"],
+    row("cnc.com.count-without-platform", &[COM_1, COM_4],
         "the number of objects of channel 1 leaves out the platform's, whose descriptors are there",
         |cnc, call| if is(call, &[Function::CountObjects]) && group(call) | LOGICAL == 0x13_0101 {
             let platform = cnc.read(call.port, 0x13_0100, 0)?;
@@ -51,13 +52,13 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.many-12", &["COM-3"],
+    row("cnc.com.many-12", &[COM_3],
         "there are 12 descriptors at most, as many as 1024 bytes have room for",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
             bytes.truncate(84 * 12);
             bytes
         })),
-    on("cnc.com.many-to-last", &["COM-3"],
+    on("cnc.com.many-to-last", &[COM_3],
         "of several descriptors up to the last object that of the last object is missing",
         DESCRIPTORS, |cnc, call| {
             let count = u32_at(&cnc.read(call.port, group(call), 0)?, 0).unwrap_or_default();
@@ -70,14 +71,14 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    row("cnc.dyn.name-of-96", &["DYN-6"],
+    row("cnc.dyn.name-of-96", &[DYN_6],
         "a name that takes 96 bytes with its NUL is refused where a value is asked for by name",
         |cnc, call| if is(call, &[Function::DynamicValueByName]) && call.data.len() == 96 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.index-one-digit", &["VAR-20"],
+    on("cnc.var.index-one-digit", &[VAR_20],
         "of an index in the name of an element the first digit counts: [12] is [1]",
         &[Function::ReadByName], |cnc, call| {
             let (name, indices) = indexed(text(call.data));
@@ -89,7 +90,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let indices: Vec<u32> = indices.iter().map(first).collect();
             if indices.is_empty() { cnc.answer(call) } else { cnc.with(call, &with_indices(name, &indices)) }
         }),
-    row("cnc.var.write-indices-8-bit", &["VAR-12"],
+    row("cnc.var.write-indices-8-bit", &[VAR_12],
         "of an index in a write by handle the lowest byte counts: 256 is 0",
         |cnc, call| match (is(call, &[Function::WriteByHandle]), parts(call.data)) {
             (true, Some((handle, indices, value))) => {
@@ -98,7 +99,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.write-2048", &["VAR-12", "VAR-13"],
+    row("cnc.var.write-2048", &[VAR_12, VAR_13],
         "a write of 2048 bytes, with what stands in front of the value, is refused",
         |cnc, call| if is(call, &[Function::WriteByHandle, Function::WriteByName])
             && call.data.len() == 2048 {
@@ -106,19 +107,19 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.read-2048", &["VAR-14"], "a value of 2048 bytes is refused by handle",
+    row("cnc.var.read-2048", &[VAR_14], "a value of 2048 bytes is refused by handle",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), cnc.answer(call)) {
             (true, Ok(bytes)) if bytes.len() == 2048 => Err(AdsError::INVALID_SIZE),
             (_, answer) => answer,
         }),
-    row("cnc.var.write-name-of-255", &["VAR-13"],
+    row("cnc.var.write-name-of-255", &[VAR_13],
         "a value that stands behind the longest name, at the offset 256, is refused",
         |cnc, call| if is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.extended-last", &["VAR-15"],
+    on("cnc.var.extended-last", &[VAR_15],
         "the last variable of V.E has no extended description: its index is refused",
         &[Function::DescribeExtended], |cnc, call| {
             let answer = cnc.answer(call)?;
@@ -126,7 +127,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let kind = call.data.get(4..).unwrap_or_default();
             cnc.with(call, &[&index.to_le_bytes(), kind].concat()).map(|_| answer)
         }),
-    row("cnc.var.dimensions-2", &["VAR-4", "VAR-8"],
+    row("cnc.var.dimensions-2", &[VAR_4, VAR_8],
         "a description tells two dimensions at most: of three the last is left out",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (numbers, end) = dimensions(&bytes);
@@ -136,7 +137,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.var.third-index-0", &["VAR-11"], "by handle the third index of an element is taken for 0",
+    row("cnc.var.third-index-0", &[VAR_11], "by handle the third index of an element is taken for 0",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, mut indices, value))) => {
                 indices.iter_mut().skip(2).for_each(|index| *index = 0);
@@ -144,7 +145,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.whole-first-row", &["VAR-14"],
+    on("cnc.var.whole-first-row", &[VAR_14],
         "of a whole array with more dimensions the first row is read by name",
         &[Function::ReadByName], |cnc, call| {
             let described = super::lookup::described(cnc, group(call), text(call.data));
@@ -158,7 +159,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    on("cnc.stm.room-4093", &["STM-3"],
+    on("cnc.stm.room-4093", &[STM_3],
         "the interface holds 4093 bytes: the write that would fill it is refused for now",
         STREAM, |cnc, call| {
             let channel = u8::try_from(instance(call)).unwrap_or_default();
@@ -170,14 +171,14 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.stm.length-8-bit", &["STM-2", "STM-4"],
+    row("cnc.stm.length-8-bit", &[STM_2, STM_4],
         "a packet whose length is a multiple of 256 is acknowledged and lost",
         |cnc, call| if is(call, STREAM) && call.data.len() % 256 == 0 {
             Ok(Vec::new())
         } else {
             cnc.answer(call)
         }),
-    on("cnc.stm.lines-of-80", &["STM-20", "STM-7"], "of a line the first 80 characters are kept",
+    on("cnc.stm.lines-of-80", &[STM_20, STM_7], "of a line the first 80 characters are kept",
         STREAM, |cnc, call| {
             let kept: Vec<u8> = call
                 .data
@@ -189,7 +190,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 .collect();
             cnc.with(call, &kept)
         }),
-    row("cnc.svc.response-127", &["SVC-1"], "a RESPONSE of 128 bytes, its NUL among them, is refused",
+    row("cnc.svc.response-127", &[SVC_1], "a RESPONSE of 128 bytes, its NUL among them, is refused",
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
             let is_response = is(call, &[Function::WriteByName]) && text(call.data) == name;
@@ -199,7 +200,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.svc.uuid-35", &["SVC-1", "SVC-2"], "UUID is read without its 36th character",
+    row("cnc.svc.uuid-35", &[SVC_1, SVC_2], "UUID is read without its 36th character",
         |cnc, call| if is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
             within_length(
                 call,
@@ -211,7 +212,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.adr.index-of-com", &["ADR-1", "ADR-12"],
+    row("cnc.adr.index-of-com", &[ADR_1, ADR_12],
         "contents of COM by index are those of the channel with that number: 0x20106 is channel 6",
         |cnc, call| match (group(call) & 0xFF_FF00, function(call)) {
             (0x02_0100, Some(Function::ReadObject | Function::WriteObject))
@@ -221,6 +222,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.dyn.by-index-positive", &["DYN-4"], "values by index have no sign",
+    on("cnc.dyn.by-index-positive", &[DYN_4], "values by index have no sign",
         &[Function::DynamicValueByIndex], |cnc, call| number(cnc.answer(call), 4, |high| high & 0x7FFF_FFFF)),
 ];

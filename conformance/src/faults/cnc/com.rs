@@ -3,6 +3,7 @@
 use ads_cnc::address::{Access, ComTable};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, ReplyData, Upstream, com_group, group, is, number, offset, on, records, records_mut,
@@ -38,32 +39,32 @@ pub(super) fn set(record: &mut [u8; 84], place: usize, bytes: &[u8]) {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.com.count-one-more", &["COM-1"], "the number of objects counts itself",
+    on("cnc.com.count-one-more", &[COM_1], "the number of objects counts itself",
         &[Function::CountObjects], |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
-    on("cnc.com.count-one-less", &["COM-1", "OBJ-1"],
+    on("cnc.com.count-one-less", &[COM_1, OBJ_1],
         "the number of objects is that of the last, counted from 0: the last is not counted",
         &[Function::CountObjects], |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_sub(1))),
-    on("cnc.com.count-of-channel-1", &["COM-1"],
+    on("cnc.com.count-of-channel-1", &[COM_1],
         "the number of objects is that of channel 1, whichever list is asked",
         &[Function::CountObjects], |cnc, call| cnc.at(call, 0x13_0101, 0)),
-    on("cnc.com.descriptors-of-channel-1", &["COM-2", "COM-4"],
+    on("cnc.com.descriptors-of-channel-1", &[COM_2, COM_4],
         "descriptors are those of channel 1, whichever list is asked",
         &[Function::ReadDescriptors], |cnc, call| cnc.at(call, 0x13_0101, offset(call))),
-    on("cnc.com.count-in-bytes", &["COM-1"], "the number of objects is that of their bytes",
+    on("cnc.com.count-in-bytes", &[COM_1], "the number of objects is that of their bytes",
         &[Function::CountObjects], |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_mul(LEN))),
-    on("cnc.com.descriptors-from-0", &["COM-2"],
+    on("cnc.com.descriptors-from-0", &[COM_2],
         "descriptors are counted from 0, so that each is that of the next object",
         &[Function::ReadDescriptors], |cnc, call| cnc.at(call, group(call), offset(call).wrapping_add(1))),
-    row("cnc.com.descriptors-from-2", &["COM-2"],
+    row("cnc.com.descriptors-from-2", &[COM_2],
         "the number takes a place among the descriptors: the first is at index 2",
         |cnc, call| match (is(call, &[Function::ReadDescriptors]), offset(call)) {
             (true, 1) => Err(AdsError::INVALID_OFFSET),
             (true, index) => cnc.at(call, group(call), index.wrapping_sub(1)),
             _ => cnc.answer(call),
         }),
-    on("cnc.com.descriptor-of-first", &["COM-2"], "every descriptor is that of the first object",
+    on("cnc.com.descriptor-of-first", &[COM_2], "every descriptor is that of the first object",
         &[Function::ReadDescriptors], |cnc, call| cnc.at(call, group(call), 1)),
-    row("cnc.com.descriptor-beyond", &["COM-2"], "behind the last object its descriptor is answered again",
+    row("cnc.com.descriptor-beyond", &[COM_2], "behind the last object its descriptor is answered again",
         |cnc, call| match (is(call, &[Function::ReadDescriptors]), cnc.answer(call)) {
             (true, Err(_)) => {
                 let last = cnc.read(call.port, group(call), 0)?;
@@ -71,48 +72,48 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    row("cnc.com.access-inverted", &["COM-2"],
+    row("cnc.com.access-inverted", &[COM_2],
         "the descriptor has TRUE for what is read-only (write protection)",
         |cnc, call| each(cnc, call, |record| {
             let writable = record.iter().skip(8).take(2).any(|byte| *byte != 0);
             set(record, 8, &[u8::from(!writable), 0]);
         })),
-    row("cnc.com.access-always", &["COM-2"], "the descriptor has TRUE for every object (describable)",
+    row("cnc.com.access-always", &[COM_2], "the descriptor has TRUE for every object (describable)",
         |cnc, call| each(cnc, call, |record| set(record, 8, &[1, 0]))),
-    row("cnc.com.access-never", &["COM-2"], "the descriptor has FALSE for every object",
+    row("cnc.com.access-never", &[COM_2], "the descriptor has FALSE for every object",
         |cnc, call| each(cnc, call, |record| set(record, 8, &[0, 0]))),
-    row("cnc.com.id-same", &["COM-2"], "every object has the same ID",
+    row("cnc.com.id-same", &[COM_2], "every object has the same ID",
         |cnc, call| each(cnc, call, |record| set(record, 0, &[1, 0, 0, 0]))),
-    row("cnc.com.size-of-descriptor", &["COM-2"], "the size is that of the descriptor, 84",
+    row("cnc.com.size-of-descriptor", &[COM_2], "the size is that of the descriptor, 84",
         |cnc, call| each(cnc, call, |record| set(record, 4, &[84, 0, 0, 0]))),
-    row("cnc.com.size-in-bits", &["COM-2"], "the size is in bits", |cnc, call| each(cnc, call, |record| {
+    row("cnc.com.size-in-bits", &[COM_2], "the size is in bits", |cnc, call| each(cnc, call, |record| {
         let size = u32_at(record, 4).unwrap_or_default();
         set(record, 4, &size.wrapping_mul(8).to_le_bytes());
     })),
-    row("cnc.com.size-even", &["COM-2"], "sizes are rounded up to an even number",
+    row("cnc.com.size-even", &[COM_2], "sizes are rounded up to an even number",
         |cnc, call| each(cnc, call, |record| {
             let size = u32_at(record, 4).unwrap_or_default();
             set(record, 4, &size.wrapping_add(size & 1).to_le_bytes());
         })),
-    row("cnc.com.address-of-descriptor", &["COM-2", "COM-5"],
+    row("cnc.com.address-of-descriptor", &[COM_2, COM_5],
         "the index group of a descriptor is that of the descriptor, 0x130101, not of the content",
         |cnc, call| each(cnc, call, |record| {
             let group = u32_at(record, 12).unwrap_or_default();
             set(record, 12, &group.wrapping_add(0x1_0000).to_le_bytes());
         })),
-    row("cnc.com.address-counted", &["COM-2", "COM-5"],
+    row("cnc.com.address-counted", &[COM_2, COM_5],
         "the index offset of a descriptor is one more than that of the content",
         |cnc, call| each(cnc, call, |record| {
             let offset = u32_at(record, 16).unwrap_or_default();
             set(record, 16, &offset.wrapping_add(1).to_le_bytes());
         })),
-    row("cnc.com.address-swapped", &["COM-2"], "the descriptor has the index offset before the index group",
+    row("cnc.com.address-swapped", &[COM_2], "the descriptor has the index offset before the index group",
         |cnc, call| each(cnc, call, |record| {
             let (group, offset) = (u32_at(record, 12), u32_at(record, 16));
             set(record, 12, &offset.unwrap_or_default().to_le_bytes());
             set(record, 16, &group.unwrap_or_default().to_le_bytes());
         })),
-    row("cnc.com.name-type-swapped", &["COM-2"], "the descriptor has the type before the name",
+    row("cnc.com.name-type-swapped", &[COM_2], "the descriptor has the type before the name",
         |cnc, call| each(cnc, call, |record| {
             let old = *record;
             let (_, texts) = old.split_at(20);
@@ -120,11 +121,11 @@ pub(super) const ROWS: &[CncSeed] = &[
             set(record, 20, kind);
             set(record, 52, name);
         })),
-    row("cnc.com.name-blank", &["COM-2"], "the names of descriptors are padded with blanks",
+    row("cnc.com.name-blank", &[COM_2], "the names of descriptors are padded with blanks",
         |cnc, call| each(cnc, call, |record| {
             record.iter_mut().skip(20).filter(|byte| **byte == 0).for_each(|byte| *byte = b' ');
         })),
-    row("cnc.com.types-of-sda", &["COM-2"], "types are named as in SDA: UNS32 for DWORD, REAL64 for LREAL",
+    row("cnc.com.types-of-sda", &[COM_2], "types are named as in SDA: UNS32 for DWORD, REAL64 for LREAL",
         |cnc, call| each(cnc, call, |record| {
             let names: [(&[u8], &[u8]); 10] = [
                 (b"BOOL\0", b"BOOLEAN\0"),
@@ -143,39 +144,39 @@ pub(super) const ROWS: &[CncSeed] = &[
                 names.iter().find(|(name, _)| kind.starts_with(name)).map(|(_, new)| *new);
             set(record, 52, other.unwrap_or_default());
         })),
-    row("cnc.com.type-dword", &["COM-2", "GEN-5"], "every object is of type DWORD, whatever its size",
+    row("cnc.com.type-dword", &[COM_2, GEN_5], "every object is of type DWORD, whatever its size",
         |cnc, call| each(cnc, call, |record| set(record, 52, b"DWORD\0\0\0"))),
-    row("cnc.com.many-same", &["COM-3"], "when several descriptors are asked for, all are the first one's",
+    row("cnc.com.many-same", &[COM_3], "when several descriptors are asked for, all are the first one's",
         |cnc, call| list(cnc, call, |records| {
             let first = records.first().copied();
             records.iter_mut().for_each(|record| *record = first.unwrap_or(*record));
         })),
-    row("cnc.com.many-reversed", &["COM-3"], "several descriptors come in reverse order",
+    row("cnc.com.many-reversed", &[COM_3], "several descriptors come in reverse order",
         |cnc, call| list(cnc, call, |records| records.reverse())),
-    row("cnc.com.many-one-short", &["COM-3"], "the last of several descriptors is left out",
+    row("cnc.com.many-one-short", &[COM_3], "the last of several descriptors is left out",
         |cnc, call| list(cnc, call, |records| {
             if records.len() > 1 {
                 records.pop();
             }
         })),
-    row("cnc.com.many-one", &["COM-3"], "there is one descriptor, however many are asked for",
+    row("cnc.com.many-one", &[COM_3], "there is one descriptor, however many are asked for",
         |cnc, call| list(cnc, call, |records| records.truncate(1))),
-    row("cnc.com.many-two", &["COM-3"], "there are two descriptors at most, however many are asked for",
+    row("cnc.com.many-two", &[COM_3], "there are two descriptors at most, however many are asked for",
         |cnc, call| list(cnc, call, |records| records.truncate(2))),
-    row("cnc.com.many-refused", &["COM-3"], "a read of more than one descriptor is refused",
+    row("cnc.com.many-refused", &[COM_3], "a read of more than one descriptor is refused",
         |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.many-from-1", &["COM-3"],
+    row("cnc.com.many-from-1", &[COM_3],
         "several descriptors begin with the first object's, wherever they are asked for",
         |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
             cnc.at(call, group(call), 1)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.many-padded", &["COM-3"], "several descriptors are 4 bytes apart", |cnc, call| {
+    row("cnc.com.many-padded", &[COM_3], "several descriptors are 4 bytes apart", |cnc, call| {
         let answer = cnc.answer(call)?;
         if !is(call, &[Function::ReadDescriptors]) || answer.len() <= 84 {
             return Ok(answer);
@@ -187,7 +188,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         bytes.truncate(len);
         Ok(bytes)
     }),
-    row("cnc.com.platform-list-missing", &["COM-4"],
+    row("cnc.com.platform-list-missing", &[COM_4],
         "platform data is described under channel 1 only: 0x130100 is refused",
         |cnc, call| match com_group(call) {
             Some(com)
@@ -199,7 +200,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.platform-not-in-channel-1", &["COM-4"],
+    row("cnc.com.platform-not-in-channel-1", &[COM_4],
         "platform data is read under channel 0 only: under channel 1 it is refused",
         |cnc, call| match (com_group(call), offset(call)) {
             (Some(com), 0x251 | 0x252)
@@ -211,7 +212,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.platform-other-in-channel-1", &["COM-4"],
+    row("cnc.com.platform-other-in-channel-1", &[COM_4],
         "platform data is another under channel 1 than under channel 0",
         |cnc, call| match (com_group(call), offset(call)) {
             (Some(com), 0x251 | 0x252)

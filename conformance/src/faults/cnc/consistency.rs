@@ -3,6 +3,7 @@
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, reply, row, set_u32,
@@ -67,16 +68,16 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Repl
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.sda.address-of-channel-1", &["SDA-1"],
+    row("cnc.sda.address-of-channel-1", &[SDA_1],
         "whichever channel is asked for, the address is that of channel 1",
         |cnc, call| with_number(cnc, call, 0, |channel| channel.min(1))),
-    row("cnc.sda.address-of-channel", &["SDA-1"],
+    row("cnc.sda.address-of-channel", &[SDA_1],
         "whichever axis is asked for, the address is that of the channel",
         |cnc, call| match group(call) & 0xF000 {
             0x1000 | 0x2000 | 0x4000 => with_number(cnc, call, 4, |_| 0),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.absent-far", &["SDA-2"],
+    row("cnc.sda.absent-far", &[SDA_2],
         "an instance that is not there is answered with its group and an offset of all ones",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if bytes.iter().all(|byte| *byte == 0) {
@@ -85,28 +86,28 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.sda.interpolator-no-axes", &["SDA-5"],
+    row("cnc.sda.interpolator-no-axes", &[SDA_5],
         "axes of the interpolator are not found, those of the decoder are",
         |cnc, call| few_axes(cnc, call, 0x1000, 0)),
-    row("cnc.sda.decoder-one-axis", &["SDA-5"], "the decoder has the first axis of a channel only",
+    row("cnc.sda.decoder-one-axis", &[SDA_5], "the decoder has the first axis of a channel only",
         |cnc, call| few_axes(cnc, call, 0x2000, 1)),
-    row("cnc.sda.axis-24-bit", &["SDA-5", "SDA-2"], "of the axis asked for the lowest 24 bits count",
+    row("cnc.sda.axis-24-bit", &[SDA_5, SDA_2], "of the axis asked for the lowest 24 bits count",
         |cnc, call| with_number(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
-    row("cnc.sda.types-padded", &["SDA-7"], "types are padded with blanks to 8 characters",
+    row("cnc.sda.types-padded", &[SDA_7], "types are padded with blanks to 8 characters",
         |cnc, call| reply(cnc, call, &[Function::ReadElementType], |bytes| {
             format!("{:8}\0", String::from_utf8_lossy(text(&bytes))).into_bytes()
         })),
-    on("cnc.sda.type-of-next", &["SDA-7", "SDA-8"], "the type of an element is that of the next one",
+    on("cnc.sda.type-of-next", &[SDA_7, SDA_8], "the type of an element is that of the next one",
         &[Function::ReadElementType], |cnc, call| cnc
         .at(call, group(call), offset(call).wrapping_add(1))
         .or_else(|_| cnc.answer(call))),
-    row("cnc.sda.first-length", &["SDA-8"], "the length of the number of elements is that of element 1",
+    row("cnc.sda.first-length", &[SDA_8], "the length of the number of elements is that of element 1",
         |cnc, call| if is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
             cnc.at(call, group(call), offset(call) | 1)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.flag-beyond", &["SDA-4"], "elements behind the last have a unit and a write flag",
+    row("cnc.sda.flag-beyond", &[SDA_4], "elements behind the last have a unit and a write flag",
         |cnc, call| {
             let of = [Function::ReadElementWriteFlag, Function::ReadElementUnit];
             match (is(call, &of), cnc.answer(call)) {
@@ -114,13 +115,13 @@ pub(super) const ROWS: &[CncSeed] = &[
                 (_, answer) => answer,
             }
         }),
-    row("cnc.sda.write-every-channel", &["SDA-9", "SDA-1"],
+    row("cnc.sda.write-every-channel", &[SDA_9, SDA_1],
         "a write of an element of channel 2 is one of channel 1 too",
         |cnc, call| match (is(call, WRITE), group(call) & 0xFF) {
             (true, 2) => written(cnc, call, group(call) & !0xFF | 1, offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.write-every-axis", &["SDA-9", "SDA-1"],
+    row("cnc.sda.write-every-axis", &[SDA_9, SDA_1],
         "a write of an element of an axis is one of the next axis too",
         |cnc, call| match (is(call, WRITE), class(call).map(|at| at.class)) {
             (true, Some(Class::PathPreparation | Class::PositionController)) => {
@@ -128,14 +129,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.dyn.count-8-bit", &["DYN-1"], "of the number of parameters the lowest byte is told",
+    on("cnc.dyn.count-8-bit", &[DYN_1], "of the number of parameters the lowest byte is told",
         &[Function::CountDynamic], |cnc, call| number(cnc.answer(call), 0, |count| count & 0xFF)),
-    row("cnc.dyn.names-kept", &["DYN-2"], "the name of an index is what it was when it was first asked for",
+    row("cnc.dyn.names-kept", &[DYN_2], "the name of an index is what it was when it was first asked for",
         |cnc, call| cached(cnc, call, NAME)),
-    row("cnc.dyn.values-kept", &["DYN-3", "DYN-4"],
+    row("cnc.dyn.values-kept", &[DYN_3, DYN_4],
         "a parameter has the value it had when it was first asked for",
         |cnc, call| cached(cnc, call, VALUES)),
-    row("cnc.dyn.names-in-turn", &["DYN-2"], "names come one behind the other, whatever index is asked for",
+    row("cnc.dyn.names-in-turn", &[DYN_2], "names come one behind the other, whatever index is asked for",
         |cnc, call| {
             let known = is(call, NAME) && cnc.answer(call).is_ok();
             if !known {
@@ -150,13 +151,13 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.with(call, &[1, 0, 0, 0])
             })
         }),
-    row("cnc.dyn.name-cut", &["DYN-6", "DYN-2"],
+    row("cnc.dyn.name-cut", &[DYN_6, DYN_2],
         "names are told up to their 63rd character, and not found so",
         |cnc, call| reply(cnc, call, NAME, |bytes| {
             let name = text(&bytes);
             [name.get(..63).unwrap_or(name), &[0]].concat()
         })),
-    row("cnc.dyn.by-name-8-characters", &["DYN-3"], "of a name the first 8 characters are looked at",
+    row("cnc.dyn.by-name-8-characters", &[DYN_3], "of a name the first 8 characters are looked at",
         |cnc, call| {
             let first = |name: &[u8]| text(name).get(..8).map(<[u8]>::to_vec);
             let (true, Err(_), Some(wanted)) =
@@ -171,7 +172,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let found = found.into_iter().find(|name| name.starts_with(&wanted));
             cnc.with(call, found.as_deref().unwrap_or(call.data))
         }),
-    on("cnc.dyn.by-name-channel-1", &["DYN-3"],
+    on("cnc.dyn.by-name-channel-1", &[DYN_3],
         "a parameter that channel 1 has too has that value by its name",
         BY_NAME, |cnc, call| {
             cnc.at(call, group(call) & !0xFF | 1, offset(call)).or_else(|_| cnc.answer(call))

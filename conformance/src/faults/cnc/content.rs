@@ -3,6 +3,7 @@
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule, Service};
+use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, at, class, function, functions, group, is, is_at, number, offset, on, row};
 
@@ -28,18 +29,18 @@ fn empty_place(call: &Call<'_>) -> bool {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.sda.count-itself", &["SDA-4"], "the number of element types is twice what it should be",
+    on("cnc.sda.count-itself", &[SDA_4], "the number of element types is twice what it should be",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_mul(2))),
-    on("cnc.sda.count-one-less", &["SDA-4", "OBJ-1"], "the number of element types leaves out the last",
+    on("cnc.sda.count-one-less", &[SDA_4, OBJ_1], "the number of element types leaves out the last",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.saturating_sub(1))),
-    row("cnc.sda.count-of-channel", &["SDA-4"],
+    row("cnc.sda.count-of-channel", &[SDA_4],
         "the number of element types of an axis is that of its channel",
         |cnc, call| if is(call, COUNT) && offset(call) >= 0x1_0000 {
             cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.elements-from-0", &["SDA-4"],
+    row("cnc.sda.elements-from-0", &[SDA_4],
         "elements are counted from 0: there is no number in front of them",
         |cnc, call| match class(call) {
             Some(_) if group(call) & 0xF00 != 0x900 && offset(call) & 0xFFF < 0x20 => {
@@ -47,52 +48,52 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.elements-beyond", &["SDA-4"], "behind the last element there is it again",
+    row("cnc.sda.elements-beyond", &[SDA_4], "behind the last element there is it again",
         |cnc, call| match (class(call), cnc.answer(call)) {
             (Some(_), Err(AdsError::INVALID_OFFSET)) if offset(call) & 0xFFF > 1 => {
                 cnc.at(call, group(call), offset(call).wrapping_sub(1))
             }
             (_, answer) => answer,
         }),
-    on("cnc.sda.write-refused", &["SDA-9"], "elements are never written, whatever their flag",
+    on("cnc.sda.write-refused", &[SDA_9], "elements are never written, whatever their flag",
         WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
-    on("cnc.sda.write-ignored", &["SDA-9"], "writes of elements succeed and change nothing",
+    on("cnc.sda.write-ignored", &[SDA_9], "writes of elements succeed and change nothing",
         WRITE, |cnc, call| {
             let old = cnc.read(call.port, group(call), offset(call))?;
             if old.len() == call.data.len() { cnc.with(call, &old) } else { cnc.answer(call) }
         }),
-    row("cnc.sda.write-read-only", &["SDA-9"], "a write of an element that is read-only succeeds",
+    row("cnc.sda.write-read-only", &[SDA_9], "a write of an element that is read-only succeeds",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.sda.feedhold-2", &["SDA-10"], "the content of feedhold.enable is 2",
+    row("cnc.sda.feedhold-2", &[SDA_10], "the content of feedhold.enable is 2",
         |cnc, call| if feedhold(call, 0x300) && call.service == Service::Read {
             cnc.answer(call).map(|_| vec![2])
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.feedhold-name", &["SDA-10"], "feedhold.enable is called feedhold_enable",
+    row("cnc.sda.feedhold-name", &[SDA_10], "feedhold.enable is called feedhold_enable",
         |cnc, call| if feedhold(call, 0x400) {
             cnc.answer(call).map(|_| b"feedhold_enable\0".to_vec())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.feedhold-unit", &["SDA-10"], "the unit of feedhold.enable is empty",
+    row("cnc.sda.feedhold-unit", &[SDA_10], "the unit of feedhold.enable is empty",
         |cnc, call| if feedhold(call, 0x700) { cnc.answer(call).map(|_| vec![0]) } else { cnc.answer(call) }),
-    row("cnc.sda.feedhold-type", &["SDA-10"], "feedhold.enable is an UNS08",
+    row("cnc.sda.feedhold-type", &[SDA_10], "feedhold.enable is an UNS08",
         |cnc, call| if feedhold(call, 0x500) {
             cnc.answer(call).map(|_| b"UNS08\0".to_vec())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.blank-refused", &["SDA-11"], "reading at a place without an axis is refused",
+    row("cnc.sda.blank-refused", &[SDA_11], "reading at a place without an axis is refused",
         |cnc, call| if empty_place(call) && group(call) & 0xF00 == 0x300 {
             Err(AdsError::INVALID_DATA)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.blank-axis-number", &["SDA-11"],
+    row("cnc.sda.blank-axis-number", &[SDA_11],
         "the logical axis number of a place without an axis is 0xFFFF",
         |cnc, call| if empty_place(call) && is(call, &[Function::ReadElement]) {
             cnc.answer(call).map(|bytes| match bytes.len() {
@@ -102,25 +103,25 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.blank-of-first", &["SDA-11"],
+    row("cnc.sda.blank-of-first", &[SDA_11],
         "reading at a place without an axis gives what the first place has",
         |cnc, call| if empty_place(call) && is(call, &[Function::ReadElement]) {
             cnc.at(call, group(call), offset(call) & 0xFFFF | 0x1_0000)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.blank-com-refused", &["SDA-11"], "objects of COM at a place without an axis are refused",
+    row("cnc.sda.blank-com-refused", &[SDA_11], "objects of COM at a place without an axis are refused",
         |cnc, call| match (group(call) & 0xEF_FFFF, is_blank(offset(call))) {
             (0x02_0102 | 0x02_0103 | 0x02_0106, true) => Err(AdsError::INVALID_DATA),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.functions-shadowed", &["SDA-12"],
+    row("cnc.sda.functions-shadowed", &[SDA_12],
         "contents of the decoder are where the numbers of dynamic parameters should be",
         |cnc, call| match function(call) {
             Some(Function::CountDynamic) => cnc.answer(call).map(|bytes| vec![0xA5; bytes.len()]),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.functions-behind-content", &["SDA-12"],
+    row("cnc.sda.functions-behind-content", &[SDA_12],
         "the functions of the decoder have offsets from 0x100 on, behind its contents",
         |cnc, call| match super::of_decoder(call) {
             Some(_) if is_at(call, FUNCTIONS) => Err(AdsError::INVALID_OFFSET),

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, ReplyData, Upstream, group, is, number, of_decoder, offset, on, row, set_u32, text,
@@ -42,53 +43,53 @@ fn count(cnc: &Upstream<'_>, call: &Call<'_>) -> u32 {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.dyn.count-one-more", &["DYN-1"], "numbers of parameters are one more",
+    on("cnc.dyn.count-one-more", &[DYN_1], "numbers of parameters are one more",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
-    on("cnc.dyn.count-highest-index", &["DYN-1"],
+    on("cnc.dyn.count-highest-index", &[DYN_1],
         "numbers of parameters are one less, as if the index ran from 0",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.saturating_sub(1))),
-    row("cnc.dyn.count-kinds-swapped", &["DYN-1"], "the number of V.L is at 0x04, that of V.P at 0x03",
+    row("cnc.dyn.count-kinds-swapped", &[DYN_1], "the number of V.L is at 0x04, that of V.P at 0x03",
         |cnc, call| match (is(call, COUNT), offset(call)) {
             (true, 3) => cnc.at(call, group(call), 4),
             (true, 4) => cnc.at(call, group(call), 3),
             _ => cnc.answer(call),
         }),
-    on("cnc.dyn.count-p", &["DYN-1"], "the number is that of P, whichever kind is asked",
+    on("cnc.dyn.count-p", &[DYN_1], "the number is that of P, whichever kind is asked",
         COUNT, |cnc, call| cnc.at(call, group(call), 2)),
-    on("cnc.dyn.count-refused", &["DYN-1"], "the number takes a ReadWrite with no data",
+    on("cnc.dyn.count-refused", &[DYN_1], "the number takes a ReadWrite with no data",
         COUNT, |_, _| Err(AdsError::SERVICE_NOT_SUPPORTED)),
-    on("cnc.dyn.names-of-channel-1", &["DYN-1"], "the numbers of parameters are those of channel 1",
+    on("cnc.dyn.names-of-channel-1", &[DYN_1], "the numbers of parameters are those of channel 1",
         COUNT, |cnc, call| cnc.at(call, 0x12_2301, offset(call))),
-    row("cnc.dyn.name-from-0", &["DYN-5"], "names are counted from 0",
+    row("cnc.dyn.name-from-0", &[DYN_5], "names are counted from 0",
         |cnc, call| index(cnc, call, NAME, |index| index.wrapping_add(1))),
-    row("cnc.dyn.value-from-0", &["DYN-5", "DYN-4"], "values by index are counted from 0",
+    row("cnc.dyn.value-from-0", &[DYN_5, DYN_4], "values by index are counted from 0",
         |cnc, call| index(cnc, call, BY_INDEX, |index| index.wrapping_add(1))),
-    row("cnc.dyn.index-0", &["DYN-5"], "index 0 is taken for 1",
+    row("cnc.dyn.index-0", &[DYN_5], "index 0 is taken for 1",
         |cnc, call| match (of_decoder(call), call.data) {
             (Some(0x1B..=0x26), [0, 0, 0, 0]) => cnc.with(call, &[1, 0, 0, 0]),
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.index-beyond", &["DYN-5"], "an index behind the last is taken for the last",
+    row("cnc.dyn.index-beyond", &[DYN_5], "an index behind the last is taken for the last",
         |cnc, call| index(cnc, call, INDEXED, |index| index.min(count(cnc, call).max(1)))),
-    row("cnc.dyn.index-beyond-empty", &["DYN-5"], "behind the last there is an empty name and the value 0",
+    row("cnc.dyn.index-beyond-empty", &[DYN_5], "behind the last there is an empty name and the value 0",
         |cnc, call| match (is(call, NAME), is(call, BY_INDEX), cnc.answer(call)) {
             (true, _, Err(AdsError::INVALID_DATA)) => Ok(vec![0]),
             (_, true, Err(AdsError::INVALID_DATA)) => Ok(vec![0; 8]),
             (.., answer) => answer,
         }),
-    row("cnc.dyn.index-8-bit", &["DYN-5"], "of an index the lowest byte counts",
+    row("cnc.dyn.index-8-bit", &[DYN_5], "of an index the lowest byte counts",
         |cnc, call| index(cnc, call, INDEXED, |index| index & 0xFF)),
-    row("cnc.dyn.name-of-first", &["DYN-2"], "every name is that of the first parameter",
+    row("cnc.dyn.name-of-first", &[DYN_2], "every name is that of the first parameter",
         |cnc, call| index(cnc, call, NAME, |index| index.min(1))),
-    row("cnc.dyn.name-kinds-swapped", &["DYN-2"], "names of V.P are at 0x24, those of V.S at 0x21",
+    row("cnc.dyn.name-kinds-swapped", &[DYN_2], "names of V.P are at 0x24, those of V.S at 0x21",
         |cnc, call| match (is(call, NAME), offset(call)) {
             (true, 0x21) => cnc.at(call, group(call), 0x24),
             (true, 0x24) => cnc.at(call, group(call), 0x21),
             _ => cnc.answer(call),
         }),
-    on("cnc.dyn.name-empty", &["DYN-2"], "names are empty",
+    on("cnc.dyn.name-empty", &[DYN_2], "names are empty",
         NAME, |cnc, call| cnc.answer(call).map(|_| vec![0])),
-    on("cnc.dyn.name-without-kind", &["DYN-2", "DYN-3"],
+    on("cnc.dyn.name-without-kind", &[DYN_2, DYN_3],
         "names come without V.L, V.P, V.S, and are not found as they come",
         NAME, |cnc, call| cnc.answer(call).map(|mut bytes| {
             if bytes.starts_with(b"V.") {
@@ -96,7 +97,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    on("cnc.dyn.name-256", &["DYN-2", "DYN-6"], "names are padded to 256 bytes",
+    on("cnc.dyn.name-256", &[DYN_2, DYN_6], "names are padded to 256 bytes",
         NAME, |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
@@ -104,11 +105,11 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             }),
         )),
-    on("cnc.dyn.name-index-first", &["DYN-2"], "the index is repeated in front of the name",
+    on("cnc.dyn.name-index-first", &[DYN_2], "the index is repeated in front of the name",
         NAME, |cnc, call| within_length(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))),
-    on("cnc.dyn.name-upper-case", &["DYN-2", "DYN-3"], "names are told in upper case, and not found so",
+    on("cnc.dyn.name-upper-case", &[DYN_2, DYN_3], "names are told in upper case, and not found so",
         NAME, |cnc, call| cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase())),
-    on("cnc.dyn.by-name-first", &["DYN-3"],
+    on("cnc.dyn.by-name-first", &[DYN_3],
         "the value by name is that of the first parameter, whatever the name",
         BY_NAME, |cnc, call| {
             cnc.answer(call)?;
@@ -117,20 +118,20 @@ pub(super) const ROWS: &[CncSeed] = &[
                 ..super::at(call, group(call), offset(call).wrapping_add(1))
             })
         }),
-    row("cnc.dyn.by-name-unknown", &["DYN-3"], "a name that is not there has the value 0",
+    row("cnc.dyn.by-name-unknown", &[DYN_3], "a name that is not there has the value 0",
         |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
             (true, Err(_)) => Ok(vec![0; 8]),
             (_, answer) => answer,
         }),
-    on("cnc.dyn.by-name-4-bytes", &["DYN-3"], "the value by name is a REAL32",
+    on("cnc.dyn.by-name-4-bytes", &[DYN_3], "the value by name is a REAL32",
         BY_NAME, |cnc, call| cnc.answer(call).map(|bytes| narrow(&bytes))),
-    on("cnc.dyn.by-name-text", &["DYN-3"], "the value by name is a text",
+    on("cnc.dyn.by-name-text", &[DYN_3], "the value by name is a text",
         BY_NAME, |cnc, call| cnc.answer(call).map(|bytes| {
             let mut text = real(&bytes).to_string().into_bytes();
             text.resize(8, 0);
             text
         })),
-    row("cnc.dyn.by-name-one-character", &["DYN-3"], "the last character of a name is not looked at",
+    row("cnc.dyn.by-name-one-character", &[DYN_3], "the last character of a name is not looked at",
         |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
             (true, Err(_)) => {
                 let name = text(call.data);
@@ -139,20 +140,20 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    on("cnc.dyn.by-index-refused", &["DYN-4"], "values by index are refused",
+    on("cnc.dyn.by-index-refused", &[DYN_4], "values by index are refused",
         BY_INDEX, |_, _| Err(AdsError::SERVICE_NOT_SUPPORTED)),
-    row("cnc.dyn.by-index-first", &["DYN-4"], "the value by index is that of the first parameter",
+    row("cnc.dyn.by-index-first", &[DYN_4], "the value by index is that of the first parameter",
         |cnc, call| index(cnc, call, BY_INDEX, |index| index.min(1))),
-    on("cnc.dyn.by-index-4-bytes", &["DYN-4"], "the value by index is a REAL32",
+    on("cnc.dyn.by-index-4-bytes", &[DYN_4], "the value by index is a REAL32",
         BY_INDEX, |cnc, call| cnc.answer(call).map(|bytes| narrow(&bytes))),
-    on("cnc.dyn.by-index-whole", &["DYN-4"], "the value by index is rounded to a whole number",
+    on("cnc.dyn.by-index-whole", &[DYN_4], "the value by index is rounded to a whole number",
         BY_INDEX, |cnc, call| cnc.answer(call).map(|bytes| real(&bytes).round().to_le_bytes().to_vec())),
-    row("cnc.dyn.by-index-reversed", &["DYN-4"], "values by index are counted from the last",
+    row("cnc.dyn.by-index-reversed", &[DYN_4], "values by index are counted from the last",
         |cnc, call| index(cnc, call, BY_INDEX, |index| match index {
             0 => 0,
             index => count(cnc, call).wrapping_add(1).checked_sub(index).unwrap_or(index),
         })),
-    row("cnc.dyn.name-of-97", &["DYN-6"], "names of more than 96 bytes are cut and looked up",
+    row("cnc.dyn.name-of-97", &[DYN_6], "names of more than 96 bytes are cut and looked up",
         |cnc, call| match of_decoder(call) {
             Some(0x1C | 0x1F | 0x22 | 0x25) if call.data.len() > 96 => {
                 let name = text(call.data);
@@ -160,13 +161,13 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.name-of-32", &["DYN-6"],
+    row("cnc.dyn.name-of-32", &[DYN_6],
         "names of more than 32 bytes, NULs behind them counted, are refused",
         |cnc, call| match of_decoder(call) {
             Some(0x1C | 0x1F | 0x22 | 0x25) if call.data.len() > 32 => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.p1-value", &["DYN-7"], "the value of P1 is 4712",
+    row("cnc.dyn.p1-value", &[DYN_7], "the value of P1 is 4712",
         |cnc, call| if is(call, VALUES) && offset(call) < 0x1E {
             cnc.answer(call).map(|bytes| match real(&bytes) {
                 4711.0 => 4712_f64.to_le_bytes().to_vec(),
@@ -175,7 +176,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.dyn.p1-name", &["DYN-7"], "the name of P1 is V.P1, and it is found by that",
+    row("cnc.dyn.p1-name", &[DYN_7], "the name of P1 is V.P1, and it is found by that",
         |cnc, call| match (is(call, NAME), is(call, BY_NAME), offset(call)) {
             (true, _, 0x1B) => {
                 within_length(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))
@@ -186,7 +187,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             },
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.p1-count", &["DYN-7"], "the number of P is that of all kinds",
+    row("cnc.dyn.p1-count", &[DYN_7], "the number of P is that of all kinds",
         |cnc, call| if is(call, COUNT) && offset(call) == 2 {
             let mut sum = cnc.answer(call)?;
             for place in 3..=5 {

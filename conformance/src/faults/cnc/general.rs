@@ -4,6 +4,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::layout::{FieldSpec, Size, Type};
 use ads_cnc::operation::{Call, Function, FunctionSpec};
 use ads_cnc::text::cp1252_to_char;
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, after_nul, dimensions,
@@ -59,10 +60,10 @@ fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.gen.numbers-big-endian", &["GEN-1"],
+    on("cnc.gen.numbers-big-endian", &[GEN_1],
         "counts and handles are answered with the most significant byte first",
         NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),
-    row("cnc.gen.reals-big-endian", &["GEN-1"],
+    row("cnc.gen.reals-big-endian", &[GEN_1],
         "REAL64 of parameters is answered with the most significant byte first",
         |cnc, call| match function(call) {
             Some(Function::DynamicValueByName | Function::DynamicValueByIndex) => {
@@ -73,7 +74,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.reals-words-swapped", &["GEN-1"],
+    row("cnc.gen.reals-words-swapped", &[GEN_1],
         "the two halves of a REAL64 of a variable stand in the other order",
         |cnc, call| match function(call) {
             Some(function) if VALUES.contains(&function) => {
@@ -85,7 +86,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.requests-big-endian", &["GEN-1"],
+    row("cnc.gen.requests-big-endian", &[GEN_1],
         "indices in requests are read with the most significant byte first",
         |cnc, call| match function(call) {
             Some(function) if first(function.spec().request) == b"index" => {
@@ -97,7 +98,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.gen.description-aligned", &["GEN-2"], "the name of a description is aligned to 8 bytes",
+    on("cnc.gen.description-aligned", &[GEN_2], "the name of a description is aligned to 8 bytes",
         &[Function::DescribeByIndex], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
@@ -108,7 +109,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             }),
         )),
-    on("cnc.gen.descriptor-access-wide", &["GEN-2"],
+    on("cnc.gen.descriptor-access-wide", &[GEN_2],
         "write access takes 4 bytes, and all behind it in a descriptor 2 bytes more",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|bytes| {
             let records = records(&bytes);
@@ -119,7 +120,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             };
             records.iter().flat_map(wide).collect()
         })),
-    row("cnc.gen.utf-8", &["GEN-3"], "names are read and answered in UTF-8", |cnc, call| {
+    row("cnc.gen.utf-8", &[GEN_3], "names are read and answered in UTF-8", |cnc, call| {
         let outwards = |text: &[u8]| {
             let text: String = text.iter().map(|&byte| cp1252_to_char(byte)).collect();
             text.into_bytes()
@@ -130,28 +131,28 @@ pub(super) const ROWS: &[CncSeed] = &[
         };
         texts(cnc, call, outwards, inwards)
     }),
-    row("cnc.gen.ascii", &["GEN-3"], "characters of names beyond ASCII are answered as question marks",
+    row("cnc.gen.ascii", &[GEN_3], "characters of names beyond ASCII are answered as question marks",
         |cnc, call| {
             let outwards = |text: &[u8]| {
                 text.iter().map(|byte| if byte.is_ascii() { *byte } else { b'?' }).collect()
             };
             texts(cnc, call, outwards, <[u8]>::to_vec)
         }),
-    row("cnc.gen.seven-bits", &["GEN-3"],
+    row("cnc.gen.seven-bits", &[GEN_3],
         "the highest bit of every character of a name in a request is dropped",
         |cnc, call| texts(cnc, call, <[u8]>::to_vec, |text| text.iter().map(|&byte| byte & 0x7F).collect())),
-    row("cnc.gen.com-at-sda", &["GEN-4"], "COM is served at the port 552, and not at 553",
+    row("cnc.gen.com-at-sda", &[GEN_4], "COM is served at the port 552, and not at 553",
         |cnc, call| match (call.port, super::com_group(call)) {
             (AmsPort::COM, Some(_)) => Err(AdsError::INVALID_GROUP),
             (AmsPort::SDA, Some(_)) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.any-port", &["GEN-4"], "each port answers for all tasks",
+    row("cnc.gen.any-port", &[GEN_4], "each port answers for all tasks",
         |cnc, call| match super::com_group(call) {
             Some(_) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
             None => cnc.answer(&Call { port: AmsPort::SDA, ..*call }),
         }),
-    row("cnc.gen.boolean-4-bytes", &["GEN-5"], "a BOOLEAN variable takes 4 bytes",
+    row("cnc.gen.boolean-4-bytes", &[GEN_5], "a BOOLEAN variable takes 4 bytes",
         |cnc, call| match function(call) {
             Some(function) if DESCRIPTIONS.contains(&function) => {
                 cnc.answer(call).map(|mut bytes| {

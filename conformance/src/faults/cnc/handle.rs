@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, ReplyData, Upstream, fours, function, group, number, of_decoder, offset, on, row,
@@ -36,17 +37,17 @@ fn with_handle(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Re
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.var.handle-not-understood", &["VAR-10"],
+    row("cnc.var.handle-not-understood", &[VAR_10],
         "the handle by name is another than the one that is understood",
         |cnc, call| with_handle(cnc, call, |handle| handle ^ 0x5A00_0000)),
-    row("cnc.var.handle-16-bit", &["VAR-10"], "the handle by name is the lower 16 bits",
+    row("cnc.var.handle-16-bit", &[VAR_10], "the handle by name is the lower 16 bits",
         |cnc, call| with_handle(cnc, call, |handle| handle & 0xFFFF)),
-    on("cnc.var.handle-2-bytes", &["VAR-10"], "the handle by name takes 2 bytes",
+    on("cnc.var.handle-2-bytes", &[VAR_10], "the handle by name takes 2 bytes",
         HANDLE, |cnc, call| cnc.answer(call).map(|mut bytes| {
             bytes.truncate(2);
             bytes
         })),
-    row("cnc.var.handle-changes", &["VAR-10"],
+    row("cnc.var.handle-changes", &[VAR_10],
         "the handle by name is another at each request; all of them are understood",
         |cnc, call| match (function(call), parts(call.data)) {
             (Some(Function::HandleByName), _) => {
@@ -65,7 +66,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.handle-used-up", &["VAR-10"], "a handle is valid for one read",
+    row("cnc.var.handle-used-up", &[VAR_10], "a handle is valid for one read",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::ReadByHandle), Some(handle)) => {
                 let key = (handle, group(call), b"used".to_vec());
@@ -78,7 +79,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.handle-last-only", &["VAR-10"], "with a new handle by name all others become invalid",
+    row("cnc.var.handle-last-only", &[VAR_10], "with a new handle by name all others become invalid",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
                 cnc.memory().count = u32_at(bytes, 0).unwrap_or_default();
@@ -90,7 +91,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.handle-needs-name", &["VAR-10"],
+    row("cnc.var.handle-needs-name", &[VAR_10],
         "the handle of a description is understood only behind a handle by name",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
@@ -104,7 +105,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.handle-shared", &["VAR-10"],
+    row("cnc.var.handle-shared", &[VAR_10],
         "the handle by name of every variable of V.G is that of the first asked for",
         |cnc, call| match function(call) {
             Some(Function::HandleByName) if text(call.data).starts_with(b"V.G.") => {
@@ -118,14 +119,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.handle-in-description", &["VAR-4", "VAR-10"], "the handle in a description is the index",
+    on("cnc.var.handle-in-description", &[VAR_4, VAR_10], "the handle in a description is the index",
         &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
             set_u32(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
             bytes
         })),
-    on("cnc.var.handle-0-in-description", &["VAR-4"], "the handle in a description is 0",
+    on("cnc.var.handle-0-in-description", &[VAR_4], "the handle in a description is 0",
         &[Function::DescribeByIndex], |cnc, call| number(cnc.answer(call), 0, |_| 0)),
-    row("cnc.var.handle-of-axis", &["VAR-10"],
+    row("cnc.var.handle-of-axis", &[VAR_10],
         "the handle of an axis variable belongs to the axis, not to its place",
         |cnc, call| {
             // The axis number shows the place of an axis; handles have the place in their third
@@ -154,7 +155,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 _ => cnc.answer(call),
             }
         }),
-    row("cnc.var.by-handle-at-index", &["VAR-10", "VAR-11"],
+    row("cnc.var.by-handle-at-index", &[VAR_10, VAR_11],
         "reading by handle is at 0x46, the handle by name at 0x47",
         |cnc, call| match of_decoder(call) {
             Some(0x46) => cnc.at(call, group(call), 0x47),

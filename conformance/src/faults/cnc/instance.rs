@@ -3,6 +3,7 @@
 use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, LOGICAL, ReplyData, Upstream, class, group, is, offset, reply, row, set_u32, u32_at,
@@ -42,14 +43,14 @@ fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> b
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.sda.query-swapped", &["SDA-1"], "the question for an instance is read as axis and channel",
+    row("cnc.sda.query-swapped", &[SDA_1], "the question for an instance is read as axis and channel",
         |cnc, call| with_instance(cnc, call, |channel, axis| (axis, channel))),
-    row("cnc.sda.address-swapped", &["SDA-1"], "an instance is answered as index offset and index group",
+    row("cnc.sda.address-swapped", &[SDA_1], "an instance is answered as index offset and index group",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             bytes.rotate_left(4);
             bytes
         })),
-    row("cnc.sda.query-with-channel", &["SDA-1"],
+    row("cnc.sda.query-with-channel", &[SDA_1],
         "instances are asked for at the group with channel 1, 0x123901, and not at 0x123900",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(of), 0x900) if of.class != Class::Spindle => match of.instance {
@@ -58,7 +59,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             },
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.query-by-write-and-read", &["SDA-1"],
+    row("cnc.sda.query-by-write-and-read", &[SDA_1],
         "the question for an instance is written, and the answer then read",
         |cnc, call| match (class(call), group(call) & 0xF00, call.service) {
             (Some(_), 0x900, Service::ReadWrite) => Err(AdsError::SERVICE_NOT_SUPPORTED),
@@ -73,7 +74,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.address-of-query", &["SDA-1"],
+    row("cnc.sda.address-of-query", &[SDA_1],
         "the index group of an instance is that of its object address, 0x123901",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             match u32_at(&bytes, 0) {
@@ -82,7 +83,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.sda.address-of-second", &["SDA-1", "SDA-3"],
+    row("cnc.sda.address-of-second", &[SDA_1, SDA_3],
         "the address of an instance is that of its element 1",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if let (Some(1..), Some(offset)) = (u32_at(&bytes, 0), u32_at(&bytes, 4)) {
@@ -90,20 +91,20 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.sda.address-by-index", &["SDA-3"],
+    row("cnc.sda.address-by-index", &[SDA_3],
         "the index group of an instance lacks the bit of logical addressing",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             let group = u32_at(&bytes, 0).unwrap_or_default();
             set_u32(&mut bytes, 0, group & !LOGICAL);
             bytes
         })),
-    row("cnc.sda.address-16-bit", &["SDA-1"], "the index group of an instance is its lower 16 bits",
+    row("cnc.sda.address-16-bit", &[SDA_1], "the index group of an instance is its lower 16 bits",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             let group = u32_at(&bytes, 0).unwrap_or_default();
             set_u32(&mut bytes, 0, group & 0xFFFF);
             bytes
         })),
-    row("cnc.sda.absent-answered", &["SDA-2"], "an address is made of whatever is asked for, there or not",
+    row("cnc.sda.absent-answered", &[SDA_2], "an address is made of whatever is asked for, there or not",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if bytes.iter().all(|byte| *byte == 0) {
                 let channel = u32_at(call.data, 0).unwrap_or_default() & 0xFF;
@@ -112,15 +113,15 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.sda.absent-ones", &["SDA-2"], "an instance that is not there is answered as (-1, -1)",
+    row("cnc.sda.absent-ones", &[SDA_2], "an instance that is not there is answered as (-1, -1)",
         |cnc, call| reply(cnc, call, FIND, |bytes| {
             if bytes.iter().all(|byte| *byte == 0) { vec![0xFF; 8] } else { bytes }
         })),
-    row("cnc.sda.absent-nothing", &["SDA-2"], "an instance that is not there is answered without data",
+    row("cnc.sda.absent-nothing", &[SDA_2], "an instance that is not there is answered without data",
         |cnc, call| reply(cnc, call, FIND, |bytes| {
             if bytes.iter().all(|byte| *byte == 0) { Vec::new() } else { bytes }
         })),
-    row("cnc.sda.hld-stride-10000", &["SDA-3"], "platform axes of the HLD take 0x10000 of the index offset",
+    row("cnc.sda.hld-stride-10000", &[SDA_3], "platform axes of the HLD take 0x10000 of the index offset",
         |cnc, call| match (is(call, FIND), group(call) & 0xEF_F0FF) {
             (true, 0x02_3000) => cnc.answer(call).map(|mut bytes| {
                 if u32_at(&bytes, 0) == Some(0x12_3300) {
@@ -136,19 +137,19 @@ pub(super) const ROWS: &[CncSeed] = &[
             (false, 0x02_3000) => Err(AdsError::INVALID_OFFSET),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.channel-1-only", &["SDA-5"],
+    row("cnc.sda.channel-1-only", &[SDA_5],
         "of interpolator, decoder, path preparation and HLD only channel 1 is found",
         |cnc, call| absent(cnc, call, |class, channel, _| (0x1000..0x5000).contains(&class) && channel > 1)),
-    row("cnc.sda.no-axes", &["SDA-5"], "axes of interpolator, decoder and path preparation are not found",
+    row("cnc.sda.no-axes", &[SDA_5], "axes of interpolator, decoder and path preparation are not found",
         |cnc, call| absent(cnc, call, |class, _, axis| {
             matches!(class, 0x1000 | 0x2000 | 0x4000) && axis > 0
         })),
-    row("cnc.sda.no-axis-0", &["SDA-5"],
+    row("cnc.sda.no-axis-0", &[SDA_5],
         "channels of interpolator, decoder and path preparation are found with an axis only",
         |cnc, call| absent(cnc, call, |class, _, axis| {
             matches!(class, 0x1000 | 0x2000 | 0x4000) && axis == 0
         })),
-    row("cnc.sda.position-controller-channel-1", &["SDA-5"],
+    row("cnc.sda.position-controller-channel-1", &[SDA_5],
         "the position controller is found with channel 1, and not with 0",
         |cnc, call| match group(call) & 0xF000 {
             0 => with_instance(cnc, call, |channel, axis| match channel {
@@ -157,43 +158,43 @@ pub(super) const ROWS: &[CncSeed] = &[
             }),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.position-controller-one-axis", &["SDA-5"],
+    row("cnc.sda.position-controller-one-axis", &[SDA_5],
         "the last axis of the position controller is not found",
         |cnc, call| absent(cnc, call, |class, _, axis| class == 0 && axis > 4)),
-    row("cnc.sda.position-controller-axis-from-0", &["SDA-5", "GEN-6"],
+    row("cnc.sda.position-controller-axis-from-0", &[SDA_5, GEN_6],
         "axes of the position controller are asked for from 0",
         |cnc, call| match group(call) & 0xF000 {
             0 => with_instance(cnc, call, |channel, axis| (channel, axis.wrapping_add(1))),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.position-controller-any-channel", &["SDA-5"],
+    row("cnc.sda.position-controller-any-channel", &[SDA_5],
         "the position controller is found with any channel",
         |cnc, call| match group(call) & 0xF000 {
             0 => with_instance(cnc, call, |_, axis| (0, axis)),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.channel-0", &["SDA-5", "GEN-6"], "channel 0 is taken for channel 1",
+    row("cnc.sda.channel-0", &[SDA_5, GEN_6], "channel 0 is taken for channel 1",
         |cnc, call| match group(call) & 0xF000 {
             0x1000 | 0x2000 | 0x4000 => with_instance(cnc, call, |channel, axis| (channel.max(1), axis)),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.channel-8-bit", &["SDA-5", "SDA-2"],
+    row("cnc.sda.channel-8-bit", &[SDA_5, SDA_2],
         "of the channel asked for the lowest 8 bits count: 257 is channel 1",
         |cnc, call| with_instance(cnc, call, |channel, axis| (channel & 0xFF, axis))),
-    row("cnc.sda.axis-16-bit", &["SDA-5", "SDA-2"], "of the axis asked for the lowest 16 bits count",
+    row("cnc.sda.axis-16-bit", &[SDA_5, SDA_2], "of the axis asked for the lowest 16 bits count",
         |cnc, call| with_instance(cnc, call, |channel, axis| (channel, axis & 0xFFFF))),
-    row("cnc.sda.hld-channel-missing", &["SDA-5"], "the HLD of a channel is not found without an axis",
+    row("cnc.sda.hld-channel-missing", &[SDA_5], "the HLD of a channel is not found without an axis",
         |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel > 0 && axis == 0)),
-    row("cnc.sda.hld-platform-missing", &["SDA-5"], "the HLD of an axis is not found without a channel",
+    row("cnc.sda.hld-platform-missing", &[SDA_5], "the HLD of an axis is not found without a channel",
         |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel == 0 && axis > 0)),
-    row("cnc.sda.spindle-from-1", &["SDA-5", "GEN-6"], "spindles are asked for from 1",
+    row("cnc.sda.spindle-from-1", &[SDA_5, GEN_6], "spindles are asked for from 1",
         |cnc, call| match group(call) & 0xF000 {
             0x5000 => with_instance(cnc, call, |spindle, axis| (spindle.wrapping_sub(1), axis)),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.spindle-one-only", &["SDA-5"], "the first spindle is the only one found",
+    row("cnc.sda.spindle-one-only", &[SDA_5], "the first spindle is the only one found",
         |cnc, call| absent(cnc, call, |class, spindle, _| class == 0x5000 && spindle > 0)),
-    row("cnc.sda.hld-own-axes", &["SDA-13"],
+    row("cnc.sda.hld-own-axes", &[SDA_13],
         "the HLD of the first channel holds the axes of this channel alone",
         |cnc, call| match (group(call) & 0xEF_FFFF, is(call, FIND)) {
             (0x02_3900, true) => absent(cnc, call, |_, channel, axis| channel == 1 && axis > 3),
@@ -202,7 +203,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.hld-no-axes", &["SDA-13"], "the HLD of the first channel has no axes",
+    row("cnc.sda.hld-no-axes", &[SDA_13], "the HLD of the first channel has no axes",
         |cnc, call| match (group(call) & 0xEF_FFFF, is(call, FIND)) {
             (0x02_3900, true) => absent(cnc, call, |_, channel, axis| channel == 1 && axis > 0),
             (0x02_3301..=0x02_38FF, _) if group(call) & 0xFF == 1 && offset(call) >= 0x1_0000 => {
@@ -210,7 +211,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.geo-missing", &["GEN-4"], "nothing answers at the port 551", |cnc, call| match call.port {
+    row("cnc.gen.geo-missing", &[GEN_4], "nothing answers at the port 551", |cnc, call| match call.port {
         AmsPort::GEO => Err(AdsError::TARGET_PORT_NOT_FOUND),
         _ => cnc.answer(call),
     }),

@@ -49,7 +49,9 @@ pub(crate) use self::row::CncFault;
 pub(in crate::faults) use self::row::{CncSeed, fault, on, program, row};
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;
-pub(in crate::faults) use self::upstream::{Key, later, or_short, put_off, reply, within_length};
+pub(in crate::faults) use self::upstream::{
+    Key, delay_write, later, or_short, reply, within_length,
+};
 pub(in crate::faults) use crate::simulator::ReplyData;
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::ids::*;
 
 use super::variable::without_indices;
 use super::{
@@ -18,26 +19,26 @@ const fn german(mut row: CncSeed) -> CncSeed {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.var.name-of-200", &["VAR-9"], "names of more than 200 characters are refused",
+    row("cnc.var.name-of-200", &[VAR_9], "names of more than 200 characters are refused",
         |cnc, call| if is(call, NAMED) && text(call.data).len() > 200 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-of-254", &["VAR-9"], "names take 254 characters at most",
+    row("cnc.var.name-of-254", &[VAR_9], "names take 254 characters at most",
         |cnc, call| if is(call, NAMED) && text(call.data).len() > 254 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-of-256", &["VAR-9"], "names of more than 255 characters are cut and looked up",
+    row("cnc.var.name-of-256", &[VAR_9], "names of more than 255 characters are cut and looked up",
         |cnc, call| if is_lookup(call) && call.data.len() > 256 {
             let name = text(call.data);
             cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-not-ended", &["VAR-9"], "names with a NUL are refused",
+    row("cnc.var.name-not-ended", &[VAR_9], "names with a NUL are refused",
         |cnc, call| if !is_lookup(call) {
             cnc.answer(call)
         } else if call.data.contains(&0) {
@@ -45,7 +46,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.with(call, &[call.data, &[0]].concat())
         }),
-    row("cnc.var.name-one-character", &["VAR-9"],
+    row("cnc.var.name-one-character", &[VAR_9],
         "a name that is not there stands for one with a character less",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
@@ -58,7 +59,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    row("cnc.var.name-unknown", &["VAR-9", "VAR-20"],
+    row("cnc.var.name-unknown", &[VAR_9, VAR_20],
         "a name that is not there has the handle 0 and the value 0",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
@@ -67,7 +68,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => Ok(vec![0; 4]),
             (_, answer) => answer,
         }),
-    row("cnc.var.name-unknown-nothing", &["VAR-9", "VAR-20"],
+    row("cnc.var.name-unknown-nothing", &[VAR_9, VAR_20],
         "a name that is not there is answered without an error and without data",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
@@ -76,7 +77,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.var.cycle-has-handle", &["VAR-18"], "V.CYC has handles, by which it is read",
+    row("cnc.var.cycle-has-handle", &[VAR_18], "V.CYC has handles, by which it is read",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) if text(call.data).starts_with(b"V.CYC.") => {
                 cnc.answer(&at(call, group(call), 0x48))
@@ -90,13 +91,13 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.cycle-refused", &["VAR-18"], "V.CYC is not there at all",
+    row("cnc.var.cycle-refused", &[VAR_18], "V.CYC is not there at all",
         |cnc, call| if is(call, NAMED) && text(call.data).starts_with(b"V.CYC.") {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
-    german(row("cnc.var.dynamic-has-handle", &["VAR-18"], "V.P, V.L and V.S have handles",
+    german(row("cnc.var.dynamic-has-handle", &[VAR_18], "V.P, V.L and V.S have handles",
         |cnc, call| match (function(call), call.data) {
             (Some(Function::HandleByName), [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => {
                 cnc.ask(group(call), 0x48, call.data)?;
@@ -104,13 +105,13 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         })),
-    german(row("cnc.var.dynamic-refused", &["VAR-19"],
+    german(row("cnc.var.dynamic-refused", &[VAR_19],
         "V.P, V.L and V.S are not reached through the channel interface",
         |cnc, call| match (is_at(call, NAMED), call.data) {
             (true, [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => Err(AdsError::SYMBOL_NOT_FOUND),
             _ => cnc.answer(call),
         })),
-    german(row("cnc.var.dynamic-4-bytes", &["VAR-19"],
+    german(row("cnc.var.dynamic-4-bytes", &[VAR_19],
         "V.P, V.L and V.S are 4 bytes through the channel interface",
         |cnc, call| match (of_decoder(call), call.data) {
             (Some(0x48), [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => {
@@ -121,7 +122,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         })),
-    row("cnc.var.structure-answered", &["VAR-20"], "the name of a structure stands for its first element",
+    row("cnc.var.structure-answered", &[VAR_20], "the name of a structure stands for its first element",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),
@@ -139,7 +140,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    on("cnc.var.path-index-ignored", &["VAR-20"],
+    on("cnc.var.path-index-ignored", &[VAR_20],
         "an index within a name is ignored: V.G.NP[1].V is V.G.NP[0].V",
         &[Function::ReadByName, Function::HandleByName], |cnc, call| {
             let name = text(call.data);
@@ -160,14 +161,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.with(call, &[path.as_slice(), element, &[0]].concat())
                 .or_else(|_| cnc.answer(call))
         }),
-    row("cnc.var.element-by-name-refused", &["VAR-20", "VAR-14"],
+    row("cnc.var.element-by-name-refused", &[VAR_20, VAR_14],
         "names with an index of an element are refused",
         |cnc, call| if is(call, NAMED) && text(call.data).ends_with(b"]") {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.element-by-name-from-1", &["VAR-20", "VAR-14"],
+    on("cnc.var.element-by-name-from-1", &[VAR_20, VAR_14],
         "the index of an element in a name is counted from 1",
         &[Function::ReadByName], |cnc, call| {
             let name = text(call.data);
@@ -181,7 +182,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let indices: String = indices.collect();
             cnc.with(call, &[path, indices.as_bytes(), &[0]].concat())
         }),
-    row("cnc.var.leaves-without-structure", &["VAR-20", "VAR-4"],
+    row("cnc.var.leaves-without-structure", &[VAR_20, VAR_4],
         "descriptions have the last part of a name alone: V.E.array_sgn32",
         |cnc, call| super::reply(cnc, call, &[Function::DescribeByIndex], |bytes| {
             let (head, name) =
@@ -191,7 +192,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let kind = name.get(..4).unwrap_or_default();
             [head, kind, last, &[0]].concat()
         })),
-    on("cnc.var.name-dashes", &["VAR-20"],
+    on("cnc.var.name-dashes", &[VAR_20],
         "structures are divided by a colon, V.E.struct:array_uns32, not by a dot",
         NAMED, |cnc, call| {
             let head = call.data.get(..4).unwrap_or_default();
@@ -203,7 +204,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 name.iter().map(|byte| if *byte == b':' { b'.' } else { *byte }).collect();
             cnc.with(call, &[head, &name, &[0], after_nul(call.data)].concat())
         }),
-    row("cnc.var.by-name-unavailable", &["VAR-28"],
+    row("cnc.var.by-name-unavailable", &[VAR_28],
         "there is no description by name, though the version has it",
         |cnc, call| match of_decoder(call) {
             Some(0x4C) => Err(AdsError::INVALID_OFFSET),

@@ -3,9 +3,12 @@
 use ads_cnc::address::{Access, ComGroup, ComTable};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc_vectors::ids::*;
 
 use super::com::set;
-use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, on, put_off, records_mut, row};
+use super::{
+    CncSeed, LOGICAL, at, com_group, delay_write, group, is, offset, on, records_mut, row,
+};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -21,12 +24,12 @@ fn content(call: &Call<'_>) -> Option<ComGroup> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.com.content-short", &["COM-5"], "contents lack their last byte",
+    on("cnc.com.content-short", &[COM_5], "contents lack their last byte",
         READ, |cnc, call| cnc.answer(call).map(|mut bytes| {
             bytes.pop();
             bytes
         })),
-    row("cnc.com.content-4-bytes", &["COM-5"], "contents take 4 bytes at least if there is room for them",
+    row("cnc.com.content-4-bytes", &[COM_5], "contents take 4 bytes at least if there is room for them",
         |cnc, call| if is(call, READ) && call.read_length >= 4 {
             cnc.answer(call).map(|mut bytes| {
                 bytes.resize(bytes.len().max(4), 0);
@@ -35,9 +38,9 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.com.content-none", &["COM-5"], "contents are read as nothing: no error, and no data",
+    on("cnc.com.content-none", &[COM_5], "contents are read as nothing: no error, and no data",
         READ, |cnc, call| cnc.answer(call).map(|_| Vec::new())),
-    row("cnc.com.content-big-endian", &["GEN-1", "COM-5"],
+    row("cnc.com.content-big-endian", &[GEN_1, COM_5],
         "contents are read and written with the most significant byte first",
         |cnc, call| match (is(call, READ), is(call, WRITE)) {
             (true, _) => cnc.answer(call).map(|mut bytes| {
@@ -52,7 +55,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.content-refused", &["COM-5"], "contents are read with ReadWrite, and not with Read",
+    row("cnc.com.content-refused", &[COM_5], "contents are read with ReadWrite, and not with Read",
         |cnc, call| match (is(call, READ), content(call), call.service) {
             (true, ..) => Err(AdsError::SERVICE_NOT_SUPPORTED),
             (_, Some(_), Service::ReadWrite) if call.data.is_empty() => {
@@ -60,21 +63,21 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.axis-content-refused", &["COM-5"], "objects of channel axes are described, but not read",
+    row("cnc.com.axis-content-refused", &[COM_5], "objects of channel axes are described, but not read",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Channel && offset(call) >= 0x1_0000 => {
                 Err(AdsError::INVALID_OFFSET)
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.content-of-channel-1", &["COM-5"], "contents of channels are those of channel 1",
+    row("cnc.com.content-of-channel-1", &[COM_5], "contents of channels are those of channel 1",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Channel && com.instance > 1 => {
                 cnc.at(call, 0x12_0101, offset(call))
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.com.write-ignored", &["COM-5"], "a write succeeds and changes nothing",
+    on("cnc.com.write-ignored", &[COM_5], "a write succeeds and changes nothing",
         WRITE, |cnc, call| {
             let size = cnc.answer(&Call {
                 service: Service::Read,
@@ -88,21 +91,21 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.com.write-late", &["COM-5"], "a write takes effect with the next one",
+    row("cnc.com.write-late", &[COM_5], "a write takes effect with the next one",
         |cnc, call| if is(call, WRITE) && writable(cnc, call) {
-            put_off(cnc, call)
+            delay_write(cnc, call)
         } else {
             cnc.answer(call)
         }),
-    on("cnc.com.write-refused", &["COM-5", "COM-2"], "what the descriptor calls writable is refused",
+    on("cnc.com.write-refused", &[COM_5, COM_2], "what the descriptor calls writable is refused",
         WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
-    row("cnc.com.write-read-only-accepted", &["COM-2"],
+    row("cnc.com.write-read-only-accepted", &[COM_2],
         "a write of what is read-only succeeds, and changes nothing",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.com.write-read-only-done", &["COM-2"], "what is read-only is written", |cnc, call| {
+    row("cnc.com.write-read-only-done", &[COM_2], "what is read-only is written", |cnc, call| {
         if let Some(kept) = cnc.memory().get(&key(call))
             && is(call, READ)
         {
@@ -116,7 +119,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (_, answer) => answer,
         }
     }),
-    row("cnc.com.write-two", &["COM-5"], "a write to an object of one axis is one to that of every axis",
+    row("cnc.com.write-two", &[COM_5], "a write to an object of one axis is one to that of every axis",
         |cnc, call| if is(call, WRITE) && offset(call) >= 0x1_0000 && offset(call) & 0xFFFF != 3 {
             let done = cnc.answer(call);
             if done.is_ok() {
@@ -128,14 +131,14 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.write-bit", &["COM-5"], "a write of a BOOL inverts it",
+    row("cnc.com.write-bit", &[COM_5], "a write of a BOOL inverts it",
         |cnc, call| if is(call, WRITE) && call.data.len() == 1 {
             let data: Vec<u8> = call.data.iter().map(|byte| u8::from(*byte == 0)).collect();
             cnc.with(call, &data)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.axis-not-in-offset", &["COM-6"],
+    row("cnc.com.axis-not-in-offset", &[COM_6],
         "a platform axis stands in the group only: (0x120200, 0x10001) is refused",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Axis && com.instance == 0 => {
@@ -143,7 +146,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.command-elsewhere", &["COM-6"],
+    row("cnc.com.command-elsewhere", &[COM_6],
         "mc_command_single_block_w is at the offset 0x2, where its descriptor says it is",
         |cnc, call| match (content(call), offset(call)) {
             (Some(com), 1) if com.table == ComTable::Channel => Err(AdsError::INVALID_OFFSET),
@@ -160,7 +163,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             }),
         }),
-    row("cnc.com.platform-elsewhere", &["COM-6"], "platform data is at (0x120200, 0x251)",
+    row("cnc.com.platform-elsewhere", &[COM_6], "platform data is at (0x120200, 0x251)",
         |cnc, call| match (group(call) & !LOGICAL, offset(call)) {
             (0x02_0100 | 0x02_0101, 0x251) => Err(AdsError::INVALID_OFFSET),
             (0x02_0200, 0x251) => cnc.answer(&at(call, 0x12_0100, 0x251)),

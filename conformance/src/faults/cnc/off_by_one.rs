@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::handle::{joined, parts};
 use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
@@ -55,13 +56,13 @@ fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> Repl
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.spindle-written-first", &["ADR-2"],
+    row("cnc.adr.spindle-written-first", &[ADR_2],
         "what is written to the second spindle is written to the first",
         |cnc, call| match (is(call, WRITE), group(call)) {
             (true, 0x02_5301..=0x02_53FF) => cnc.at(call, 0x02_5300, offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.attributes-of-channel", &["ADR-6", "ADR-7"],
+    row("cnc.adr.attributes-of-channel", &[ADR_6, ADR_7],
         "type, length and unit of an axis's element are those of the channel's with the same number",
         |cnc, call| if is(
             call,
@@ -71,7 +72,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.many-access-stays", &["COM-2", "COM-3"],
+    row("cnc.com.many-access-stays", &[COM_2, COM_3],
         "of several descriptors those behind one with write access have it too",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
             let mut writable = false;
@@ -81,14 +82,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.com.many-types-run-on", &["COM-2", "COM-3"],
+    row("cnc.com.many-types-run-on", &[COM_2, COM_3],
         "of several descriptors a type shorter than the one before runs on with the rest of that",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
             let mut records = super::records(&bytes);
             run_on(&mut records, 52);
             records.concat()
         })),
-    on("cnc.com.id-of-first-place", &["COM-2"],
+    on("cnc.com.id-of-first-place", &[COM_2],
         "objects of the same name have the same ID, whichever place of the channel has them",
         DESCRIPTORS, |cnc, call| {
             let first = Call { read_length: 84 * 512, ..*call };
@@ -102,7 +103,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    row("cnc.com.write-first-channel-too", &["COM-5"],
+    row("cnc.com.write-first-channel-too", &[COM_5],
         "what is written to an object of channel 2 is written to that of channel 1 too",
         |cnc, call| {
             let done = cnc.answer(call);
@@ -114,7 +115,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             done
         }),
-    on("cnc.sda.count-writable", &["SDA-4"], "the number of elements counts those with write access",
+    on("cnc.sda.count-writable", &[SDA_4], "the number of elements counts those with write access",
         &[Function::CountElements], |cnc, call| {
             let count = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
             let flag = |element: &u32| {
@@ -127,7 +128,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    row("cnc.dyn.index-into-next-kind", &["DYN-5"],
+    row("cnc.dyn.index-into-next-kind", &[DYN_5],
         "behind the last index of a kind names and values of the next kind follow",
         |cnc, call| {
             let kinds = [Function::DynamicNameByIndex, Function::DynamicValueByIndex];
@@ -138,7 +139,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 (_, answer, _) => answer,
             }
         }),
-    on("cnc.dyn.names-sorted", &["DYN-4", "DYN-2"],
+    on("cnc.dyn.names-sorted", &[DYN_4, DYN_2],
         "names by index are sorted by the alphabet, values by index are not",
         &[Function::DynamicNameByIndex], |cnc, call| {
             cnc.answer(call)?;
@@ -149,10 +150,10 @@ pub(super) const ROWS: &[CncSeed] = &[
             let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
             super::within_length(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
         }),
-    on("cnc.var.write-element-4-bytes", &["VAR-13"],
+    on("cnc.var.write-element-4-bytes", &[VAR_13],
         "an element of one byte is written by name as 4 bytes: the three behind it become 0",
         &[Function::WriteByName], zero_behind),
-    row("cnc.var.row-beyond", &["VAR-11", "VAR-4"],
+    row("cnc.var.row-beyond", &[VAR_11, VAR_4],
         "an index behind the end of a row, by handle, goes on in the next row",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, indices, _))) if indices.len() == 2 => {
@@ -173,7 +174,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.strings-127-apart", &["VAR-11", "VAR-14"],
+    row("cnc.var.strings-127-apart", &[VAR_11, VAR_14],
         "elements of an array of STRING, by handle, are a byte less apart than they are long",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, indices, _))) if indices.len() == 1 => {
@@ -188,7 +189,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.count-of-axes", &["VAR-2"],
+    row("cnc.var.count-of-axes", &[VAR_2],
         "the number of V.A counts each variable once, and its descriptions come for each axis",
         |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data) == b"V.A" {
             let kind = b"V.A\0";
@@ -209,7 +210,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.sum-with-cycle", &["VAR-1"], "the sum of all kinds counts V.CYC too",
+    row("cnc.var.sum-with-cycle", &[VAR_1], "the sum of all kinds counts V.CYC too",
         |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data).is_empty() {
             let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
             let there = names.iter().filter(|name| cnc.ask(group(call), 0x48, name).is_ok());
@@ -222,7 +223,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.stm.room-of-all", &["STM-3"],
+    on("cnc.stm.room-of-all", &[STM_3],
         "what the interfaces of all channels hold counts against the 4094 bytes of each",
         STREAM, |cnc, call| {
             let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.buffered());
@@ -233,7 +234,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.var.axis-two-copies", &["VAR-26"],
+    row("cnc.var.axis-two-copies", &[VAR_26],
         "what is written on the axis interface is read there, and not on the channel interface",
         |cnc, call| {
             let key = (group(call) & 0xFF, offset(call) >> 16, text(call.data).to_vec());

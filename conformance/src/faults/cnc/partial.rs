@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
@@ -49,25 +50,25 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.objects-logical-only", &["ADR-12"],
+    row("cnc.adr.objects-logical-only", &[ADR_12],
         "objects are described by logical addressing only, their contents are read by index too",
         |cnc, call| match group(call) & 0xFF_FE00 {
             0x03_0000 if group(call) & 0x100 != 0 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.spindles-without-flag", &["ADR-6", "ADR-5"],
+    row("cnc.adr.spindles-without-flag", &[ADR_6, ADR_5],
         "spindles have no write flag: 0x25800 is refused",
         |cnc, call| match group(call) & 0xFF_FF00 {
             0x02_5800 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.parameters-logical-only", &["ADR-12", "ADR-1"],
+    row("cnc.adr.parameters-logical-only", &[ADR_12, ADR_1],
         "numbers, names and values of parameters are refused by index, variables are not",
         |cnc, call| match (group(call) & LOGICAL, of_decoder(call)) {
             (0, Some(0x02..=0x05 | 0x1B..=0x26)) => Err(AdsError::INVALID_OFFSET),
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.real32-8-bytes", &["GEN-5", "SDA-7", "SDA-8"], "a REAL32 of SDA and GEO is read as 8 bytes",
+    row("cnc.gen.real32-8-bytes", &[GEN_5, SDA_7, SDA_8], "a REAL32 of SDA and GEO is read as 8 bytes",
         |cnc, call| if is(call, &[Function::ReadElement]) && element_is(cnc, call, b"REAL32") {
             within_length(
                 call,
@@ -79,7 +80,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.gen.rows-aligned", &["GEN-2", "VAR-14"],
+    row("cnc.gen.rows-aligned", &[GEN_2, VAR_14],
         "in a whole array of two dimensions, by name, each row begins at a multiple of 4 bytes",
         |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
             let whole = cnc.whole(call)?;
@@ -98,7 +99,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.gen.latin-1", &["GEN-3"],
+    row("cnc.gen.latin-1", &[GEN_3],
         "values of STRING are Latin-1: what CP1252 has from 80 to 9F is read as a question mark",
         |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
             let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
@@ -112,12 +113,12 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.gen.units-ascii", &["GEN-3", "SDA-6"], "characters of units beyond ASCII are left out",
+    row("cnc.gen.units-ascii", &[GEN_3, SDA_6], "characters of units beyond ASCII are left out",
         |cnc, call| reply(cnc, call, &[Function::ReadElementUnit], |mut bytes| {
             bytes.retain(u8::is_ascii);
             bytes
         })),
-    row("cnc.com.string-size", &["COM-2"], "the size of a STRING in its descriptor leaves out the NUL",
+    row("cnc.com.string-size", &[COM_2], "the size of a STRING in its descriptor leaves out the NUL",
         |cnc, call| reply(cnc, call, &[Function::ReadDescriptors], |mut bytes| {
             for record in records_mut(&mut bytes) {
                 if text(record.get(52..).unwrap_or_default()) == b"STRING" {
@@ -127,7 +128,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.com.lreal-written-narrow", &["COM-5"], "an LREAL is written with the precision of a REAL",
+    row("cnc.com.lreal-written-narrow", &[COM_5], "an LREAL is written with the precision of a REAL",
         |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"LREAL") {
             match call.data.first_chunk::<8>() {
                 Some(value) if call.data.len() == 8 => cnc.with(call, &rounded(*value)),
@@ -136,7 +137,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.read-only-by-index", &["COM-5", "ADR-12"],
+    row("cnc.com.read-only-by-index", &[COM_5, ADR_12],
         "objects with write access are read, and not written, by index",
         |cnc, call| {
             let by_index = is(call, &[Function::WriteObject]) && group(call) & LOGICAL == 0;
@@ -146,7 +147,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.sda.length-of-text", &["SDA-8"],
+    row("cnc.sda.length-of-text", &[SDA_8],
         "the length of a STRING is that of the text it has now, its content has all bytes",
         |cnc, call| if is(call, &[Function::ReadElementLength]) && element_is(cnc, call, b"STRING") {
             let content = cnc.read(call.port, group(call) & !0xF00 | 0x300, offset(call))?;
@@ -158,7 +159,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.negative-written-0", &["SDA-7", "SDA-9"], "a negative number is written to an SGN16 as 0",
+    row("cnc.sda.negative-written-0", &[SDA_7, SDA_9], "a negative number is written to an SGN16 as 0",
         |cnc, call| if is(call, &[Function::WriteElement]) && element_is(cnc, call, b"SGN16") {
             match call.data {
                 [_, high] if *high >= 0x80 => cnc.with(call, &[0; 2]),
@@ -167,14 +168,14 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.hld-axes-apart", &["SDA-13"],
+    row("cnc.sda.hld-axes-apart", &[SDA_13],
         "what is written to a platform axis of the first channel's HLD is read there, and not as \
          the platform axis's without a channel",
         hld_apart),
-    on("cnc.dyn.value-six-digits", &["DYN-3", "DYN-4"],
+    on("cnc.dyn.value-six-digits", &[DYN_3, DYN_4],
         "values of parameters have six digits behind the point: 1e-300 is 0",
         BOTH, |cnc, call| cnc.answer(call).map(six_digits)),
-    row("cnc.var.read-only-by-handle", &["VAR-6"],
+    row("cnc.var.read-only-by-handle", &[VAR_6],
         "what is READ_ONLY is written by its handle, and not by its name",
         |cnc, call| match (function(call), parts(call.data)) {
             (Some(Function::WriteByHandle), Some((handle, indices, value))) => {
@@ -194,12 +195,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.strings-read-only", &["VAR-6"], "a STRING is described as READ_ONLY, and written",
+    on("cnc.var.strings-read-only", &[VAR_6], "a STRING is described as READ_ONLY, and written",
         DESCRIPTIONS, |cnc, call| {
             let answer = cnc.answer(call)?;
             if is_string(&answer) { number(Ok(answer), 8, |_| 1) } else { Ok(answer) }
         }),
-    on("cnc.var.strings-blank", &["VAR-13", "VAR-14"],
+    on("cnc.var.strings-blank", &[VAR_13, VAR_14],
         "a STRING that is written by name is filled up with blanks",
         &[Function::WriteByName], |cnc, call| {
             let name = [text(call.data), &[0]].concat();
@@ -214,7 +215,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.var.cycle-read-only", &["VAR-18"], "V.CYC is read, and not written",
+    row("cnc.var.cycle-read-only", &[VAR_18], "V.CYC is read, and not written",
         |cnc, call| if is(call, &[Function::WriteByName]) && call.data.starts_with(b"V.CYC.") {
             Err(AdsError::INVALID_ACCESS)
         } else {

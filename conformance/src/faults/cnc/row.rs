@@ -2,10 +2,10 @@
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ClauseId;
 
 use super::Upstream;
 use crate::edition::Edition;
-use crate::judge::in_catalogue;
 use crate::simulator::ReplyData;
 use crate::simulator::program::Policy;
 
@@ -29,7 +29,7 @@ pub(crate) enum CncFault {
 /// A row of the tables of defects.
 pub(in crate::faults) struct CncSeed {
     pub(in crate::faults) id: &'static str,
-    pub(in crate::faults) breaks: &'static [&'static str],
+    pub(in crate::faults) breaks: &'static [ClauseId],
     pub(in crate::faults) what: &'static str,
     pub(in crate::faults) fault: CncFault,
     /// The only edition in which it is detectable; `None` for both.
@@ -41,7 +41,7 @@ pub(in crate::faults) struct CncSeed {
 /// A row that handles requests.
 pub(in crate::faults) const fn row(
     id: &'static str,
-    breaks: &'static [&'static str],
+    breaks: &'static [ClauseId],
     what: &'static str,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
 ) -> CncSeed {
@@ -51,7 +51,7 @@ pub(in crate::faults) const fn row(
 /// A row that handles requests for functions.
 pub(in crate::faults) const fn on(
     id: &'static str,
-    breaks: &'static [&'static str],
+    breaks: &'static [ClauseId],
     what: &'static str,
     functions: &'static [Function],
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
@@ -62,17 +62,17 @@ pub(in crate::faults) const fn on(
 /// A row with another fault.
 pub(in crate::faults) const fn fault(
     id: &'static str,
-    breaks: &'static [&'static str],
+    breaks: &'static [ClauseId],
     what: &'static str,
     fault: CncFault,
 ) -> CncSeed {
-    CncSeed { id, breaks: in_catalogue(breaks), what, fault, edition: None, printed: true }
+    CncSeed { id, breaks, what, fault, edition: None, printed: true }
 }
 
 /// A row about NC programs.
 pub(in crate::faults) const fn program(
     id: &'static str,
-    breaks: &'static [&'static str],
+    breaks: &'static [ClauseId],
     what: &'static str,
     policy: Policy,
 ) -> CncSeed {

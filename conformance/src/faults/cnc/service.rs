@@ -3,6 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
@@ -45,39 +46,39 @@ fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.svc.missing", &["SVC-1", "SVC-11"], "the variables of the Service Interface are not there",
+    row("cnc.svc.missing", &[SVC_1, SVC_11], "the variables of the Service Interface are not there",
         |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.channel-1", &["SVC-1"], "there is one Service Interface for all channels",
+    row("cnc.svc.channel-1", &[SVC_1], "there is one Service Interface for all channels",
         |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
             cnc.at(call, 0x12_2301, offset(call))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-20", &["SVC-1"], "RESPONSE takes 20 characters, and what is more is lost",
+    row("cnc.svc.response-20", &[SVC_1], "RESPONSE takes 20 characters, and what is more is lost",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 21 {
             let response = after_nul(call.data).get(..20).unwrap_or_default();
             cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-64", &["SVC-1"], "a RESPONSE of more than 64 bytes is refused",
+    row("cnc.svc.response-64", &[SVC_1], "a RESPONSE of more than 64 bytes is refused",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 64 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-129", &["SVC-1"], "a RESPONSE of more than 128 bytes is cut and taken",
+    row("cnc.svc.response-129", &[SVC_1], "a RESPONSE of more than 128 bytes is cut and taken",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 128 {
             let response = after_nul(call.data).get(..127).unwrap_or_default();
             cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.request-64", &["SVC-1"], "REQUEST is read as its first 63 characters",
+    row("cnc.svc.request-64", &[SVC_1], "REQUEST is read as its first 63 characters",
         |cnc, call| if reads(call, REQUEST) {
             cnc.answer(call).map(|mut bytes| {
                 bytes.truncate(64);
@@ -87,19 +88,19 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.texts-upper-case", &["SVC-1"], "REQUEST is read in upper case",
+    row("cnc.svc.texts-upper-case", &[SVC_1], "REQUEST is read in upper case",
         |cnc, call| if reads(call, REQUEST) {
             cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-read-empty", &["SVC-1"], "RESPONSE is written and not read back: it is empty",
+    row("cnc.svc.response-read-empty", &[SVC_1], "RESPONSE is written and not read back: it is empty",
         |cnc, call| if reads(call, RESPONSE) {
             cnc.answer(call).map(|bytes| vec![0; bytes.len()])
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.states-real", &["SVC-1"], "the states are REAL64, as numbers of the NC program",
+    row("cnc.svc.states-real", &[SVC_1], "the states are REAL64, as numbers of the NC program",
         |cnc, call| if reads(call, REQUEST_STATE) || reads(call, RESPONSE_STATE) {
             cnc.answer(call).map(|bytes| {
                 f64::from(u32_at(&bytes, 0).unwrap_or_default()).to_le_bytes().to_vec()
@@ -107,7 +108,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.svc.types-uns08", &["SVC-1"], "UUID, REQUEST and RESPONSE are arrays of UNS08",
+    on("cnc.svc.types-uns08", &[SVC_1], "UUID, REQUEST and RESPONSE are arrays of UNS08",
         &[Function::DescribeByIndex, Function::DescribeByName],
         |cnc, call| cnc.answer(call).and_then(|bytes| {
             let name = match function(call) {
@@ -120,19 +121,19 @@ pub(super) const ROWS: &[CncSeed] = &[
                 Ok(bytes)
             }
         })),
-    row("cnc.svc.read-only", &["SVC-1"], "RESPONSE and RESPONSE_STATE are not written over ADS",
+    row("cnc.svc.read-only", &[SVC_1], "RESPONSE and RESPONSE_STATE are not written over ADS",
         |cnc, call| if writes(call, RESPONSE) || writes(call, RESPONSE_STATE) {
             Err(AdsError::INVALID_ACCESS)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.uuid-and-request-swapped", &["SVC-1"], "UUID reads as REQUEST, REQUEST as UUID",
+    row("cnc.svc.uuid-and-request-swapped", &[SVC_1], "UUID reads as REQUEST, REQUEST as UUID",
         |cnc, call| match (reads(call, UUID), reads(call, REQUEST)) {
             (true, _) => read(cnc, call, REQUEST),
             (_, true) => read(cnc, call, UUID),
             _ => cnc.answer(call),
         }),
-    row("cnc.svc.request-state-resets-not", &["SVC-3"],
+    row("cnc.svc.request-state-resets-not", &[SVC_3],
         "a write of REQUEST_STATE leaves RESPONSE_STATE as it is",
         |cnc, call| {
             if reads(call, RESPONSE_STATE)
@@ -150,7 +151,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             cnc.answer(call)
         }),
-    row("cnc.svc.request-state-0-resets-not", &["SVC-3"],
+    row("cnc.svc.request-state-0-resets-not", &[SVC_3],
         "a write of REQUEST_STATE resets RESPONSE to nothing in place of RESPONSE_STATE",
         |cnc, call| {
             let mut empty = false;
@@ -172,7 +173,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 _ => cnc.answer(call),
             }
         }),
-    row("cnc.svc.request-state-stays", &["SVC-4"],
+    row("cnc.svc.request-state-stays", &[SVC_4],
         "REQUEST_STATE stays as it is when the service has finished",
         |cnc, call| {
             if reads(call, REQUEST_STATE)
@@ -188,25 +189,25 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             cnc.answer(call)
         }),
-    row("cnc.svc.request-cleared", &["SVC-1", "SVC-2"], "REQUEST is empty as soon as REQUEST_STATE is set",
+    row("cnc.svc.request-cleared", &[SVC_1, SVC_2], "REQUEST is empty as soon as REQUEST_STATE is set",
         |cnc, call| if reads(call, REQUEST) && state(cnc, call, REQUEST_STATE) != 0 {
             cnc.answer(call).map(|bytes| vec![0; bytes.len()])
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.request-state-1", &["SVC-1"], "a REQUEST_STATE that is not 0 is read as 1",
+    row("cnc.svc.request-state-1", &[SVC_1], "a REQUEST_STATE that is not 0 is read as 1",
         |cnc, call| if reads(call, REQUEST_STATE) {
             number(cnc.answer(call), 0, |state| state.min(1))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-state-8-bit", &["SVC-1"], "of RESPONSE_STATE the lowest byte counts",
+    row("cnc.svc.response-state-8-bit", &[SVC_1], "of RESPONSE_STATE the lowest byte counts",
         |cnc, call| if reads(call, RESPONSE_STATE) {
             number(cnc.answer(call), 0, |state| state & 0xFF)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.by-other-names", &["SVC-1"], "the variables are called V.G.SERVICE_UUID and so on",
+    row("cnc.svc.by-other-names", &[SVC_1], "the variables are called V.G.SERVICE_UUID and so on",
         |cnc, call| {
             let name = text(call.data);
             match name.strip_prefix(b"V.G.SERVICE_") {
@@ -218,12 +219,12 @@ pub(super) const ROWS: &[CncSeed] = &[
                 None => cnc.answer(call),
             }
         }),
-    program("cnc.svc.program-waits-not", &["SVC-6"],
+    program("cnc.svc.program-waits-not", &[SVC_6],
         "the NC program reads RESPONSE without waiting for RESPONSE_STATE",
         Policy { awaits_response: false, ..Policy::DEFAULT }),
-    program("cnc.svc.program-state-first", &["SVC-12"],
+    program("cnc.svc.program-state-first", &[SVC_12],
         "the NC program writes REQUEST_STATE before UUID and REQUEST",
         Policy { state_first: true, ..Policy::DEFAULT }),
-    program("cnc.svc.program-waits-for-ever", &["SVC-8"], "the cycle that waits does not end after @P2",
+    program("cnc.svc.program-waits-for-ever", &[SVC_8], "the cycle that waits does not end after @P2",
         Policy { times_out: false, ..Policy::DEFAULT }),
 ];

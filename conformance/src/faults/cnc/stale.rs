@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
@@ -60,7 +61,7 @@ fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.sda.unit-runs-on", &["SDA-6"],
+    on("cnc.sda.unit-runs-on", &[SDA_6],
         "a unit that is shorter than the one read before it runs on with the rest of that",
         UNIT, |cnc, call| {
             let unit = cnc.whole(call)?;
@@ -69,7 +70,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().store(one(1), unit.clone());
             within_length(call, Ok([&unit[..], &[0]].concat()))
         }),
-    row("cnc.sda.absent-as-before", &["SDA-2"],
+    row("cnc.sda.absent-as-before", &[SDA_2],
         "an instance that is not there is answered as the one that was found last",
         |cnc, call| {
             let answer = cnc.answer(call)?;
@@ -82,7 +83,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 _ => Ok(answer),
             }
         }),
-    row("cnc.sda.blank-remains", &["SDA-11"], "a place that its axis has left reads as it was read last",
+    row("cnc.sda.blank-remains", &[SDA_11], "a place that its axis has left reads as it was read last",
         |cnc, call| match (is(call, &[Function::ReadElement]), occupied(cnc, call)) {
             (true, Some(true)) => {
                 let bytes = cnc.answer(call)?;
@@ -95,7 +96,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.dyn.count-never-falls", &["DYN-1"],
+    on("cnc.dyn.count-never-falls", &[DYN_1],
         "the number of parameters counts those that were there once and are gone",
         COUNT, |cnc, call| {
             let now = cnc.answer(call)?;
@@ -105,7 +106,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().store(key, most.clone());
             Ok(most)
         }),
-    on("cnc.dyn.index-remembered", &["DYN-4"],
+    on("cnc.dyn.index-remembered", &[DYN_4],
         "a value by index is that of the parameter which was first read by the index",
         BY_INDEX, |cnc, call| {
             let key = (group(call) & 0xFF, offset(call), call.data.to_vec());
@@ -118,7 +119,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let at = offset(call).wrapping_sub(1);
             cnc.at(&Call { data: &name, ..*call }, group(call), at)
         }),
-    on("cnc.dyn.name-after-error", &["DYN-2"],
+    on("cnc.dyn.name-after-error", &[DYN_2],
         "behind an index that was refused the next name is that of the first parameter",
         NAME, |cnc, call| {
             let answer = cnc.answer(call);
@@ -128,7 +129,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 answer => answer,
             }
         }),
-    on("cnc.var.extended-remains", &["VAR-16"],
+    on("cnc.var.extended-remains", &[VAR_16],
         "the extended description of V.G and V.A is the one of V.E that was read before",
         &[Function::DescribeExtended], |cnc, call| {
             let bytes = cnc.answer(call)?;
@@ -138,11 +139,11 @@ pub(super) const ROWS: &[CncSeed] = &[
             let kept = cnc.memory().get(&one(1)).unwrap_or_default();
             within_length(call, Ok(kept))
         }),
-    row("cnc.var.handle-slots", &["VAR-10"],
+    row("cnc.var.handle-slots", &[VAR_10],
         "16 handles are known at a time: the one after takes the place of the oldest, whose number \
          then stands for its variable",
         slots),
-    row("cnc.var.handle-channel-of-last", &["VAR-10", "VAR-11"],
+    row("cnc.var.handle-channel-of-last", &[VAR_10, VAR_11],
         "a handle is looked for in the channel in which a handle was last asked for",
         |cnc, call| match function(call) {
             Some(Function::HandleByName) => {
@@ -156,7 +157,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    sent("cnc.ads.target-of-first", &["ADS-5"],
+    sent("cnc.ads.target-of-first", &[ADS_5],
         "the target of every response is the address that asked first",
         |cnc, _, bytes| {
             let source = bytes.get(TARGET..SOURCE).unwrap_or_default().to_vec();
@@ -167,7 +168,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let first = memory.frame.clone();
             set(bytes, TARGET, &first)
         }),
-    sent("cnc.ads.source-port-of-before", &["ADS-5"],
+    sent("cnc.ads.source-port-of-before", &[ADS_5],
         "the source port of a response is the port that the request before was for",
         |cnc, request, bytes| {
             let port = u32::from(request.header().target.port.0);
@@ -175,7 +176,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let port = u16::try_from(if before == 0 { port } else { before }).unwrap_or_default();
             set(bytes, SOURCE.wrapping_add(6), &port.to_le_bytes())
         }),
-    sent("cnc.ads.result-stays", &["ADS-2", "ADS-4"],
+    sent("cnc.ads.result-stays", &[ADS_2, ADS_4],
         "the first Write behind a refusal has the result of that, and is done",
         |cnc, request, bytes| {
             let result = u32_at(&bytes, RESULT).unwrap_or_default();
@@ -191,12 +192,12 @@ pub(super) const ROWS: &[CncSeed] = &[
                 }
             }
         }),
-    sent("cnc.ads.refused-invoke-id-0", &["ADS-5"], "a refusal has the invoke ID 0",
+    sent("cnc.ads.refused-invoke-id-0", &[ADS_5], "a refusal has the invoke ID 0",
         |_, _, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) => set(bytes, INVOKE_ID, &[0; 4]),
             _ => bytes,
         }),
-    sent("cnc.ads.refused-data-length", &["ADS-5"],
+    sent("cnc.ads.refused-data-length", &[ADS_5],
         "the data length of a refused Read or ReadWrite counts the result alone, and not the length \
          behind it",
         |_, request, bytes| match u32_at(&bytes, RESULT) {
@@ -205,17 +206,17 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => bytes,
         }),
-    row("cnc.ads.read-length-16-bit-wide", &["ADS-1", "ADS-3", "ADS-4"],
+    row("cnc.ads.read-length-16-bit-wide", &[ADS_1, ADS_3, ADS_4],
         "of the read length the lower 16 bits count: 0x10002 is 2",
         |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
-    row("cnc.dyn.count-8-bytes", &["DYN-1"],
+    row("cnc.dyn.count-8-bytes", &[DYN_1],
         "the number of parameters takes 8 bytes where a Read has room for them",
         |cnc, call| if is(call, COUNT) && call.read_length >= 8 {
             cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.found-not-read", &["SDA-5", "ADR-7"],
+    row("cnc.sda.found-not-read", &[SDA_5, ADR_7],
         "of the position controller three axes are read, though all of them are found",
         |cnc, call| match group(call) & 0xFF_FFFF {
             0x12_0300..=0x12_08FF if offset(call) >= 0x4_0000 => Err(AdsError::INVALID_OFFSET),

@@ -5,6 +5,7 @@ use ads_cnc::streaming::{
     Ack, CheckEvent, Checker, Diagnostic, DiagnosticKind, LINE_END_ERROR, LineError, LoopWord,
     ProgramEnd, check_line_ends,
 };
+use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, program};
 use crate::simulator::program::{
@@ -14,15 +15,15 @@ use crate::simulator::program::{
 const RIGHT: Policy = Policy::DEFAULT;
 
 /// Bytes of the streaming interface that is too small.
-const NARROW: usize = 2048;
+const SMALL_BUFFER_LEN: usize = 2048;
 
 /// A streaming interface of half the size.
 #[derive(Debug, Default)]
-struct Narrow(StreamingInterface);
+struct SmallBuffer(StreamingInterface);
 
-impl Buffer for Narrow {
+impl Buffer for SmallBuffer {
     fn write(&mut self, data: &[u8]) -> Ack {
-        if self.0.len().saturating_add(data.len()) > NARROW {
+        if self.0.len().saturating_add(data.len()) > SMALL_BUFFER_LEN {
             Ack::Busy
         } else {
             self.0.write(data)
@@ -235,52 +236,52 @@ fn subroutines(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    program("cnc.stm.room-8188", &["STM-3"], "the interface holds up to 8188 bytes",
+    program("cnc.stm.room-8188", &[STM_3], "the interface holds up to 8188 bytes",
         Policy { buffer: || PacketBuffer::of(2 * STREAM_MAX, PacketBuffer::all), ..RIGHT }),
-    program("cnc.stm.room-2048", &["STM-3"], "the interface holds 2048 bytes",
-        Policy { buffer: || Box::new(Narrow::default()), ..RIGHT }),
-    program("cnc.stm.loops-run", &["STM-8"], "words of loops are run", Policy { segment: loops, ..RIGHT }),
-    program("cnc.stm.jumps-back-run", &["STM-8"], "a jump back is run",
+    program("cnc.stm.room-2048", &[STM_3], "the interface holds 2048 bytes",
+        Policy { buffer: || Box::new(SmallBuffer::default()), ..RIGHT }),
+    program("cnc.stm.loops-run", &[STM_8], "words of loops are run", Policy { segment: loops, ..RIGHT }),
+    program("cnc.stm.jumps-back-run", &[STM_8], "a jump back is run",
         Policy { segment: jumps_back, ..RIGHT }),
-    program("cnc.stm.jumps-back-forgotten", &["STM-8"], "a jump back to a label of an earlier read is run",
+    program("cnc.stm.jumps-back-forgotten", &[STM_8], "a jump back to a label of an earlier read is run",
         Policy { segment: forgets, ..RIGHT }),
-    program("cnc.stm.branches-whole", &["STM-8"],
+    program("cnc.stm.branches-whole", &[STM_8],
         "an $IF or $SWITCH without its end in the same read ends streaming",
         Policy { segment: whole_branches, ..RIGHT }),
-    program("cnc.stm.branches-refused", &["STM-19"], "$IF and $SWITCH end streaming, as loops do",
+    program("cnc.stm.branches-refused", &[STM_19], "$IF and $SWITCH end streaming, as loops do",
         Policy { segment: branches, ..RIGHT }),
-    program("cnc.stm.jumps-refused", &["STM-19"], "every $GOTO ends streaming",
+    program("cnc.stm.jumps-refused", &[STM_19], "every $GOTO ends streaming",
         Policy { segment: jumps, ..RIGHT }),
-    program("cnc.stm.comments-run", &["STM-9"], "a word of a loop in a comment ends streaming",
+    program("cnc.stm.comments-run", &[STM_9], "a word of a loop in a comment ends streaming",
         Policy { segment: comments, ..RIGHT }),
-    program("cnc.stm.end-ignored", &["STM-10"], "M2, M30, M17 and M29 end nothing",
+    program("cnc.stm.end-ignored", &[STM_10], "M2, M30, M17 and M29 end nothing",
         Policy { segment: no_end, ..RIGHT }),
-    program("cnc.stm.end-m30-only", &["STM-10"], "M30 ends a program, M2, M17 and M29 do not",
+    program("cnc.stm.end-m30-only", &[STM_10], "M30 ends a program, M2, M17 and M29 do not",
         Policy { segment: m30_only, ..RIGHT }),
-    program("cnc.stm.behind-end-run", &["STM-10"],
+    program("cnc.stm.behind-end-run", &[STM_10],
         "what was read with a program end is run before the program ends",
         Policy { segment: past_end, ..RIGHT }),
-    program("cnc.stm.end-empties", &["STM-10"], "a program end empties the interface",
+    program("cnc.stm.end-empties", &[STM_10], "a program end empties the interface",
         Policy { clears: &[ProgramEvent::Reset, ProgramEvent::End], ..RIGHT }),
-    program("cnc.stm.reset-keeps", &["STM-11"], "an NC reset leaves the interface as it is",
+    program("cnc.stm.reset-keeps", &[STM_11], "an NC reset leaves the interface as it is",
         Policy { clears: &[], ..RIGHT }),
-    program("cnc.stm.reset-goes-on", &["STM-11"], "an NC reset does not end streaming",
+    program("cnc.stm.reset-goes-on", &[STM_11], "an NC reset does not end streaming",
         Policy { ends: &[], ..RIGHT }),
-    program("cnc.stm.reads-packets", &["STM-12"], "the CNC reads one packet at a time",
+    program("cnc.stm.reads-packets", &[STM_12], "the CNC reads one packet at a time",
         Policy { buffer: || PacketBuffer::of(STREAM_MAX, PacketBuffer::first), ..RIGHT }),
-    program("cnc.stm.starts-itself", &["STM-14"], "streaming begins without a start",
+    program("cnc.stm.starts-itself", &[STM_14], "streaming begins without a start",
         Policy { starts: &[ProgramEvent::PowerOn, ProgramEvent::Reset], ..RIGHT }),
-    program("cnc.stm.starts-empty", &["STM-14"], "a start empties the interface",
+    program("cnc.stm.starts-empty", &[STM_14], "a start empties the interface",
         Policy { clears: &[ProgramEvent::Reset, ProgramEvent::Start], ..RIGHT }),
-    program("cnc.stm.reads-reversed", &["STM-15"], "packets that wait are taken last first",
+    program("cnc.stm.reads-reversed", &[STM_15], "packets that wait are taken last first",
         Policy { buffer: || PacketBuffer::of(STREAM_MAX, PacketBuffer::reversed), ..RIGHT }),
-    program("cnc.stm.dry-ends", &["STM-16"], "without more lines the program ends",
+    program("cnc.stm.dry-ends", &[STM_16], "without more lines the program ends",
         Policy { ends: &[ProgramEvent::Reset, ProgramEvent::Dry], ..RIGHT }),
-    program("cnc.stm.subroutine-ends", &["STM-18"],
+    program("cnc.stm.subroutine-ends", &[STM_18],
         "the M17 of a global subroutine ends the stream that calls it",
         Policy { segment: subroutines, ..RIGHT }),
-    program("cnc.stm.error-none", &["STM-5"], "a line without CR LF is skipped",
+    program("cnc.stm.error-none", &[STM_5], "a line without CR LF is skipped",
         Policy { buffer: || PacketBuffer::of(STREAM_MAX, PacketBuffer::whole_lines), ..RIGHT }),
-    program("cnc.stm.error-other", &["STM-5"], "the error of a line without CR LF is 21477",
+    program("cnc.stm.error-other", &[STM_5], "the error of a line without CR LF is 21477",
         Policy { line_end_error: LINE_END_ERROR + 1, ..RIGHT }),
 ];

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
@@ -21,7 +22,7 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> 
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.stm.object-renamed", &["STM-1"], "the object of the stream is called mc_program_stream",
+    row("cnc.stm.object-renamed", &[STM_1], "the object of the stream is called mc_program_stream",
         |cnc, call| {
             let mut answer = cnc.answer(call)?;
             if function(call) == Some(Function::ReadDescriptors) {
@@ -35,7 +36,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             Ok(answer)
         }),
-    row("cnc.stm.object-moved", &["STM-1"],
+    row("cnc.stm.object-moved", &[STM_1],
         "the stream is written at the offset 0x91, as its descriptor says",
         |cnc, call| match (stream(call), offset(call)) {
             (true, _) => Err(AdsError::INVALID_OFFSET),
@@ -55,18 +56,18 @@ pub(super) const ROWS: &[CncSeed] = &[
                 Ok(answer)
             }
         }),
-    row("cnc.stm.group-logical-only", &["STM-1", "ADR-12"],
+    row("cnc.stm.group-logical-only", &[STM_1, ADR_12],
         "the stream is written at 0x120100 + channel, and not at 0x20100 + channel",
         |cnc, call| if stream(call) && group(call) & LOGICAL == 0 {
             Err(AdsError::INVALID_GROUP)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.by-read-write", &["STM-1"], "the stream takes a ReadWrite, and no Write",
+    row("cnc.stm.by-read-write", &[STM_1], "the stream takes a ReadWrite, and no Write",
         |cnc, call| if stream(call) { Err(AdsError::SERVICE_NOT_SUPPORTED) } else { cnc.answer(call) }),
-    row("cnc.stm.first-channel", &["STM-1"], "what is written to the stream of any channel runs in channel 1",
+    row("cnc.stm.first-channel", &[STM_1], "what is written to the stream of any channel runs in channel 1",
         |cnc, call| if stream(call) { cnc.at(call, 0x12_0101, 0x90) } else { cnc.answer(call) }),
-    row("cnc.stm.packet-993", &["STM-2"], "a write of up to 1024 bytes is taken",
+    row("cnc.stm.packet-993", &[STM_2], "a write of up to 1024 bytes is taken",
         |cnc, call| if stream(call) && (993..=1024).contains(&call.data.len()) {
             let (one, other) = call.data.split_at_checked(512).unwrap_or_default();
             cnc.with(call, one)?;
@@ -74,25 +75,25 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-cut", &["STM-2"], "a write of more than 992 bytes is taken, and what is more is lost",
+    row("cnc.stm.packet-cut", &[STM_2], "a write of more than 992 bytes is taken, and what is more is lost",
         |cnc, call| if stream(call) && call.data.len() > 992 {
             cnc.with(call, call.data.get(..992).unwrap_or_default())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-991", &["STM-2"], "a write of 992 bytes is refused",
+    row("cnc.stm.packet-991", &[STM_2], "a write of 992 bytes is refused",
         |cnc, call| if stream(call) && call.data.len() == 992 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-512", &["STM-2"], "a write of more than 512 bytes is refused",
+    row("cnc.stm.packet-512", &[STM_2], "a write of more than 512 bytes is refused",
         |cnc, call| if stream(call) && call.data.len() > 512 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.never-full", &["STM-3", "STM-6"],
+    row("cnc.stm.never-full", &[STM_3, STM_6],
         "the interface is never full: what it has no room for is acknowledged and kept",
         |cnc, call| {
             let mut waiting = std::mem::take(&mut cnc.memory().later);
@@ -117,12 +118,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().later = waiting;
             answer
         }),
-    row("cnc.stm.full-lost", &["STM-6"], "what the interface has no room for is acknowledged and lost",
+    row("cnc.stm.full-lost", &[STM_6], "what the interface has no room for is acknowledged and lost",
         |cnc, call| match (stream(call), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.stm.taken-refused", &["STM-6"], "every fourth write is taken and acknowledged negatively",
+    row("cnc.stm.taken-refused", &[STM_6], "every fourth write is taken and acknowledged negatively",
         |cnc, call| if stream(call) {
             let done = cnc.answer(call);
             let mut memory = cnc.memory();
@@ -134,7 +135,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.full-for-good", &["STM-6"], "once full, the interface takes nothing any more",
+    row("cnc.stm.full-for-good", &[STM_6], "once full, the interface takes nothing any more",
         |cnc, call| if !stream(call) {
             cnc.answer(call)
         } else if cnc.memory().count > 0 {
@@ -144,11 +145,11 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.memory().count = u32::from(*error == AdsError::INVALID_DATA);
             })
         }),
-    row("cnc.stm.one-line", &["STM-4"], "of a write the first line is taken",
+    row("cnc.stm.one-line", &[STM_4], "of a write the first line is taken",
         |cnc, call| written(cnc, call, |data| {
             data.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default().to_vec()
         })),
-    row("cnc.stm.lines-merged", &["STM-4"], "the lines of a write are taken as one",
+    row("cnc.stm.lines-merged", &[STM_4], "the lines of a write are taken as one",
         |cnc, call| written(cnc, call, |data| {
             let (lines, end) =
                 data.split_at_checked(data.len().saturating_sub(2)).unwrap_or_default();
@@ -156,7 +157,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 lines.iter().map(|byte| if b"\r\n".contains(byte) { b' ' } else { *byte });
             one.chain(end.iter().copied()).collect()
         })),
-    row("cnc.stm.lf-mended", &["STM-5"], "a line that ends in LF alone is taken as one that ends in CR LF",
+    row("cnc.stm.lf-mended", &[STM_5], "a line that ends in LF alone is taken as one that ends in CR LF",
         |cnc, call| written(cnc, call, |data| {
             let lines = data.split_inclusive(|byte| *byte == b'\n');
             lines
@@ -167,12 +168,12 @@ pub(super) const ROWS: &[CncSeed] = &[
                 })
                 .collect()
         })),
-    row("cnc.stm.end-mended", &["STM-5"], "a last line without an end is given one",
+    row("cnc.stm.end-mended", &[STM_5], "a last line without an end is given one",
         |cnc, call| written(cnc, call, |data| match data {
             [.., b'\r' | b'\n'] => data.to_vec(),
             data => [data, b"\r\n"].concat(),
         })),
-    row("cnc.stm.end-awaited", &["STM-5"], "a line without an end is kept until the next write brings it",
+    row("cnc.stm.end-awaited", &[STM_5], "a line without an end is kept until the next write brings it",
         |cnc, call| if stream(call) {
             let key = (group(call), 0, Vec::new());
             let before = cnc.memory().get(&key).unwrap_or_default();
@@ -187,11 +188,11 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.upper-case", &["STM-7"], "the characters of a stream are made upper case",
+    row("cnc.stm.upper-case", &[STM_7], "the characters of a stream are made upper case",
         |cnc, call| written(cnc, call, <[u8]>::to_ascii_uppercase)),
-    row("cnc.stm.blanks-dropped", &["STM-7"], "blanks in a stream are dropped",
+    row("cnc.stm.blanks-dropped", &[STM_7], "blanks in a stream are dropped",
         |cnc, call| written(cnc, call, |data| data.iter().copied().filter(|byte| *byte != b' ').collect())),
-    row("cnc.stm.order-swapped", &["STM-15"], "of two writes the second is taken before the first",
+    row("cnc.stm.order-swapped", &[STM_15], "of two writes the second is taken before the first",
         |cnc, call| if stream(call) {
             let before = std::mem::take(&mut cnc.memory().later);
             match before.first() {
@@ -208,13 +209,13 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.taken-twice", &["STM-15"], "every write is taken twice", |cnc, call| {
+    row("cnc.stm.taken-twice", &[STM_15], "every write is taken twice", |cnc, call| {
         if stream(call) {
             cnc.answer(call)?;
         }
         cnc.answer(call)
     }),
-    row("cnc.stm.line-of-512", &["STM-20"], "a line of more than 510 characters is refused", |cnc, call| {
+    row("cnc.stm.line-of-512", &[STM_20], "a line of more than 510 characters is refused", |cnc, call| {
         let long = |line: &[u8]| line.len() > 512;
         if stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
             Err(AdsError::INVALID_SIZE)

@@ -26,14 +26,14 @@ pub(crate) struct Memory {
     /// Bytes by address and name.
     stored: Vec<(Key, Vec<u8>)>,
     /// Delayed requests.
-    pub(in crate::faults) later: Vec<Later>,
+    pub(in crate::faults) later: Vec<DelayedRequest>,
     /// A delayed frame.
     pub(in crate::faults) frame: Vec<u8>,
 }
 
 /// A delayed request.
 #[derive(Clone, Debug)]
-pub(in crate::faults) struct Later {
+pub(in crate::faults) struct DelayedRequest {
     port: AmsPort,
     service: Service,
     group: u32,
@@ -102,7 +102,7 @@ impl Upstream<'_> {
     }
 
     /// The right answer to a delayed request.
-    pub(in crate::faults) fn late(&self, later: &Later) -> ReplyData {
+    pub(in crate::faults) fn late(&self, later: &DelayedRequest) -> ReplyData {
         self.answer(&Call {
             port: later.port,
             service: later.service,
@@ -125,8 +125,8 @@ impl Upstream<'_> {
 }
 
 /// A copy of the request.
-pub(in crate::faults) fn later(call: &Call<'_>) -> Later {
-    Later {
+pub(in crate::faults) fn later(call: &Call<'_>) -> DelayedRequest {
+    DelayedRequest {
         port: call.port,
         service: call.service,
         group: group(call),
@@ -136,7 +136,7 @@ pub(in crate::faults) fn later(call: &Call<'_>) -> Later {
 }
 
 /// Delays the write until the next one, and executes the delayed one.
-pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
+pub(in crate::faults) fn delay_write(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc_vectors::ids::*;
 
 use super::handle::{joined, parts};
 use super::number::count;
@@ -52,7 +53,7 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.var.name-compared-8", &["VAR-9"],
+    row("cnc.var.name-compared-8", &[VAR_9],
         "names are compared by their first 8 characters if there is none that is the same",
         |cnc, call| match (is_query(call), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
@@ -63,7 +64,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    on("cnc.var.write-low-byte", &["VAR-12", "VAR-13"],
+    on("cnc.var.write-low-byte", &[VAR_12, VAR_13],
         "of a written value the first byte counts, the others stay",
         WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
@@ -72,7 +73,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             value.for_each(|(byte, old)| *byte = old);
             cnc.with(call, &data)
         }),
-    row("cnc.var.write-next-element", &["VAR-12"],
+    row("cnc.var.write-next-element", &[VAR_12],
         "a write of an element by handle writes the element behind it too",
         |cnc, call| match (is(call, WRITES), parts(call.data)) {
             (true, Some((handle, at, value)))
@@ -86,7 +87,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.write-refused-done", &["VAR-12", "VAR-13"],
+    row("cnc.var.write-refused-done", &[VAR_12, VAR_13],
         "a value of more bytes than the variable has is refused, and its front written",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -96,7 +97,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    row("cnc.var.write-read-only-refused-done", &["VAR-6"],
+    row("cnc.var.write-read-only-refused-done", &[VAR_6],
         "a write of what is READ_ONLY is refused, and its value read from then on",
         |cnc, call| {
             let key = (group(call), 0, text(call.data).to_vec());
@@ -113,7 +114,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 _ => cnc.answer(call),
             }
         }),
-    on("cnc.var.text-keeps-rest", &["VAR-12", "VAR-13", "VAR-25"],
+    on("cnc.var.text-keeps-rest", &[VAR_12, VAR_13, VAR_25],
         "of a text that is written shorter the old one stays behind it",
         WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
@@ -127,14 +128,14 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.with(call, &[head, text, rest].concat())
             }
         }),
-    row("cnc.var.extended-swapped", &["VAR-15"], "validity stands before synchronisation",
+    row("cnc.var.extended-swapped", &[VAR_15], "validity stands before synchronisation",
         |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
             if bytes.len() == 8 {
                 bytes.rotate_left(4);
             }
             bytes
         })),
-    on("cnc.var.description-before", &["VAR-3", "VAR-4"], "a description is that of the request before",
+    on("cnc.var.description-before", &[VAR_3, VAR_4], "a description is that of the request before",
         &[Function::DescribeByIndex], |cnc, call| {
             let own = cnc.answer(call)?;
             let key = (0, 0, b"before".to_vec());
@@ -142,7 +143,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().store(key, own);
             within_length(call, Ok(before))
         }),
-    on("cnc.var.axis-write-all", &["VAR-26"],
+    on("cnc.var.axis-write-all", &[VAR_26],
         "a write on the axis interface is one to all axes of the channel",
         &[Function::AxisWriteByName], |cnc, call| {
             let done = cnc.answer(call);
@@ -151,7 +152,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             done
         }),
-    row("cnc.var.axis-name-optional", &["VAR-26"],
+    row("cnc.var.axis-name-optional", &[VAR_26],
         "on the channel interface a name without its axis is that of the first",
         |cnc, call| match (of_decoder(call), text(call.data)) {
             (Some(at @ (0x46 | 0x48)), name)
@@ -163,7 +164,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.value-cached", &["VAR-13", "VAR-14"],
+    on("cnc.var.value-cached", &[VAR_13, VAR_14],
         "a value is read by name as it was when it was first read",
         &[Function::ReadByName], |cnc, call| {
             let key = (group(call), 1, text(call.data).to_vec());
@@ -175,7 +176,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 }),
             }
         }),
-    row("cnc.var.count-8-bit-of-indices", &["VAR-11", "VAR-24"],
+    row("cnc.var.count-8-bit-of-indices", &[VAR_11, VAR_24],
         "of the number of indices the lowest byte counts",
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 0x100..)) => {
@@ -185,7 +186,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.structure-index-beyond", &["VAR-20"],
+    row("cnc.var.structure-index-beyond", &[VAR_20],
         "an index within a name that is out of bounds is taken for 0",
         |cnc, call| match (is_query(call), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {

@@ -2,11 +2,12 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::ids::*;
 
 use super::variable::without_indices;
 use super::{
-    CncSeed, ReplyData, Upstream, WRITES, after_nul, function, group, is, of_decoder, on, put_off,
-    row, text,
+    CncSeed, ReplyData, Upstream, WRITES, after_nul, delay_write, function, group, is, of_decoder,
+    on, row, text,
 };
 
 const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
@@ -26,27 +27,27 @@ fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> ReplyDa
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.var.write-by-handle-ignored", &["VAR-12"], "a write by handle succeeds and changes nothing",
+    on("cnc.var.write-by-handle-ignored", &[VAR_12], "a write by handle succeeds and changes nothing",
         BY_HANDLE, |cnc, call| {
             let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
             let head = count.unwrap_or_default().saturating_mul(4).saturating_add(8);
             undone(cnc, call, 0x47, call.data.get(..head).unwrap_or_default())
         }),
-    on("cnc.var.write-by-name-ignored", &["VAR-13"], "a write by name succeeds and changes nothing",
+    on("cnc.var.write-by-name-ignored", &[VAR_13], "a write by name succeeds and changes nothing",
         BY_NAME, |cnc, call| undone(cnc, call, 0x48, &[text(call.data), &[0]].concat())),
-    on("cnc.var.write-late", &["VAR-12", "VAR-13"], "a write takes effect with the next one",
-        WRITES, put_off),
-    on("cnc.var.write-by-handle-refused", &["VAR-12"], "writes by handle are refused",
+    on("cnc.var.write-late", &[VAR_12, VAR_13], "a write takes effect with the next one",
+        WRITES, delay_write),
+    on("cnc.var.write-by-handle-refused", &[VAR_12], "writes by handle are refused",
         BY_HANDLE, |_, _| Err(AdsError::INVALID_ACCESS)),
-    on("cnc.var.write-by-name-refused", &["VAR-13"], "writes by name are refused",
+    on("cnc.var.write-by-name-refused", &[VAR_13], "writes by name are refused",
         BY_NAME, |_, _| Err(AdsError::INVALID_ACCESS)),
-    row("cnc.var.write-read-only-accepted", &["VAR-6"],
+    row("cnc.var.write-read-only-accepted", &[VAR_6],
         "a write of what is READ_ONLY succeeds, and changes nothing",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.var.write-read-only-done", &["VAR-6"], "what is READ_ONLY is written by name", |cnc, call| {
+    row("cnc.var.write-read-only-done", &[VAR_6], "what is READ_ONLY is written by name", |cnc, call| {
         let key = (group(call), 0, text(call.data).to_vec());
         match function(call) {
             Some(Function::WriteByName) => match cnc.answer(call) {
@@ -63,7 +64,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }
     }),
-    row("cnc.var.write-long-accepted", &["VAR-12", "VAR-13"],
+    row("cnc.var.write-long-accepted", &[VAR_12, VAR_13],
         "a value of more bytes than the variable has is cut and written",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -78,7 +79,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    row("cnc.var.write-element-whole", &["VAR-13"], "a write by name of an element is one of every element",
+    row("cnc.var.write-element-whole", &[VAR_13], "a write by name of an element is one of every element",
         |cnc, call| if is(call, BY_NAME) && text(call.data).ends_with(b"]") {
             let name = without_indices(text(call.data));
             let value = after_nul(call.data);
@@ -91,7 +92,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.write-element-first", &["VAR-13"], "a write by name of an element is one of the first",
+    row("cnc.var.write-element-first", &[VAR_13], "a write by name of an element is one of the first",
         |cnc, call| if is(call, BY_NAME) && text(call.data).ends_with(b"]") {
             let name = text(call.data);
             let path = without_indices(name);
@@ -101,12 +102,12 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.write-behind-256", &["VAR-13"], "a written value stands behind a name field of 256 bytes",
+    on("cnc.var.write-behind-256", &[VAR_13], "a written value stands behind a name field of 256 bytes",
         BY_NAME, |cnc, call| match call.data.split_at_checked(256) {
             Some((name, value)) => cnc.with(call, &[text(name), &[0], value].concat()),
             None => Err(AdsError::INVALID_SIZE),
         }),
-    row("cnc.var.write-big-endian", &["GEN-1", "VAR-13"],
+    row("cnc.var.write-big-endian", &[GEN_1, VAR_13],
         "values of 2 to 8 bytes are written with the most significant byte first",
         |cnc, call| if is(call, BY_NAME) && after_nul(call.data).len() <= 8 {
             let value: Vec<u8> = after_nul(call.data).iter().rev().copied().collect();
@@ -114,7 +115,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.write-added", &["VAR-12"], "a write by handle inverts the lowest bit of the value",
+    on("cnc.var.write-added", &[VAR_12], "a write by handle inverts the lowest bit of the value",
         BY_HANDLE, |cnc, call| {
             let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
             let head = count.unwrap_or_default().saturating_mul(4).saturating_add(8);
@@ -122,7 +123,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             data.iter_mut().skip(head).take(1).for_each(|byte| *byte ^= 1);
             cnc.with(call, &data)
         }),
-    row("cnc.var.write-other-channels", &["VAR-13"],
+    row("cnc.var.write-other-channels", &[VAR_13],
         "a write to a variable of channel 2 is one to that of channel 6 too",
         |cnc, call| if is(call, BY_NAME) && group(call) == 0x12_2302 {
             let done = cnc.answer(call);
@@ -133,13 +134,13 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.write-1024", &["VAR-12", "VAR-13"], "writes of more than 64 bytes are refused",
+    row("cnc.var.write-1024", &[VAR_12, VAR_13], "writes of more than 64 bytes are refused",
         |cnc, call| if is(call, WRITES) && call.data.len() > 64 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.write-unended", &["VAR-13"],
+    row("cnc.var.write-unended", &[VAR_13],
         "the name in a write ends before the last 4 bytes if there is no NUL",
         |cnc, call| match of_decoder(call) {
             Some(0x4A) if !call.data.contains(&0) && call.data.len() > 4 => {

@@ -3,6 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
+use ads_cnc_vectors::ids::*;
 
 use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
@@ -51,7 +52,7 @@ fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.com.string-runs-on", &["COM-5"],
+    row("cnc.com.string-runs-on", &[COM_5],
         "a STRING that is written over a longer one runs on with the rest of that",
         |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
             let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
@@ -60,7 +61,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.refused-write-done", &["COM-5"],
+    row("cnc.com.refused-write-done", &[COM_5],
         "a write of fewer bytes than a content has is refused, and those bytes are written",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -72,7 +73,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    on("cnc.sda.written-once", &["SDA-9"],
+    on("cnc.sda.written-once", &[SDA_9],
         "an element is written once: from then on it is refused, whatever its flag says",
         &[Function::WriteElement], |cnc, call| {
             let key = (group(call), offset(call), Vec::new());
@@ -83,7 +84,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().store(key, Vec::new());
             Ok(done)
         }),
-    row("cnc.sda.blank-written", &["SDA-11"],
+    row("cnc.sda.blank-written", &[SDA_11],
         "what is written at a place without an axis is taken and read there",
         |cnc, call| {
             let key = (group(call), offset(call), Vec::new());
@@ -101,7 +102,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 (_, answer) => answer,
             }
         }),
-    on("cnc.var.write-after-error", &["VAR-13"],
+    on("cnc.var.write-after-error", &[VAR_13],
         "the first write by name behind one that was refused succeeds and changes nothing",
         BY_NAME, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
@@ -111,7 +112,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().count = u32::from(done.is_err());
             done
         }),
-    on("cnc.stm.same-ignored", &["STM-4", "STM-15"],
+    on("cnc.stm.same-ignored", &[STM_4, STM_15],
         "a packet that is the same as the one before is taken for its repetition and ignored",
         STREAM, |cnc, call| {
             if cnc.memory().get(&one(instance(call))).as_deref() == Some(call.data) {
@@ -121,7 +122,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().store(one(instance(call)), call.data.to_vec());
             Ok(done)
         }),
-    on("cnc.stm.again-lost", &["STM-6"],
+    on("cnc.stm.again-lost", &[STM_6],
         "the first write behind one that was refused for now is acknowledged and lost",
         STREAM, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
@@ -131,7 +132,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().count = u32::from(done == Err(AdsError::INVALID_DATA));
             done
         }),
-    row("cnc.stm.full-in-part", &["STM-6"],
+    row("cnc.stm.full-in-part", &[STM_6],
         "of a write that there is no room for the first line is taken, and the whole is refused",
         |cnc, call| match (is(call, STREAM), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => {
@@ -140,7 +141,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             (_, answer) => answer,
         }),
-    on("cnc.stm.behind-end-lost", &["STM-10"],
+    on("cnc.stm.behind-end-lost", &[STM_10],
         "the packet that is written behind one with a program end is acknowledged and lost",
         STREAM, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
@@ -151,7 +152,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.memory().count = u32::from(ends);
             Ok(done)
         }),
-    row("cnc.svc.resets-once", &["SVC-3"],
+    row("cnc.svc.resets-once", &[SVC_3],
         "the first write of REQUEST_STATE in a channel sets RESPONSE_STATE to 0, no other does",
         |cnc, call| if writes(call, REQUEST_STATE) {
             let key = (instance(call), 0x5D, Vec::new());
@@ -178,7 +179,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             keep_response_state(cnc, call, false)
         }),
-    row("cnc.svc.response-runs-on", &["SVC-1", "SVC-5"],
+    row("cnc.svc.response-runs-on", &[SVC_1, SVC_5],
         "a RESPONSE that is shorter than the one before runs on with the rest of that",
         |cnc, call| if writes(call, RESPONSE) {
             let old = read(cnc, group(call), RESPONSE)?;
@@ -187,7 +188,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.finished-everywhere", &["SVC-4", "SVC-1"],
+    row("cnc.svc.finished-everywhere", &[SVC_4, SVC_1],
         "an answer in one channel ends the requests of all: their REQUEST_STATE becomes 0",
         |cnc, call| {
             let done = cnc.answer(call)?;
@@ -204,7 +205,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             Ok(done)
         }),
-    row("cnc.svc.request-by-handle-20", &["SVC-1"], "REQUEST is read by its handle up to its 20th character",
+    row("cnc.svc.request-by-handle-20", &[SVC_1], "REQUEST is read by its handle up to its 20th character",
         |cnc, call| if by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
             cnc.answer(call).map(|mut bytes| {
                 bytes.iter_mut().skip(20).for_each(|byte| *byte = 0);

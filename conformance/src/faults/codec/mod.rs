@@ -15,6 +15,7 @@ use row::is_number;
 use std::collections::BTreeMap;
 
 use ads_cnc::layout::Stream;
+use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{Expect, Vector, vectors};
 
 use super::seed::{How, Seed, SeedKind};
@@ -32,11 +33,10 @@ pub(super) fn seeds() -> Vec<Seed> {
     seeds.extend(swapped());
     seeds.extend(turned());
     let rows = [address::ROWS, nc::ROWS, packets::ROWS, strict::ROWS, text::ROWS, value::ROWS];
-    seeds.extend(
-        rows.into_iter().flatten().map(|row| {
-            seed(row.id.to_owned(), row.breaks.to_vec(), row.what.to_owned(), row.fault)
-        }),
-    );
+    seeds.extend(rows.into_iter().flatten().map(|row| {
+        let requirements = row.breaks.iter().map(|id| id.as_str()).collect();
+        seed(row.id.to_owned(), requirements, row.what.to_owned(), row.fault)
+    }));
     seeds
 }
 
@@ -152,7 +152,7 @@ fn turned() -> Vec<Seed> {
         any.then(|| {
             let what = format!("{}: numbers have the most significant byte first", layout.name);
             let id = format!("codec.big-endian.{}", layout.name);
-            seed(id, vec!["GEN-1", layout.clause], what, CodecFault::BigEndian(stream))
+            seed(id, vec![GEN_1.as_str(), layout.clause], what, CodecFault::BigEndian(stream))
         })
     };
     let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);

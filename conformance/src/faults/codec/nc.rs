@@ -1,6 +1,9 @@
 //! Rules of streaming in NC text (STM).
 
-use super::row::{CodecFault, CodecSeed, Right, accepted, refused, row};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
+
+use super::row::{CodecFault, CodecSeed, RightAnswer, accepted, refused, row};
 use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// The text with every line changed.
@@ -30,18 +33,23 @@ fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
 }
 
 /// Rejects NC text that contains this word, in any case.
-fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> Answer {
+fn refuses(right: RightAnswer<'_>, question: &Question, word: &[u8], clause: ClauseId) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
     if question.op == "check" && text.windows(word.len()).any(|part| part == word) {
-        refused(clause)
+        refused(clause.as_str())
     } else {
         right(question)
     }
 }
 
 /// Accepts text that is rejected for this reason.
-pub(super) fn accepts(right: Right<'_>, question: &Question, op: &str, class: &str) -> Answer {
+pub(super) fn accepts(
+    right: RightAnswer<'_>,
+    question: &Question,
+    op: &str,
+    class: &str,
+) -> Answer {
     match right(question) {
         Answer::Reject(Rejection { class: Some(found), .. })
             if question.op == op && found == class =>
@@ -61,25 +69,25 @@ pub(super) fn accepts(right: Right<'_>, question: &Question, op: &str, class: &s
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecSeed] = &[
-    row("codec.nc.blind-for", &["STM-8"], "$FOR is overlooked",
+    row("codec.nc.blind-for", &[STM_8], "$FOR is overlooked",
         CodecFault::Text(|text| without(text, "$FOR", "XFOR"))),
-    row("codec.nc.blind-endfor", &["STM-8"], "$ENDFOR is overlooked",
+    row("codec.nc.blind-endfor", &[STM_8], "$ENDFOR is overlooked",
         CodecFault::Text(|text| without(text, "$ENDFOR", "XENDFOR"))),
-    row("codec.nc.blind-do", &["STM-8"], "$DO is overlooked",
+    row("codec.nc.blind-do", &[STM_8], "$DO is overlooked",
         CodecFault::Text(|text| without(text, "$DO", "XDO"))),
-    row("codec.nc.blind-enddo", &["STM-8"], "$ENDDO is overlooked",
+    row("codec.nc.blind-enddo", &[STM_8], "$ENDDO is overlooked",
         CodecFault::Text(|text| without(text, "$ENDDO", "XENDDO"))),
-    row("codec.nc.blind-repeat", &["STM-8"], "$REPEAT is overlooked",
+    row("codec.nc.blind-repeat", &[STM_8], "$REPEAT is overlooked",
         CodecFault::Text(|text| without(text, "$REPEAT", "XREPEAT"))),
-    row("codec.nc.blind-until", &["STM-8"], "$UNTIL is overlooked",
+    row("codec.nc.blind-until", &[STM_8], "$UNTIL is overlooked",
         CodecFault::Text(|text| without(text, "$UNTIL", "XUNTIL"))),
-    row("codec.nc.blind-while", &["STM-8"], "$WHILE is overlooked",
+    row("codec.nc.blind-while", &[STM_8], "$WHILE is overlooked",
         CodecFault::Text(|text| without(text, "$WHILE", "XWHILE"))),
-    row("codec.nc.blind-endwhile", &["STM-8"], "$ENDWHILE is overlooked",
+    row("codec.nc.blind-endwhile", &[STM_8], "$ENDWHILE is overlooked",
         CodecFault::Text(|text| without(text, "$ENDWHILE", "XENDWHILE"))),
-    row("codec.nc.blind-jump", &["STM-8"], "$GOTO is overlooked",
+    row("codec.nc.blind-jump", &[STM_8], "$GOTO is overlooked",
         CodecFault::Text(|text| without(text, "$GOTO", "XGOTO"))),
-    row("codec.nc.blind-jump-packets", &["STM-8"], "a jump back into a packet before is overlooked",
+    row("codec.nc.blind-jump-packets", &[STM_8], "a jump back into a packet before is overlooked",
         CodecFault::Around(|right, question| {
             let packets = question.packets.clone().unwrap_or_default();
             let alone = |packet: Vec<u8>| {
@@ -94,24 +102,24 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 _ => right(question),
             }
         })),
-    row("codec.nc.jumps-refused", &["STM-19"], "every $GOTO is refused",
-        CodecFault::Around(|right, question| refuses(right, question, b"$GOTO", "STM-8"))),
-    row("codec.nc.branches-refused", &["STM-19", "STM-8"], "$IF is refused",
-        CodecFault::Around(|right, question| refuses(right, question, b"$IF", "STM-8"))),
-    row("codec.nc.switch-refused", &["STM-19", "STM-8"], "$SWITCH is refused",
-        CodecFault::Around(|right, question| refuses(right, question, b"$SWITCH", "STM-8"))),
-    row("codec.nc.subroutine-refused", &["STM-18"], "a call of a subroutine is refused",
-        CodecFault::Around(|right, question| refuses(right, question, b" L ", "STM-18"))),
-    row("codec.nc.comment-parentheses", &["STM-9"], "comments in parentheses are looked through",
+    row("codec.nc.jumps-refused", &[STM_19], "every $GOTO is refused",
+        CodecFault::Around(|right, question| refuses(right, question, b"$GOTO", STM_8))),
+    row("codec.nc.branches-refused", &[STM_19, STM_8], "$IF is refused",
+        CodecFault::Around(|right, question| refuses(right, question, b"$IF", STM_8))),
+    row("codec.nc.switch-refused", &[STM_19, STM_8], "$SWITCH is refused",
+        CodecFault::Around(|right, question| refuses(right, question, b"$SWITCH", STM_8))),
+    row("codec.nc.subroutine-refused", &[STM_18], "a call of a subroutine is refused",
+        CodecFault::Around(|right, question| refuses(right, question, b" L ", STM_18))),
+    row("codec.nc.comment-parentheses", &[STM_9], "comments in parentheses are looked through",
         CodecFault::Text(|text| bytes(text, b"()", b' '))),
-    row("codec.nc.comment-semicolon", &["STM-9"], "comments behind a semicolon are looked through",
+    row("codec.nc.comment-semicolon", &[STM_9], "comments behind a semicolon are looked through",
         CodecFault::Text(|text| bytes(text, b";", b' '))),
-    row("codec.nc.comment-block", &["STM-9"],
+    row("codec.nc.comment-block", &[STM_9],
         "what is between #COMMENT BEGIN and #COMMENT END is looked through",
         CodecFault::Text(|text| without(text, "#COMMENT", "XCOMMENT"))),
-    row("codec.nc.comment-block-never-ends", &["STM-9"], "#COMMENT END is overlooked",
+    row("codec.nc.comment-block-never-ends", &[STM_9], "#COMMENT END is overlooked",
         CodecFault::Text(|text| without(text, "END", "XXX"))),
-    row("codec.nc.comment-open", &["STM-9"], "a parenthesis that is not closed goes on in the next line",
+    row("codec.nc.comment-open", &[STM_9], "a parenthesis that is not closed goes on in the next line",
         CodecFault::Text(|text| {
             let mut open = false;
             text.iter()
@@ -121,22 +129,22 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 })
                 .collect()
         })),
-    row("codec.nc.comment-block-open", &["STM-9"], "a comment that is never ended is not told",
-        CodecFault::Around(|right, question| accepts(right, question, "check", "STM-9"))),
-    row("codec.nc.end-m2", &["STM-10"], "M2 is overlooked",
+    row("codec.nc.comment-block-open", &[STM_9], "a comment that is never ended is not told",
+        CodecFault::Around(|right, question| accepts(right, question, "check", STM_9.as_str()))),
+    row("codec.nc.end-m2", &[STM_10], "M2 is overlooked",
         CodecFault::Text(|text| without(text, "M2", "M9"))),
-    row("codec.nc.end-m30", &["STM-10"], "M30 is overlooked",
+    row("codec.nc.end-m30", &[STM_10], "M30 is overlooked",
         CodecFault::Text(|text| without(text, "M30", "M90"))),
-    row("codec.nc.end-m17", &["STM-10"], "M17 is overlooked",
+    row("codec.nc.end-m17", &[STM_10], "M17 is overlooked",
         CodecFault::Text(|text| without(text, "M17", "M90"))),
-    row("codec.nc.end-m29", &["STM-10"], "M29 is overlooked",
+    row("codec.nc.end-m29", &[STM_10], "M29 is overlooked",
         CodecFault::Text(|text| without(text, "M29", "M90"))),
-    row("codec.nc.next-program", &["STM-17"], "the next program is sent with the end of the one before",
+    row("codec.nc.next-program", &[STM_17], "the next program is sent with the end of the one before",
         CodecFault::Text(|text| {
             let ends = ["M2", "M30", "M17", "M29"];
             ends.iter().fold(text.to_vec(), |text, end| without(&text, end, "M9"))
         })),
-    row("codec.nc.end-m3", &["STM-10"], "M3 is taken for M30", CodecFault::Text(|text| {
+    row("codec.nc.end-m3", &[STM_10], "M3 is taken for M30", CodecFault::Text(|text| {
         let long = |line: &[u8]| match line
             .windows(3)
             .position(|part| part == b"M3 " || part == b"M3\r")

@@ -1,13 +1,13 @@
 //! A row of the tables of defects of a codec, and how a codec has each.
 
 use ads_cnc::layout::{FieldSpec, Stream, Type};
+use ads_cnc_vectors::ClauseId;
 use serde_json::Value as Json;
 
 use crate::codec::message::{Answer, Output, Question, Rejection};
 use crate::faults::{FieldChange, FieldDefect};
-use crate::judge::in_catalogue;
 
-pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
+pub(super) type RightAnswer<'a> = &'a dyn Fn(&Question) -> Answer;
 
 /// How a defect of a codec works.
 #[derive(Clone, Copy, Debug)]
@@ -29,11 +29,11 @@ pub(crate) enum CodecFault {
     /// Changes NC text before it is processed.
     Text(fn(&[u8]) -> Vec<u8>),
     /// Any other change.
-    Around(fn(Right<'_>, &Question) -> Answer),
+    Around(fn(RightAnswer<'_>, &Question) -> Answer),
 }
 
 impl CodecFault {
-    pub(crate) fn answer(self, right: Right<'_>, question: &Question) -> Answer {
+    pub(crate) fn answer(self, right: RightAnswer<'_>, question: &Question) -> Answer {
         let stream = question.stream.as_str();
         match self {
             Self::Accepts(class, of) => match right(question) {
@@ -106,7 +106,7 @@ pub(super) fn refused(class: &str) -> Answer {
 }
 
 /// Changes the value after `decode` and before `encode`.
-fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
+fn around_value(right: RightAnswer<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
     let mut other = question.clone();
     if let Some(fields) = &question.value
         && let Ok(mut value) = serde_json::to_value(fields)
@@ -141,7 +141,7 @@ fn swap(value: &mut Json, one: &str, other: &str) {
     }
 }
 
-fn big_endian(right: Right<'_>, question: &Question, stream: Stream) -> Answer {
+fn big_endian(right: RightAnswer<'_>, question: &Question, stream: Stream) -> Answer {
     let all = FieldDefect::of_stream(stream);
     let numbers = all.iter().filter(|one| one.change == FieldChange::SwapBytes && is_number(one));
     let turn = |bytes: &[u8]| numbers.clone().fold(bytes.to_vec(), |bytes, one| one.apply(&bytes));
@@ -165,16 +165,16 @@ pub(super) fn is_number(defect: &FieldDefect) -> bool {
 /// A row of the tables of defects.
 pub(super) struct CodecSeed {
     pub(super) id: &'static str,
-    pub(super) breaks: &'static [&'static str],
+    pub(super) breaks: &'static [ClauseId],
     pub(super) what: &'static str,
     pub(super) fault: CodecFault,
 }
 
 pub(super) const fn row(
     id: &'static str,
-    breaks: &'static [&'static str],
+    breaks: &'static [ClauseId],
     what: &'static str,
     fault: CodecFault,
 ) -> CodecSeed {
-    CodecSeed { id, breaks: in_catalogue(breaks), what, fault }
+    CodecSeed { id, breaks, what, fault }
 }

@@ -1,6 +1,8 @@
 //! Rejection of valid input.
 
-use super::row::{CodecFault, CodecSeed, Right, refused, row};
+use ads_cnc_vectors::ids::*;
+
+use super::row::{CodecFault, CodecSeed, RightAnswer, refused, row};
 use crate::codec::message::{Answer, Question};
 
 /// The UNS32 at an offset of the first input.
@@ -11,7 +13,7 @@ fn at(question: &Question, place: usize) -> Option<u32> {
 
 /// Rejects the bytes of a stream that match a condition.
 fn strict(
-    right: Right<'_>,
+    right: RightAnswer<'_>,
     question: &Question,
     stream: &str,
     is: impl FnOnce(&Question) -> bool,
@@ -25,31 +27,31 @@ fn strict(
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecSeed] = &[
-    row("codec.refuses.elementary", &["VAR-7"], "a description without dimensions is refused",
+    row("codec.refuses.elementary", &[VAR_7], "a description without dimensions is refused",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-description", |question| at(question, 16) == Some(0))
         })),
-    row("codec.refuses.arrays", &["VAR-4"], "a description of more than one dimension is refused",
+    row("codec.refuses.arrays", &[VAR_4], "a description of more than one dimension is refused",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-description", |question| {
                 at(question, 16).is_some_and(|m| m > 1)
             })
         })),
-    row("codec.refuses.whole", &["VAR-11"], "a read by handle without indices is refused",
+    row("codec.refuses.whole", &[VAR_11], "a read by handle without indices is refused",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-handle-read", |question| at(question, 4) == Some(0))
         })),
-    row("codec.refuses.extended-empty", &["VAR-16"], "an extended description without data is refused",
+    row("codec.refuses.extended-empty", &[VAR_16], "an extended description without data is refused",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-extended-description", |question| {
                 question.hex.as_ref().is_some_and(Vec::is_empty)
             })
         })),
-    row("codec.refuses.absent-instance", &["SDA-2"], "the object address (0, 0) is refused",
+    row("codec.refuses.absent-instance", &[SDA_2], "the object address (0, 0) is refused",
         CodecFault::Around(|right, question| {
             strict(right, question, "object-address", |question| at(question, 0) == Some(0))
         })),
-    row("codec.refuses.result-alone", &["ADS-6"],
+    row("codec.refuses.result-alone", &[ADS_6],
         "a reply that ends behind a result that is not 0 is refused",
         CodecFault::Around(|right, question| {
             let alone = question.hex.as_ref().is_some_and(|hex| hex.len() == 4);
@@ -59,12 +61,12 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 strict(right, question, "read-write-reply", |_| alone)
             }
         })),
-    row("codec.refuses.sum", &["VAR-1"], "the empty kind is refused", CodecFault::Around(|right, question| {
+    row("codec.refuses.sum", &[VAR_1], "the empty kind is refused", CodecFault::Around(|right, question| {
         strict(right, question, "variable-kind", |question| {
             question.hex.as_deref() == Some(&[0])
         })
     })),
-    row("codec.refuses.empty-packet", &["STM-2", "STM-4"], "a packet of more than one line is refused",
+    row("codec.refuses.empty-packet", &[STM_2, STM_4], "a packet of more than one line is refused",
         CodecFault::Around(|right, question| {
             strict(right, question, "program-stream", |question| {
                 question

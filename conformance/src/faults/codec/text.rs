@@ -1,6 +1,7 @@
 //! Texts (GEN, COM, VAR).
 
 use ads_cnc::text::cp1252_to_char;
+use ads_cnc_vectors::ids::*;
 
 use super::json::{numbers, texts};
 use super::row::{CodecFault, CodecSeed, row};
@@ -18,34 +19,34 @@ fn nul(stream: &str, of: &str, mut bytes: Vec<u8>) -> Vec<u8> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecSeed] = &[
-    row("codec.text.question-marks", &["GEN-3"],
+    row("codec.text.question-marks", &[GEN_3],
         "characters beyond ASCII are read and written as question marks",
         CodecFault::Value(|_, value| {
             texts(value, |bytes| {
                 bytes.into_iter().map(|byte| if byte.is_ascii() { byte } else { b'?' }).collect()
             })
         })),
-    row("codec.text.utf-8", &["GEN-3"], "texts are read and written in UTF-8", CodecFault::Value(|_, value| {
+    row("codec.text.utf-8", &[GEN_3], "texts are read and written in UTF-8", CodecFault::Value(|_, value| {
         texts(value, |bytes| {
             let text: String = bytes.iter().map(|byte| cp1252_to_char(*byte)).collect();
             text.into_bytes()
         })
     })),
-    row("codec.text.seven-bits", &["GEN-3"], "the highest bit of each character is dropped",
+    row("codec.text.seven-bits", &[GEN_3], "the highest bit of each character is dropped",
         CodecFault::Value(|_, value| {
             texts(value, |bytes| bytes.into_iter().map(|byte| byte & 0x7F).collect())
         })),
-    row("codec.text.upper-case", &["VAR-9", "DYN-3", "SDA-6", "COM-2", "SVC-9"],
+    row("codec.text.upper-case", &[VAR_9, DYN_3, SDA_6, COM_2, SVC_9],
         "texts are read and written in upper case",
         CodecFault::Value(|_, value| texts(value, |bytes| bytes.to_ascii_uppercase()))),
-    row("codec.text.cut-20", &["SDA-6", "VAR-4"], "texts have 20 characters at most",
+    row("codec.text.cut-20", &[SDA_6, VAR_4], "texts have 20 characters at most",
         CodecFault::Value(|_, value| {
             texts(value, |mut bytes| {
                 bytes.truncate(20);
                 bytes
             })
         })),
-    row("codec.text.service-cut", &["SVC-1", "VAR-13"], "values of strings have 80 characters at most",
+    row("codec.text.service-cut", &[SVC_1, VAR_13], "values of strings have 80 characters at most",
         CodecFault::Value(|stream, value| {
             if stream.starts_with("variable-value") || stream == "variable-name-write" {
                 texts(value, |mut bytes| {
@@ -54,21 +55,21 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 });
             }
         })),
-    row("codec.text.service-uuid", &["SVC-9"], "UUIDs are read and written in upper case",
+    row("codec.text.service-uuid", &[SVC_9], "UUIDs are read and written in upper case",
         CodecFault::Value(|_, value| {
             texts(value, |bytes| match bytes.len() {
                 36 => bytes.to_ascii_uppercase(),
                 _ => bytes,
             })
         })),
-    row("codec.nul.missing.variable-kind", &["VAR-1"], "kinds are written without a NUL",
+    row("codec.nul.missing.variable-kind", &[VAR_1], "kinds are written without a NUL",
         CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[0], bytes))),
-    row("codec.nul.missing.variable-index-kind", &["VAR-3"],
+    row("codec.nul.missing.variable-index-kind", &[VAR_3],
         "kinds behind an index are written without a NUL",
         CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[1], bytes))),
-    row("codec.nul.missing.variable-name", &["VAR-9"], "names are written without a NUL",
+    row("codec.nul.missing.variable-name", &[VAR_9], "names are written without a NUL",
         CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[2], bytes))),
-    row("codec.nul.missing.variable-name-write", &["VAR-13"],
+    row("codec.nul.missing.variable-name-write", &[VAR_13],
         "names before a value are written without a NUL",
         CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
@@ -77,7 +78,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
             }
             bytes
         })),
-    row("codec.nul.double.variable-name-write", &["VAR-13"],
+    row("codec.nul.double.variable-name-write", &[VAR_13],
         "two NULs are written behind a name before a value",
         CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
@@ -86,7 +87,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
             }
             bytes
         })),
-    row("codec.nul.field.variable-name-write", &["VAR-13"],
+    row("codec.nul.field.variable-name-write", &[VAR_13],
         "a value is written behind a name field of 256 bytes",
         CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
@@ -96,7 +97,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
             }
             bytes
         })),
-    row("codec.descriptor.blanks", &["COM-2"], "texts of descriptors are padded with blanks",
+    row("codec.descriptor.blanks", &[COM_2], "texts of descriptors are padded with blanks",
         CodecFault::Bytes(|stream, mut bytes| {
             if stream.starts_with("object-descriptor") {
                 for record in bytes.chunks_exact_mut(84) {
@@ -106,7 +107,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
             }
             bytes
         })),
-    row("codec.descriptor.access-inverted", &["COM-2"], "write access of a descriptor is inverted",
+    row("codec.descriptor.access-inverted", &[COM_2], "write access of a descriptor is inverted",
         CodecFault::Value(|_, value| {
             if let Some(access) = value.get_mut("write_access") {
                 numbers(access, &["UNS16"], |number| i128::from(number == 0));

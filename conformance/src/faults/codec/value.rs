@@ -1,5 +1,6 @@
 //! Numbers and lists (GEN, COM, SDA, VAR).
 
+use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;
 
 use super::json::{each, lists, numbers};
@@ -7,53 +8,53 @@ use super::row::{CodecFault, CodecSeed, row};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecSeed] = &[
-    row("codec.element.flag-inverted", &["SDA-9"], "the write flag is inverted",
+    row("codec.element.flag-inverted", &[SDA_9], "the write flag is inverted",
         CodecFault::Value(|stream, value| {
             if stream == "element-write-flag" {
                 numbers(value, &["BOOLEAN"], |number| i128::from(number == 0));
             }
         })),
-    row("codec.element.length-one-byte", &["SDA-8"], "of an element's length the first byte counts",
+    row("codec.element.length-one-byte", &[SDA_8], "of an element's length the first byte counts",
         CodecFault::Value(|stream, value| {
             if stream == "element-length" {
                 numbers(value, &["UNS32", "UNS16", "UNS08"], |number| number & 0xFF);
             }
         })),
-    row("codec.list.indices-reversed", &["VAR-11", "VAR-12"], "indices come in reverse order",
+    row("codec.list.indices-reversed", &[VAR_11, VAR_12], "indices come in reverse order",
         CodecFault::Value(|stream, value| {
             if stream != "variable-path" {
                 lists(value, "indices", |items| items.reverse());
             }
         })),
-    row("codec.list.indices-first", &["VAR-11", "VAR-12"], "of several indices there is the first",
+    row("codec.list.indices-first", &[VAR_11, VAR_12], "of several indices there is the first",
         CodecFault::Value(|stream, value| {
             if stream != "variable-path" {
                 lists(value, "indices", |items| items.truncate(1));
             }
         })),
-    row("codec.list.indices-none", &["VAR-11"], "indices are left out", CodecFault::Value(|stream, value| {
+    row("codec.list.indices-none", &[VAR_11], "indices are left out", CodecFault::Value(|stream, value| {
         if stream == "variable-handle-read" {
             lists(value, "indices", Vec::clear);
         }
     })),
-    row("codec.list.dimensions-reversed", &["VAR-4"], "dimensions come in reverse order",
+    row("codec.list.dimensions-reversed", &[VAR_4], "dimensions come in reverse order",
         CodecFault::Value(|_, value| lists(value, "dimensions", |items| items.reverse()))),
-    row("codec.list.dimensions-first", &["VAR-4"], "of several dimensions there is the first",
+    row("codec.list.dimensions-first", &[VAR_4], "of several dimensions there is the first",
         CodecFault::Value(|_, value| lists(value, "dimensions", |items| items.truncate(1)))),
-    row("codec.list.elements-reversed", &["VAR-14"], "elements of a value come in reverse order",
+    row("codec.list.elements-reversed", &[VAR_14], "elements of a value come in reverse order",
         CodecFault::Value(|_, value| lists(value, "value", |items| items.reverse()))),
-    row("codec.list.elements-first", &["VAR-14"], "of several elements of a value there is the first",
+    row("codec.list.elements-first", &[VAR_14], "of several elements of a value there is the first",
         CodecFault::Value(|_, value| lists(value, "value", |items| items.truncate(1)))),
-    row("codec.list.descriptors-same", &["COM-3"], "of several descriptors all are the first",
+    row("codec.list.descriptors-same", &[COM_3], "of several descriptors all are the first",
         CodecFault::Value(|_, value| {
             lists(value, "descriptors", |items| {
                 let first = items.first().cloned();
                 items.iter_mut().for_each(|item| *item = first.clone().unwrap_or_default());
             })
         })),
-    row("codec.list.descriptors-reversed", &["COM-3"], "several descriptors come in reverse order",
+    row("codec.list.descriptors-reversed", &[COM_3], "several descriptors come in reverse order",
         CodecFault::Value(|_, value| lists(value, "descriptors", |items| items.reverse()))),
-    row("codec.list.descriptors-last-missing", &["COM-3"], "the last of several descriptors is missing",
+    row("codec.list.descriptors-last-missing", &[COM_3], "the last of several descriptors is missing",
         CodecFault::Value(|_, value| {
             lists(value, "descriptors", |items| {
                 if items.len() > 1 {
@@ -61,10 +62,10 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 }
             })
         })),
-    row("codec.number.unsigned-31-bit", &["VAR-5", "VAR-14"],
+    row("codec.number.unsigned-31-bit", &[VAR_5, VAR_14],
         "UNS32 is read and written without its highest bit",
         CodecFault::Value(|_, value| numbers(value, &["UNS32"], |number| number & 0x7FFF_FFFF))),
-    row("codec.number.unsigned-signed", &["VAR-5", "VAR-14"], "unsigned numbers are read as signed ones",
+    row("codec.number.unsigned-signed", &[VAR_5, VAR_14], "unsigned numbers are read as signed ones",
         CodecFault::Value(|_, value| {
             numbers(value, &["UNS32"], |number| {
                 if number >> 31 == 1 { number.wrapping_sub(1 << 32) } else { number }
@@ -76,27 +77,27 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 if number >> 7 == 1 { number.wrapping_sub(1 << 8) } else { number }
             });
         })),
-    row("codec.number.signed-unsigned", &["VAR-5", "VAR-14"], "signed numbers are read as unsigned ones",
+    row("codec.number.signed-unsigned", &[VAR_5, VAR_14], "signed numbers are read as unsigned ones",
         CodecFault::Value(|_, value| {
             numbers(value, &["SGN32", "DINT"], |number| number.rem_euclid(1 << 32));
             numbers(value, &["SGN16", "INT"], |number| number.rem_euclid(1 << 16));
             numbers(value, &["SGN08", "SINT"], |number| number.rem_euclid(1 << 8));
         })),
-    row("codec.number.content-signed", &["COM-5"], "numbers of contents lose their sign",
+    row("codec.number.content-signed", &[COM_5], "numbers of contents lose their sign",
         CodecFault::Value(|stream, value| {
             if stream == "content" {
                 let signed = ["SGN08", "SGN16", "SGN32", "SINT", "INT", "DINT", "LINT"];
                 numbers(value, &signed, i128::abs);
             }
         })),
-    row("codec.number.types-from-0", &["VAR-5"], "codes of types are counted from 0",
+    row("codec.number.types-from-0", &[VAR_5], "codes of types are counted from 0",
         CodecFault::Value(|stream, value| {
             if let (true, Some(kind)) = (stream.starts_with("variable-desc"), value.get_mut("type"))
             {
                 numbers(kind, &["UNS32"], |number| number.saturating_sub(1));
             }
         })),
-    row("codec.number.access-from-0", &["VAR-6"], "codes of access are counted from 0",
+    row("codec.number.access-from-0", &[VAR_6], "codes of access are counted from 0",
         CodecFault::Value(|stream, value| {
             if let (true, Some(access)) =
                 (stream.starts_with("variable-desc"), value.get_mut("access"))
@@ -104,7 +105,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 numbers(access, &["UNS32"], |number| number.saturating_sub(1));
             }
         })),
-    row("codec.real.narrow", &["DYN-3", "VAR-14", "COM-5"], "REAL64 is rounded to a REAL32",
+    row("codec.real.narrow", &[DYN_3, VAR_14, COM_5], "REAL64 is rounded to a REAL32",
         CodecFault::Value(|_, value| {
             each(value, &mut |one| {
                 let bits =
@@ -122,7 +123,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 }
             })
         })),
-    row("codec.number.indices-in-bytes", &["VAR-11"], "the number of indices is written as a number of bytes",
+    row("codec.number.indices-in-bytes", &[VAR_11], "the number of indices is written as a number of bytes",
         CodecFault::Bytes(|stream, mut bytes| {
             if let (true, Some(count)) = (stream == "variable-handle-read", bytes.get_mut(4)) {
                 *count = count.wrapping_mul(4);

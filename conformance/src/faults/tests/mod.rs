@@ -12,7 +12,7 @@ use super::cnc::CncFault;
 use super::seed::How;
 use super::*;
 use crate::edition::Edition;
-use crate::testee::{self, Answer, Own, Question};
+use crate::testee::{self, Answer, CodecTestee, Question};
 use crate::{clients, suite};
 
 fn of_kind(kinds: &[SeedKind]) -> impl Iterator<Item = &'static Seed> {
@@ -70,10 +70,11 @@ fn questions() -> Vec<Question> {
 #[test]
 fn every_defect_of_a_codec_shows() {
     let questions = questions();
-    let right: Vec<Answer> = questions.iter().map(|one| Own::default().answer(one)).collect();
+    let right: Vec<Answer> =
+        questions.iter().map(|one| CodecTestee::default().answer(one)).collect();
     let cnc = Transcript::new(None, None).replies;
     let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
-        let own = Own { defect: Some((*seed).clone()) };
+        let own = CodecTestee { defect: Some((*seed).clone()) };
         let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;
         questions.iter().zip(&right).all(same)
             && !(seed.is_for_cnc() && Transcript::new(Some(seed), Some(&cnc)).differs)
@@ -87,7 +88,8 @@ fn every_must_can_be_broken() {
     let clients = clients::defects().iter().map(|defect| defect.requirement);
     let targets: BTreeSet<&str> =
         all().iter().flat_map(|seed| seed.requirements.iter().copied()).chain(clients).collect();
-    let reasons: BTreeMap<&str, &str> = without().iter().copied().collect();
+    let reasons: BTreeMap<&str, &str> =
+        without().iter().map(|&(id, reason)| (id.as_str(), reason)).collect();
     for one in requirements() {
         let must = one.level == Level::Must && one.excluded.is_none();
         let id = one.id.as_str();

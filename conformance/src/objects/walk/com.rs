@@ -8,12 +8,12 @@ use ads_cnc::operation::{CountObjects, ObjectList};
 
 use super::super::List;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
-use crate::session::Trouble;
+use crate::session::ToolError;
 
 type AddressSet = BTreeSet<(IndexGroup, IndexOffset)>;
 
 impl Walk<'_> {
-    pub(super) fn com(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
+    pub(super) fn com(&mut self, channels: &[Channel]) -> Result<(), ToolError> {
         let none = BTreeSet::new();
         let platform = self.list(ObjectList::PLATFORM, &none)?.unwrap_or_default();
         for &channel in channels {
@@ -36,7 +36,7 @@ impl Walk<'_> {
         &mut self,
         objects: ObjectList,
         known: &AddressSet,
-    ) -> Result<Option<AddressSet>, Trouble> {
+    ) -> Result<Option<AddressSet>, ToolError> {
         let Some(count) = self.count_objects(objects)? else { return Ok(None) };
         let list = List::from(objects);
         let is_selected = self.enter(list);
@@ -62,7 +62,7 @@ impl Walk<'_> {
     pub(super) fn count_objects(
         &mut self,
         list: impl Into<ObjectList>,
-    ) -> Result<Option<u32>, Trouble> {
+    ) -> Result<Option<u32>, ToolError> {
         let count: Option<ObjectCount> = self.decoded(CountObjects::new(list))?;
         Ok(count.map(|count| count.0).filter(|&count| count > 0))
     }

@@ -10,7 +10,7 @@ use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag, ObjectAddress};
 
 use super::super::{List, Object, ReportedAccess, ValueAddress};
 use super::{Attributes, CLASSES, Walk, Walker as _};
-use crate::session::Trouble;
+use crate::session::ToolError;
 use crate::values::Type;
 
 /// Maximum number that fits into an index offset.
@@ -22,7 +22,7 @@ const ALIKE_MAX: usize = 64;
 impl Walk<'_> {
     /// No manual specifies whether SDA or GEO serves a class: GEO is queried for classes that SDA
     /// does not have.
-    pub(super) fn elements(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
+    pub(super) fn elements(&mut self, channels: &[Channel]) -> Result<(), ToolError> {
         for class in CLASSES {
             self.task = Task::Sda;
             self.class(class, channels)?;
@@ -48,14 +48,14 @@ impl Walk<'_> {
         self.instances.iter().any(|first| first.class_group().class == class)
     }
 
-    fn class(&mut self, class: Class, channels: &[Channel]) -> Result<(), Trouble> {
+    fn class(&mut self, class: Class, channels: &[Channel]) -> Result<(), ToolError> {
         self.instances_of(class, channels, false, &mut |walk, channel, axis| {
             walk.instance(class, channel, axis)
         })
     }
 
     /// Adds the elements of an instance; returns whether the target has it.
-    fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, Trouble> {
+    fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, ToolError> {
         let query = FindInstance::new(class, channel, axis);
         let is_of_channel = class == Class::Spindle || channel > 0;
         let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);
@@ -89,7 +89,7 @@ impl Walk<'_> {
         list: List,
         class: Class,
         first: ElementAddress,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ToolError> {
         let Some(count) = self.count_elements(first)? else {
             self.note(list, "the number of its elements was refused");
             return Ok(());
@@ -116,7 +116,7 @@ impl Walk<'_> {
         element: ElementAddress,
         number: u32,
         name: CncString,
-    ) -> Result<Object, Trouble> {
+    ) -> Result<Object, ToolError> {
         let key = (class, matches!(list, List::Class { axis: Some(_), .. }), number);
         let alike = self.alike.get(&key).map(Vec::as_slice).unwrap_or_default();
         let known = alike.iter().find(|known| known.name == name && !self.options.exact);
@@ -142,7 +142,7 @@ impl Walk<'_> {
         &mut self,
         element: ElementAddress,
         name: CncString,
-    ) -> Result<Attributes, Trouble> {
+    ) -> Result<Attributes, ToolError> {
         let ty: Option<ElementText> = self.decoded(ReadElementType::new(element))?;
         let type_name = ty.map(|ty| ty.text.text).unwrap_or_default();
         let length: Option<ElementLength> = self.decoded(ReadElementLength::new(element))?;

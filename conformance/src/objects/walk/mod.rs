@@ -13,7 +13,7 @@ use ads_cnc::operation::{FindInstance, Request, Task};
 use ads_cnc::sda::ObjectAddress;
 
 use super::{List, Object, Pattern, ReportedAccess};
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::values::Type;
 pub use walker::GAP;
 use walker::NUMBER_MAX;
@@ -93,7 +93,7 @@ pub fn walk(
     session: &mut Session,
     options: &Options,
     watch: &mut dyn FnMut(WalkProgress),
-) -> Result<WalkResult, Trouble> {
+) -> Result<WalkResult, ToolError> {
     let found = WalkResult::default();
     let (list, instances, alike, task) = (None, Vec::new(), HashMap::new(), Task::Sda);
     let mut walk = Walk {
@@ -110,11 +110,11 @@ pub fn walk(
     };
     match walk.all() {
         Ok(()) => {}
-        Err(Trouble::Enough(why)) => {
+        Err(ToolError::Enough(why)) => {
             walk.found.notes.push(format!("not all is listed: {why}"));
             walk.found.is_cut = true;
         }
-        Err(trouble) => return Err(trouble),
+        Err(error) => return Err(error),
     }
     Ok(walk.found)
 }
@@ -133,7 +133,7 @@ struct Walk<'w> {
     /// The task that serves the current class: SDA or GEO.
     task: Task,
     /// The error if GEO is not queried.
-    geo: Result<(), Trouble>,
+    geo: Result<(), ToolError>,
     /// Attributes already read, by class, whether of an axis, and number: elements of other
     /// instances with the same name are assumed to have the same.
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
@@ -149,7 +149,7 @@ struct Attributes {
 }
 
 impl Walk<'_> {
-    fn all(&mut self) -> Result<(), Trouble> {
+    fn all(&mut self) -> Result<(), ToolError> {
         let channels = self.channels()?;
         if self.options.variables {
             return self.variables(&channels);
@@ -192,23 +192,23 @@ impl Walk<'_> {
         self.options.names.as_ref().is_none_or(|names| names.matches(&name.to_string()))
     }
 
-    fn add(&mut self, object: Object) -> Result<(), Trouble> {
+    fn add(&mut self, object: Object) -> Result<(), ToolError> {
         if usize::try_from(OBJECTS_MAX).is_ok_and(|most| self.found.objects.len() >= most) {
-            return Err(Trouble::Enough(format!("{OBJECTS_MAX} objects were found")));
+            return Err(ToolError::Enough(format!("{OBJECTS_MAX} objects were found")));
         }
         let unit = object.unit.as_ref().map_or(0, |unit| unit.as_bytes().len());
         let names = object.name.as_bytes().len().saturating_add(unit);
         self.names = self.names.saturating_add(names);
         if self.names > NAMES_MAX {
             let why = format!("their names have more than {} MiB", NAMES_MAX >> 20);
-            return Err(Trouble::Enough(why));
+            return Err(ToolError::Enough(why));
         }
         self.found.objects.push(object);
         Ok(())
     }
 
     /// The active channels.
-    fn channels(&mut self) -> Result<Vec<Channel>, Trouble> {
+    fn channels(&mut self) -> Result<Vec<Channel>, ToolError> {
         if !self.options.channels.is_empty() {
             return self.channels_given();
         }
@@ -235,7 +235,7 @@ impl Walk<'_> {
     }
 
     /// The channels of the options that the target has, each once.
-    fn channels_given(&mut self) -> Result<Vec<Channel>, Trouble> {
+    fn channels_given(&mut self) -> Result<Vec<Channel>, ToolError> {
         let mut found = Vec::new();
         for &channel in &self.options.channels {
             if found.contains(&channel) {
@@ -251,22 +251,25 @@ impl Walk<'_> {
         Ok(found)
     }
 
-    fn is_instance(&mut self, query: FindInstance) -> Result<bool, Trouble> {
+    fn is_instance(&mut self, query: FindInstance) -> Result<bool, ToolError> {
         let found: Option<ObjectAddress> = self.decoded(query)?;
         Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
     }
 }
 
 impl Walker for Walk<'_> {
-    type Error = Trouble;
+    type Error = ToolError;
 
-    fn request<'r>(&mut self, request: impl Into<Request<'r>>) -> Result<Option<Vec<u8>>, Trouble> {
+    fn request<'r>(
+        &mut self,
+        request: impl Into<Request<'r>>,
+    ) -> Result<Option<Vec<u8>>, ToolError> {
         let (request, is_geo) = (request.into(), self.task == Task::Geo);
         if is_geo && self.geo.is_err() {
             return Ok(None);
         }
         if self.found.requests >= REQUESTS_MAX {
-            return Err(Trouble::Enough(format!("{REQUESTS_MAX} requests were sent")));
+            return Err(ToolError::Enough(format!("{REQUESTS_MAX} requests were sent")));
         }
         self.found.requests = self.found.requests.saturating_add(1);
         if let Some(list) = self.list {
@@ -276,13 +279,13 @@ impl Walker for Walk<'_> {
         let task = if is_geo { Task::Geo } else { request.function().spec().task };
         match self.session.request(task, request) {
             Ok(data) => Ok(Some(data)),
-            Err(Trouble::Ads { .. }) => Ok(None),
+            Err(ToolError::Ads { .. }) => Ok(None),
             // GEO is optional.
-            Err(trouble @ (Trouble::Ams { .. } | Trouble::NoAnswer(_))) if is_geo => {
-                self.geo = Err(trouble);
+            Err(error @ (ToolError::Ams { .. } | ToolError::NoAnswer(_))) if is_geo => {
+                self.geo = Err(error);
                 Ok(None)
             }
-            Err(trouble) => Err(trouble),
+            Err(error) => Err(error),
         }
     }
 }

@@ -7,10 +7,10 @@ use ads_cnc::{Description, VariableCount};
 
 use super::super::{List, Object};
 use super::{KINDS, OBJECTS_MAX, Walk, Walker as _};
-use crate::session::Trouble;
+use crate::session::ToolError;
 
 impl Walk<'_> {
-    pub(super) fn variables(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
+    pub(super) fn variables(&mut self, channels: &[Channel]) -> Result<(), ToolError> {
         for &channel in channels {
             let number = channel.number();
             for (name, kind) in KINDS {
@@ -35,7 +35,7 @@ impl Walk<'_> {
                 self.by_index(list, count.map(|count| count.0), 1, |walk, index| {
                     let request = DynamicNameByIndex::new(channel, kind, index);
                     let name: Option<DynamicName> =
-                        walk.decoded(request.map_err(Trouble::Unsendable)?)?;
+                        walk.decoded(request.map_err(ToolError::Unsendable)?)?;
                     Ok(name.map(|name| Object::of_parameter(channel, kind, name.name.text)))
                 })?;
             }
@@ -49,8 +49,8 @@ impl Walk<'_> {
         list: List,
         count: Option<u32>,
         first: u32,
-        mut object: impl FnMut(&mut Self, u32) -> Result<Option<Object>, Trouble>,
-    ) -> Result<(), Trouble> {
+        mut object: impl FnMut(&mut Self, u32) -> Result<Option<Object>, ToolError>,
+    ) -> Result<(), ToolError> {
         let Some(count) = count else {
             self.note(list, "their number was refused");
             return Ok(());

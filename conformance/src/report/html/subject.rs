@@ -111,7 +111,7 @@ fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
         rank(one).cmp(&rank(other)).then_with(|| one.id.cmp(&other.id))
     });
     let counts = chips(cases.iter().map(|case| (case.verdict, case.waived)));
-    let folded = cases.iter().all(|case| case.waived || !case.verdict.is_trouble());
+    let folded = cases.iter().all(|case| case.waived || !case.verdict.fails_run());
     let cases = cases.into_iter().map(case).collect();
     GroupView { title, counts, folded, cases }
 }

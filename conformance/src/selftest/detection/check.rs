@@ -2,7 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{Detection, DetectionRow, DetectionTable, Figures, Found, Mode, hash, inputs, measure};
+use super::{
+    Detection, DetectionResult, DetectionRow, DetectionTable, Figures, Mode, hash, inputs, measure,
+};
 use crate::faults::Seed;
 use crate::judge::order;
 use crate::selftest::parallel::parallel;
@@ -68,7 +70,7 @@ impl CheckedTable {
                     differences.extend(differing(published.row(seed), &row));
                     rows.push(row);
                 }
-                Err(trouble) => differences.push(format!("{}: {trouble}", seed.id)),
+                Err(error) => differences.push(format!("{}: {error}", seed.id)),
             }
         }
         let measured = rows.len();
@@ -144,7 +146,7 @@ impl DetectionTable {
     /// The missed defects of a mode, each with the request that would have detected it.
     pub fn missed(&self, mode: Mode) -> impl Iterator<Item = (&DetectionRow, &str)> {
         self.rows.iter().filter_map(move |row| match row.modes.get(&mode).map(|one| &one.result) {
-            Some(Found::Missed(request)) => Some((row, request.as_str())),
+            Some(DetectionResult::Missed(request)) => Some((row, request.as_str())),
             _ => None,
         })
     }

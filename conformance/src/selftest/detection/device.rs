@@ -13,7 +13,7 @@ use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::{CaseOutcome, Needs, Selection};
 use crate::objects::{self, Object, Options};
 use crate::profile::Profile;
-use crate::session::{Session, Trouble};
+use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite;
 
@@ -35,8 +35,8 @@ pub(super) struct Device {
 }
 
 impl Device {
-    fn new(model: &'static str, settings: Settings) -> Result<Self, Trouble> {
-        let internal = |error| Trouble::Internal(format!("the model: {error}"));
+    fn new(model: &'static str, settings: Settings) -> Result<Self, ToolError> {
+        let internal = |error| ToolError::Internal(format!("the model: {error}"));
         let built = Model::with_settings(model, "the model", settings).map_err(internal)?;
         let profile = built.profile();
         let allowed = everything_writable(Cnc::new(built), &profile)?;
@@ -51,7 +51,7 @@ impl Device {
     }
 
     /// The CNC of the default model with an edition.
-    fn of_edition(edition: Edition) -> Result<&'static Self, Trouble> {
+    fn of_edition(edition: Edition) -> Result<&'static Self, ToolError> {
         static ENGLISH: OnceLock<Device> = OnceLock::new();
         static GERMAN: OnceLock<Device> = OnceLock::new();
         let device = match edition {
@@ -63,19 +63,19 @@ impl Device {
             // Another thread may have set an equal one.
             let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
         }
-        device.get().ok_or_else(|| Trouble::Internal("no device".to_owned()))
+        device.get().ok_or_else(|| ToolError::Internal("no device".to_owned()))
     }
 
     /// A CNC of this device, optionally with a defect.
-    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
-        let internal = |error| Trouble::Internal(format!("the model: {error}"));
+    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
+        let internal = |error| ToolError::Internal(format!("the model: {error}"));
         let model = Model::with_settings(self.model, "the model", self.settings);
         let cnc = Cnc::new(model.map_err(internal)?).with_stopped_clock();
         Ok(Arc::new(Faulty::new(cnc, seed)))
     }
 
     /// The digests of the answers without a defect to every request that a mode may send.
-    pub(super) fn correct_answers(&self, mode: Mode) -> Result<&[u64], Trouble> {
+    pub(super) fn correct_answers(&self, mode: Mode) -> Result<&[u64], ToolError> {
         let [queries, writes, all] = &self.right;
         let right = match mode {
             Mode::ReadOnly | Mode::Profiled => queries,
@@ -93,10 +93,10 @@ impl Device {
         &self,
         seed: Option<&Seed>,
         mode: Mode,
-    ) -> Result<Vec<CaseOutcome>, Trouble> {
+    ) -> Result<Vec<CaseOutcome>, ToolError> {
         let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
         let mut session = Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
-        if session.greet(&profile).is_err() {
+        if session.check_reachable(&profile).is_err() {
             // For a device without any answer `run` makes no report.
             return Ok(Vec::new());
         }
@@ -104,7 +104,7 @@ impl Device {
         let mut session = suite::TargetState::new(client, profile);
         let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
         let plan = Selection::default().plan(cases, 1);
-        let plan = plan.map_err(|error| Trouble::Internal(error.to_string()))?;
+        let plan = plan.map_err(|error| ToolError::Internal(error.to_string()))?;
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), None, 1);
         Ok(plan.finish(outcomes).0)
     }
@@ -112,7 +112,7 @@ impl Device {
 
 /// The complete file of `--allow-write`: each value that the CNC describes as writable, and the
 /// writable values it does not list.
-fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
+fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = Session::in_process(cnc, Gate::queries())?;
     let mut entries = Vec::new();
@@ -123,7 +123,7 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> 
         let writable = writable.filter(|one| !profile.leaves(&one.name.to_string()));
         entries.extend(writable.map(Object::entry));
     }
-    let parse = |name: &str| name.parse().map_err(|_| Trouble::Internal(name.to_owned()));
+    let parse = |name: &str| name.parse().map_err(|_| ToolError::Internal(name.to_owned()));
     for channel in profile.channels.iter().filter_map(|&number| Channel::new(number).ok()) {
         entries.extend([Entry::Stream(channel), Entry::Service(channel)]);
         for axis in (1..=3).filter_map(|place| ChannelAxis::new(place).ok()) {
@@ -144,7 +144,7 @@ pub(super) fn answers(
     seed: Option<&Seed>,
     mode: Mode,
     right: Option<&[u64]>,
-) -> Result<RecordedAnswers, Trouble> {
+) -> Result<RecordedAnswers, ToolError> {
     let cnc = device.cnc(seed)?;
     let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
@@ -152,7 +152,7 @@ pub(super) fn answers(
 }
 
 /// The device with this model, which is that of a valid variant.
-fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
+fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
     static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
     let devices = DEVICES.get_or_init(Mutex::default);
     let mut devices = devices.lock().unwrap_or_else(PoisonError::into_inner);
@@ -167,7 +167,7 @@ fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
 
 /// The CNCs to try a defect on: with the edition in which it is detectable, or with both; for a
 /// variant with a model of its own, that model.
-pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
+pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, ToolError> {
     if let Some(model) = seed.own_model() {
         return of_model(model).map(|device| vec![device]);
     }

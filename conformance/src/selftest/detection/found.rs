@@ -41,14 +41,14 @@ impl Mode {
 /// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detection {
-    pub result: Found,
+    pub result: DetectionResult,
     pub requirements: BTreeSet<String>,
     pub cases: BTreeSet<String>,
 }
 
 /// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum DetectionResult {
     /// A requirement of the defect's row fails.
     Caught,
     /// Only other requirements fail.

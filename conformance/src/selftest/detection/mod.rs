@@ -17,19 +17,19 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::faults::Seed;
 use crate::judge::Verdict;
-use crate::session::Trouble;
+use crate::session::ToolError;
 
-use super::tried::{Outcomes, judge};
+use super::tried::{TrialResult, judge};
 pub use check::{CheckedTable, SAMPLE, Scope};
 use device::{answers, devices};
-pub use found::{Detection, Found, Mode};
+pub use found::{Detection, DetectionResult, Mode};
 pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 
 /// Measures a defect, or a valid variant, in every mode.
 ///
 /// # Errors
 /// An error of the suite, or of the simulated CNC.
-pub fn measure(seed: &Seed) -> Result<DetectionRow, Trouble> {
+pub fn measure(seed: &Seed) -> Result<DetectionRow, ToolError> {
     let detect = |mode| detect(seed, mode).map(|detection| (mode, detection));
     let modes = Mode::ALL.into_iter().map(detect).collect::<Result<BTreeMap<_, _>, _>>()?;
     Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
@@ -40,7 +40,7 @@ pub fn measure(seed: &Seed) -> Result<DetectionRow, Trouble> {
 ///
 /// # Errors
 /// An error of the simulated CNC.
-pub fn hash(seed: &Seed) -> Result<String, Trouble> {
+pub fn hash(seed: &Seed) -> Result<String, ToolError> {
     let devices = devices(seed)?;
     let Seed { id, requirements, what, edition, .. } = seed;
     let mut text = format!("{id} {requirements:?} {what} {edition:?}");
@@ -53,30 +53,32 @@ pub fn hash(seed: &Seed) -> Result<String, Trouble> {
 }
 
 /// The result of a defect in a mode: on the CNC of each edition, until it is caught.
-fn detect(seed: &Seed, mode: Mode) -> Result<Detection, Trouble> {
+fn detect(seed: &Seed, mode: Mode) -> Result<Detection, ToolError> {
     let devices = devices(seed)?;
     let mut outcomes = Vec::new();
     for device in &devices {
         outcomes.extend(device.outcomes(Some(seed), mode)?);
-        if judge(&seed.requirements, &outcomes).1 == Outcomes::Caught {
+        if judge(&seed.requirements, &outcomes).1 == TrialResult::Caught {
             break;
         }
     }
     let (failed, result) = judge(&seed.requirements, &outcomes);
     let result = match result {
-        Outcomes::Caught | Outcomes::Elsewhere if witness::is_right(seed).is_some() => Found::Alarm,
-        Outcomes::Caught => Found::Caught,
-        Outcomes::Quiet => Found::Quiet,
-        Outcomes::FalseAlarm => Found::Alarm,
-        Outcomes::Broken => return Err(Trouble::Internal(failed.join(" "))),
-        _ if !failed.is_empty() => Found::Elsewhere,
+        TrialResult::Caught | TrialResult::Elsewhere if witness::is_right(seed).is_some() => {
+            DetectionResult::Alarm
+        }
+        TrialResult::Caught => DetectionResult::Caught,
+        TrialResult::Quiet => DetectionResult::Quiet,
+        TrialResult::FalseAlarm => DetectionResult::Alarm,
+        TrialResult::Broken => return Err(ToolError::Internal(failed.join(" "))),
+        _ if !failed.is_empty() => DetectionResult::Elsewhere,
         _ => witness::of(seed, &devices, mode)?,
     };
     // A requirement below must is caught by a warning.
     let counts = |id: &str, verdict: Verdict| match verdict {
         Verdict::Fail | Verdict::Vacuous => true,
         Verdict::Warning | Verdict::Differs => {
-            result == Found::Caught && seed.requirements.contains(&id)
+            result == DetectionResult::Caught && seed.requirements.contains(&id)
         }
         _ => false,
     };

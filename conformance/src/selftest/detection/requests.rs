@@ -50,7 +50,7 @@ struct ContentAddress {
 }
 
 /// A CNC, and the digest of each of its answers.
-pub(super) struct Dialogue<'t> {
+pub(super) struct AnswerRecorder<'t> {
     client: Client,
     cnc: Arc<Cnc>,
     right: Option<&'t [u64]>,
@@ -75,7 +75,7 @@ pub(super) fn ask_everything(
     cnc: Arc<Cnc>,
     right: Option<&[u64]>,
 ) -> RecordedAnswers {
-    let mut dialogue = Dialogue {
+    let mut dialogue = AnswerRecorder {
         client,
         cnc,
         right,
@@ -86,14 +86,14 @@ pub(super) fn ask_everything(
         contents: Vec::new(),
     };
     dialogue.everything();
-    let Dialogue { answers, mut difference, .. } = dialogue;
+    let AnswerRecorder { answers, mut difference, .. } = dialogue;
     if difference.is_none() && right.is_some_and(|right| right.len() != answers.len()) {
         difference = Some("the end: the other CNC is asked more".to_owned());
     }
     RecordedAnswers { answers, difference }
 }
 
-impl Dialogue<'_> {
+impl AnswerRecorder<'_> {
     fn everything(&mut self) {
         self.queries();
         if self.client.gate().may_let_writes_pass() {

@@ -9,7 +9,7 @@ use std::fmt::{self, Write as _};
 
 use serde::Serialize;
 
-use super::found::{Detection, Found, Mode};
+use super::found::{Detection, DetectionResult, Mode};
 use crate::faults::{self, Seed, SeedKind};
 use crate::simulator::DEFAULT_MODEL;
 use crate::simulator::program::digest;
@@ -90,12 +90,12 @@ impl DetectionTable {
         for row in &self.rows {
             let Some(detection) = row.modes.get(&mode) else { continue };
             let count = match &detection.result {
-                Found::Caught => &mut figures.caught,
-                Found::Elsewhere => &mut figures.elsewhere,
-                Found::Missed(_) => &mut figures.missed,
-                Found::Undetectable(_) => &mut figures.undetectable,
-                Found::Quiet => &mut figures.quiet,
-                Found::Alarm => &mut figures.alarms,
+                DetectionResult::Caught => &mut figures.caught,
+                DetectionResult::Elsewhere => &mut figures.elsewhere,
+                DetectionResult::Missed(_) => &mut figures.missed,
+                DetectionResult::Undetectable(_) => &mut figures.undetectable,
+                DetectionResult::Quiet => &mut figures.quiet,
+                DetectionResult::Alarm => &mut figures.alarms,
             };
             *count += 1;
         }
@@ -162,7 +162,7 @@ impl DetectionTable {
             };
             let words = |words: &str| words.split_whitespace().map(str::to_owned).collect();
             let detection = Detection {
-                result: Found::of_words(result, shown)?,
+                result: DetectionResult::of_words(result, shown)?,
                 requirements: words(requirements),
                 cases: words(cases),
             };
@@ -211,7 +211,7 @@ impl DetectionTable {
     }
 }
 
-impl fmt::Display for Found {
+impl fmt::Display for DetectionResult {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.words() {
             (result, "") => f.write_str(result),
@@ -220,7 +220,7 @@ impl fmt::Display for Found {
     }
 }
 
-impl Found {
+impl DetectionResult {
     fn words(&self) -> (&'static str, &str) {
         match self {
             Self::Caught => ("caught", ""),

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 
 use super::device::{Device, Variants, answers};
-use super::found::{Found, Mode};
+use super::found::{DetectionResult, Mode};
 use super::requests::RecordedAnswers;
 use crate::faults::{self, FieldChange, FieldDefect, Seed, SeedKind};
-use crate::session::Trouble;
+use crate::session::ToolError;
 
 /// Fields with arbitrary values: a one-to-one change of them gives a right CNC too. Stream, field,
 /// changes, and why.
@@ -50,9 +50,13 @@ pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
 }
 
 /// The witness, or the first request that distinguishes the defect from the CNC without it.
-pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result<Found, Trouble> {
+pub(super) fn of(
+    seed: &Seed,
+    devices: &[&'static Device],
+    mode: Mode,
+) -> Result<DetectionResult, ToolError> {
     if let Some(why) = is_right(seed) {
-        return Ok(Found::Undetectable(format!("a right CNC: {why}")));
+        return Ok(DetectionResult::Undetectable(format!("a right CNC: {why}")));
     }
     let mut shown = None;
     let mut witnesses: Vec<&str> = Vec::new();
@@ -73,12 +77,12 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
         }
         match witness {
             Some(witness) => witnesses.push(witness),
-            None => return Ok(Found::Missed(shown.unwrap_or_default())),
+            None => return Ok(DetectionResult::Missed(shown.unwrap_or_default())),
         }
     }
     match witnesses.first() {
-        None => Ok(Found::Undetectable("no answer differs".to_owned())),
-        Some(variant) => Ok(Found::Undetectable(format!("as {variant}"))),
+        None => Ok(DetectionResult::Undetectable("no answer differs".to_owned())),
+        Some(variant) => Ok(DetectionResult::Undetectable(format!("as {variant}"))),
     }
 }
 
@@ -86,7 +90,7 @@ fn first_difference(answers: &[u64]) -> (usize, Option<u64>) {
     (answers.len(), answers.last().copied())
 }
 
-fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
+fn variants(device: &'static Device, mode: Mode) -> Result<Variants, ToolError> {
     let mut known = device.variants.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(variants) = known.get(&mode) {
         return Ok(Arc::clone(variants));

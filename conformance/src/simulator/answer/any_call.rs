@@ -7,9 +7,9 @@ use ads_cnc::operation::Service;
 use super::*;
 
 /// Pseudo-random numbers that are the same in every run.
-struct Chance(u64);
+struct PseudoRandom(u64);
 
-impl Chance {
+impl PseudoRandom {
     fn below(&mut self, end: u32) -> u32 {
         // Knuth's multiplier; use the high bits.
         self.0 =
@@ -56,36 +56,36 @@ const NAMES: &[&[u8]] = &[
 ];
 
 /// A random call near existing addresses, so that some of them exist.
-fn call<'a>(chance: &mut Chance, data: &'a [u8]) -> Call<'a> {
+fn call<'a>(random: &mut PseudoRandom, data: &'a [u8]) -> Call<'a> {
     use Service::{Read, ReadWrite, Write};
-    let axis = chance.of(&[0, 0, 0, 0x1000, 0x1_0000, 0x2_0000, 0x6_0000, 0xFFFF_0000]);
-    let instance = chance.of(&[0, 1, 1, 2, 3, 6, 255]);
-    let (task, group, offset, service) = match chance.below(4) {
+    let axis = random.of(&[0, 0, 0, 0x1000, 0x1_0000, 0x2_0000, 0x6_0000, 0xFFFF_0000]);
+    let instance = random.of(&[0, 1, 1, 2, 3, 6, 255]);
+    let (task, group, offset, service) = match random.below(4) {
         0 => {
-            let group = chance.of(&[0x2_0100, 0x3_0100, 0x2_0200, 0x3_0200]);
-            (AmsPort::COM, group, axis + chance.below(0x20), chance.of(&[Read, Read, Write]))
+            let group = random.of(&[0x2_0100, 0x3_0100, 0x2_0200, 0x3_0200]);
+            (AmsPort::COM, group, axis + random.below(0x20), random.of(&[Read, Read, Write]))
         }
         1 => {
-            let offset = chance.of(&[0x02, 0x1B, 0x44]) + chance.below(12);
-            (AmsPort::SDA, 0x2_2300, offset, chance.of(&[Read, Write, ReadWrite, ReadWrite]))
+            let offset = random.of(&[0x02, 0x1B, 0x44]) + random.below(12);
+            (AmsPort::SDA, 0x2_2300, offset, random.of(&[Read, Write, ReadWrite, ReadWrite]))
         }
         2 => {
-            let offset = axis + chance.of(&[4, 5, 6]);
-            (AmsPort::SDA, 0x2_2300, offset, chance.of(&[Write, ReadWrite]))
+            let offset = axis + random.of(&[4, 5, 6]);
+            (AmsPort::SDA, 0x2_2300, offset, random.of(&[Write, ReadWrite]))
         }
         _ => {
-            let group = 0x2_0300 + chance.below(6) * 0x1000 + chance.below(7) * 0x100;
-            let service = chance.of(&[Read, Read, Write, ReadWrite]);
-            (AmsPort::GEO, group, axis + chance.below(4), service)
+            let group = 0x2_0300 + random.below(6) * 0x1000 + random.below(7) * 0x100;
+            let service = random.of(&[Read, Read, Write, ReadWrite]);
+            (AmsPort::GEO, group, axis + random.below(4), service)
         }
     };
-    let anywhere = chance.below(16) == 0;
+    let anywhere = random.below(16) == 0;
     Call {
-        port: if anywhere { chance.of(&[AmsPort::GEO, AmsPort::SDA, AmsPort::COM]) } else { task },
+        port: if anywhere { random.of(&[AmsPort::GEO, AmsPort::SDA, AmsPort::COM]) } else { task },
         service,
-        index_group: IndexGroup::new((group + instance) | chance.of(&[0x10_0000, 0x10_0000, 0])),
+        index_group: IndexGroup::new((group + instance) | random.of(&[0x10_0000, 0x10_0000, 0])),
         index_offset: IndexOffset::new(offset),
-        read_length: chance.of(&[2048, 2048, 2048, 256, 84, 8, 4, 1, 0, u32::MAX]),
+        read_length: random.of(&[2048, 2048, 2048, 256, 84, 8, 4, 1, 0, u32::MAX]),
         data,
     }
 }
@@ -93,11 +93,11 @@ fn call<'a>(chance: &mut Chance, data: &'a [u8]) -> Call<'a> {
 #[test]
 fn any_call_is_answered() {
     let cnc = Cnc::with_default_model().unwrap();
-    let mut chance = Chance(2026);
+    let mut random = PseudoRandom(2026);
     let (mut answered, mut functions) = (0, std::collections::BTreeSet::new());
     for _ in 0..200_000 {
-        let data = chance.of(NAMES);
-        let call = call(&mut chance, data);
+        let data = random.of(NAMES);
+        let call = call(&mut random, data);
         // A Read has no data.
         let call = if call.service == Service::Read { Call { data: &[], ..call } } else { call };
         let Ok(reply) = cnc.answer(&call) else { continue };

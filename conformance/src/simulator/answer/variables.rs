@@ -19,7 +19,7 @@ use ads_cnc::{
 use self::resolve::{Resolved, UNKNOWN, parameter};
 use super::{AnsweringCnc, ReplyData, encode};
 use crate::simulator::content::{check_size, copy_padded};
-use crate::simulator::model::At;
+use crate::simulator::model::VariableRef;
 use crate::simulator::to_u32;
 
 impl AnsweringCnc<'_> {
@@ -158,20 +158,20 @@ impl AnsweringCnc<'_> {
 
     /// The value of a variable or of one of its elements; zeros for a place without an axis
     /// (SDA-11).
-    fn read(&self, channel: usize, at: At, indices: U32List<'_>) -> ReplyData {
+    fn read(&self, channel: usize, at: VariableRef, indices: U32List<'_>) -> ReplyData {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
         let value = match (at, variable.service) {
-            (At::Own(_), Some(service)) => {
+            (VariableRef::Channel(_), Some(service)) => {
                 let channel = self.state.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
                 let mut value = channel.service.read(service).to_vec();
                 value.resize(variable.initial.size, 0);
                 Some(Cow::Owned(value))
             }
-            (At::Own(place), None) => {
+            (VariableRef::Channel(place), None) => {
                 self.state.variables(channel).and_then(|values| values.get(place)).map(Cow::from)
             }
-            (At::Place { place, variable }, _) => {
+            (VariableRef::Axis { place, variable }, _) => {
                 let values = self.state.axis_variables(channel, place);
                 values.and_then(|values| values.get(variable)).map(Cow::from)
             }
@@ -180,7 +180,13 @@ impl AnsweringCnc<'_> {
         encode(ValueRef { bytes: value.get(part).ok_or(AdsError::INVALID_DATA)? })
     }
 
-    fn write(&mut self, channel: usize, at: At, indices: U32List<'_>, bytes: &[u8]) -> ReplyData {
+    fn write(
+        &mut self,
+        channel: usize,
+        at: VariableRef,
+        indices: U32List<'_>,
+        bytes: &[u8],
+    ) -> ReplyData {
         let variable = self.variable(channel, at)?;
         if tracing::enabled!(tracing::Level::DEBUG)
             && let (Ok(name), Some(model)) =
@@ -195,7 +201,7 @@ impl AnsweringCnc<'_> {
         let service = variable.service;
         check_size(bytes, part.len(), variable.is_text(indices))?;
         let value = match (at, service) {
-            (At::Own(_), Some(service)) => {
+            (VariableRef::Channel(_), Some(service)) => {
                 let channel = self.state.channels.get_mut(channel);
                 let interface = &mut channel.ok_or(AdsError::INVALID_GROUP)?.service;
                 return match interface.write(service, bytes) {
@@ -203,10 +209,10 @@ impl AnsweringCnc<'_> {
                     Err(_) => Err(AdsError::INVALID_SIZE),
                 };
             }
-            (At::Own(place), None) => {
+            (VariableRef::Channel(place), None) => {
                 self.state.variables_mut(channel).and_then(|values| values.get_mut(place))
             }
-            (At::Place { place, variable }, _) => {
+            (VariableRef::Axis { place, variable }, _) => {
                 let values = self.state.axis_variables_mut(channel, place);
                 values.and_then(|values| values.get_mut(variable))
             }

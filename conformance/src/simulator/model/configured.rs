@@ -7,7 +7,7 @@ use super::variable::Variable;
 
 /// A variable of a channel in its initial state.
 #[derive(Clone, Debug)]
-pub(crate) struct Configured {
+pub(crate) struct ConfiguredVariable {
     pub(crate) name: CncString,
     pub(crate) var_type: VariableType,
     pub(crate) access: VariableAccess,
@@ -21,7 +21,10 @@ pub(crate) struct Configured {
 
 impl Model {
     /// V.E and V.G of the channel with this logical number, in the order of their indices.
-    pub(crate) fn configured(&self, channel: u32) -> (Vec<Configured>, Vec<Configured>) {
+    pub(crate) fn configured(
+        &self,
+        channel: u32,
+    ) -> (Vec<ConfiguredVariable>, Vec<ConfiguredVariable>) {
         let found =
             self.channels.iter().enumerate().find(|(_, one)| u32::from(one.number) == channel);
         let Some((place, channel)) = found else { return (Vec::new(), Vec::new()) };
@@ -33,8 +36,8 @@ impl Model {
     }
 }
 
-fn configured(variable: &Variable, place: usize) -> Configured {
-    Configured {
+fn configured(variable: &Variable, place: usize) -> ConfiguredVariable {
+    ConfiguredVariable {
         name: variable.name.clone(),
         var_type: variable.var_type,
         access: variable.access,

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use ads_cnc::address::Class;
 use ads_cnc::{CncString, Descriptors};
 
-use super::{At, ClassModel, Objects, Parameter, Variables};
+use super::{ClassModel, Objects, Parameter, VariableRef, Variables};
 use crate::edition::{CncVersion, Edition};
 use crate::simulator::program::{ProgramConfig, ScriptConfig};
 
@@ -44,7 +44,7 @@ pub(in crate::simulator) struct ChannelModel {
     /// Indices of V.E and V.G in `variables`, in the order of the lists.
     pub(in crate::simulator) external: Vec<usize>,
     pub(in crate::simulator) global: Vec<usize>,
-    pub(in crate::simulator) by_handle: HashMap<u32, At>,
+    pub(in crate::simulator) by_handle: HashMap<u32, VariableRef>,
     pub(in crate::simulator) parameters: Vec<Parameter>,
     pub(in crate::simulator) program: ProgramConfig,
     /// Its NC program that sends requests to services, if any.

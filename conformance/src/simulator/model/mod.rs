@@ -19,13 +19,13 @@ use std::path::Path;
 
 use ads_cnc::address::Class;
 
-pub(crate) use configured::Configured;
+pub(crate) use configured::ConfiguredVariable;
 pub(super) use data::{AxisModel, ChannelModel, class_place};
 pub use data::{Model, Settings};
 pub use error::ModelError;
 pub(super) use item::{ClassModel, Item, Meaning, Objects};
 pub(super) use parameter::{Parameter, Times};
-pub(super) use variable::{At, Variable, Variables, handle_at};
+pub(super) use variable::{Variable, VariableRef, Variables, handle_at};
 
 use super::program::ProgramConfig;
 use crate::edition::{CncVersion, Edition};

@@ -78,11 +78,11 @@ impl Variables {
 
 /// The variable of a handle, as an index in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::simulator) enum At {
+pub(in crate::simulator) enum VariableRef {
     /// A variable of the channel.
-    Own(usize),
+    Channel(usize),
     /// The variable of the axis at a place of the channel, from 0 (VAR-10).
-    Place { place: usize, variable: usize },
+    Axis { place: usize, variable: usize },
 }
 
 /// The handle of an axis variable at a place (from 1) of a channel. Printed example: 0x0102001B at

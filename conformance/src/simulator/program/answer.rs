@@ -38,14 +38,14 @@ pub(super) struct Answers {
 
 impl Answers {
     /// Number of stored answers.
-    pub(super) const KEPT: usize = 64;
+    pub(super) const STORED_MAX: usize = 64;
 
     pub(super) fn push(&mut self, request: usize, at: Duration, outcome: ServiceOutcome) {
         self.count = self.count.saturating_add(1);
         if outcome == ServiceOutcome::TimedOut {
             self.timed_out = self.timed_out.saturating_add(1);
         }
-        if self.kept.len() >= Self::KEPT {
+        if self.kept.len() >= Self::STORED_MAX {
             self.kept.pop_front();
         }
         self.kept.push_back(ServiceAnswer { number: self.count, request, at, outcome });

@@ -172,7 +172,7 @@ pub struct Script {
 
 impl Script {
     /// Number of stored answers.
-    pub const ANSWERS_KEPT: usize = Answers::KEPT;
+    pub const ANSWERS_MAX: usize = Answers::STORED_MAX;
 
     /// Maximum number of overdue steps executed at a time. Polls without a response are not
     /// counted.

@@ -17,7 +17,7 @@ const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
 const GATHERED_MAX: usize = 32 * 1024;
 
 /// Maximum number of bytes buffered by a connection.
-pub(super) const HELD_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
+pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 
 /// The buffer of a connection: received bytes that are not answered yet.
 ///

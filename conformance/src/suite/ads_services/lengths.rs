@@ -6,6 +6,8 @@ use ads_cnc::operation::{
     Request,
 };
 use ads_cnc::{Kind, VariableType};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step};
 use crate::profile::Claim;
@@ -26,7 +28,7 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
             let exchange = exchange?;
             let same = exchange.success() == Some(&whole[..]);
             let expected = || format!("the same to a frame in pieces of {piece} bytes");
-            probe.check("ADS-5", same, expected, &exchange);
+            probe.check(ADS_5, same, expected, &exchange);
         }
     }
     probe.finish("nothing to be asked is claimed")
@@ -34,39 +36,39 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
 
 /// Whether the length of a reply is documented, or given by a text.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Extent {
+enum LengthRule {
     /// Fixed by this requirement.
-    Fixed(&'static str),
+    Fixed(ClauseId),
     Open,
 }
 
-pub(super) fn asked_for(probe: &mut Probe<'_>) -> Step {
+pub(super) fn read_length(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed("DYN-1"))?;
+            lengths_of(probe, CountDynamic::new(channel, kind).into(), LengthRule::Fixed(DYN_1))?;
             let name = DynamicNameByIndex::new(channel, kind, 1)?;
-            lengths_of(probe, name.into(), Extent::Open)?;
+            lengths_of(probe, name.into(), LengthRule::Open)?;
         }
         for (_, kind) in probe.kinds() {
             let count = CountVariables::new(channel, kind);
-            lengths_of(probe, count.into(), Extent::Fixed("VAR-2"))?;
+            lengths_of(probe, count.into(), LengthRule::Fixed(VAR_2))?;
             for index in 0..2 {
                 let described = DescribeByIndex::new(channel, index, kind);
-                lengths_of(probe, described.into(), Extent::Open)?;
+                lengths_of(probe, described.into(), LengthRule::Open)?;
             }
         }
         let Ok(variables) = probe.variables(channel) else { continue };
         for variable in variables {
             if variable.var_type != VariableType::STRING {
                 let read = ReadByName { channel, name: name_of(&variable) };
-                lengths_of(probe, read.into(), Extent::Fixed("VAR-14"))?;
+                lengths_of(probe, read.into(), LengthRule::Fixed(VAR_14))?;
             }
         }
     }
     Ok(())
 }
 
-fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> Step {
+fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: LengthRule) -> Step {
     if probe.claims(request.function()) != Claim::Yes {
         return Ok(());
     }
@@ -87,7 +89,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     };
     let what = request.function().spec().name;
     // For a text at the end of a reply the CNC may require room for a NUL.
-    if let Extent::Fixed(own) = extent
+    if let LengthRule::Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
         let expected = || format!("{there} bytes of {what}, as many as are asked for");
@@ -99,7 +101,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         let expected = || format!("fewer than {there} bytes of {what}");
         probe.check(rule, fits, expected, || format!("{found:?}"));
     }
-    let Extent::Fixed(own) = extent else { return Ok(()) };
+    let LengthRule::Fixed(own) = extent else { return Ok(()) };
     if !probe.target.client.gate().lets_malformed_pass() {
         return Ok(());
     }
@@ -111,12 +113,12 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     }
     // If a large read length is accepted, one byte less makes no difference.
     let much = there.saturating_add(0x1_0000);
-    if own != "VAR-14"
+    if own != VAR_14
         && let Some(Some(len)) = answer(probe, much)?
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {
         let expected = || format!("{len} bytes of {what}, as with more room");
-        probe.check([rule, "ADS-4"], found == Some(len), expected, || format!("{found:?}"));
+        probe.check([rule, ADS_4], found == Some(len), expected, || format!("{found:?}"));
     }
     Ok(())
 }

@@ -13,6 +13,8 @@ use ads_cnc::operation::{
     Function, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, Request,
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
@@ -22,30 +24,30 @@ use crate::suite::kit::{Probe, Steady, ask_if_claimed, compare, name_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("ads-read-addresses", &["ADS-1"], Needs::Queries, read_addresses,
+    case("ads-read-addresses", &[ADS_1], Needs::Queries, read_addresses,
         "A Read answers for its own group and offset, with so many bytes as it asks for"),
-    case("ads-read-write-addresses", &["ADS-3"], Needs::Queries, read_write_addresses,
+    case("ads-read-write-addresses", &[ADS_3], Needs::Queries, read_write_addresses,
         "A ReadWrite answers for its own group and offset, and for the data it writes"),
-    case("ads-services-agree", &["ADS-1", "ADS-3"], Needs::Queries, services_agree,
+    case("ads-services-agree", &[ADS_1, ADS_3], Needs::Queries, services_agree,
         "What a Read gives the number of, a ReadWrite gives so many of"),
-    case("ads-read-lengths", &["ADS-1", "ADS-3", "ADS-4", "DYN-1", "VAR-2", "VAR-14"],
-        Needs::Queries, lengths::asked_for,
+    case("ads-read-lengths", &[ADS_1, ADS_3, ADS_4, DYN_1, VAR_2, VAR_14],
+        Needs::Queries, lengths::read_length,
         "A reply has no more bytes than are asked for, and no more than there are"),
-    case("ads-in-pieces", &["ADS-5"], Needs::Queries, lengths::in_pieces,
+    case("ads-in-pieces", &[ADS_5], Needs::Queries, lengths::in_pieces,
         "A request is answered the same in whatever pieces it comes"),
-    case("ads-numbers-of-errors", &["ADS-4", "ADS-5"], Needs::Simulator, numbers::of_errors,
+    case("ads-numbers-of-errors", &[ADS_4, ADS_5], Needs::Simulator, numbers::of_errors,
         "The simulated CNC sends its errors with the numbers that it gives them"),
-    case("ads-write", &["ADS-2"], Needs::Writes, write::arrives,
+    case("ads-write", &[ADS_2], Needs::Writes, write::arrives,
         "What a Write is acknowledged for is there by another service, and nothing else is"),
 ];
 
 /// Maximum number of items of a list that are tried.
-const SOME: u32 = 8;
+const ITEMS_MAX: u32 = 8;
 
 /// The data of a request that must be answered.
 fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
-    rule: &'static str,
+    rule: ClauseId,
     request: impl Into<Request<'a>>,
 ) -> Step<Option<Vec<u8>>> {
     let request = request.into();
@@ -65,11 +67,11 @@ fn number(data: &[u8]) -> u32 {
 
 /// Descriptors: one at each offset, all different, and the same as in a range.
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
-    const RULE: &str = "ADS-1";
+    const RULE: ClauseId = ADS_1;
     for list in probe.lists()? {
         // That platform axes have lists of their own is assumed.
         let Some(data) = ask_if_claimed(probe, CountObjects::new(list))? else { continue };
-        let count = number(&data).min(SOME);
+        let count = number(&data).min(ITEMS_MAX);
         let mut all: Vec<Vec<u8>> = Vec::new();
         for index in 1..=count {
             let one = ReadDescriptors::new(list, index, 1)?;
@@ -102,7 +104,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
 
 /// Variables: one at each index, with the same value by handle and by name.
 fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
-    const RULE: &str = "ADS-3";
+    const RULE: ClauseId = ADS_3;
     let mut steady = Steady::default();
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
@@ -112,7 +114,7 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{} bytes for {name}", data.len());
             probe.check(RULE, count.is_ok(), "a number of 4 bytes", found);
             let mut all = Vec::new();
-            for index in 0..count.map_or(0, |count| count.0.min(SOME)) {
+            for index in 0..count.map_or(0, |count| count.0.min(ITEMS_MAX)) {
                 let one = ask_for_data(probe, RULE, DescribeByIndex::new(channel, index, kind))?;
                 let Some(one) = one else { continue };
                 let other = !all.contains(&one);
@@ -142,12 +144,12 @@ fn same_by_handle(
     }
     let by_name = ReadByName { channel, name: name_of(variable) };
     let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
-    steady.same(probe, "ADS-3", &variable.name.text, by_name, by_handle)
+    steady.same(probe, ADS_3, &variable.name.text, by_name, by_handle)
 }
 
 /// Compares numbers from a Read with the items from a ReadWrite.
 fn services_agree(probe: &mut Probe<'_>) -> Step {
-    let rules = ["ADS-1", "ADS-3"];
+    let rules = [ADS_1, ADS_3];
     let mut steady = Steady::default();
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
@@ -164,7 +166,7 @@ fn services_agree(probe: &mut Probe<'_>) -> Step {
 fn names_agree(
     probe: &mut Probe<'_>,
     steady: &mut Steady,
-    rules: [&'static str; 2],
+    rules: [ClauseId; 2],
     channel: Channel,
     kind: DynamicKind,
 ) -> Step {
@@ -197,7 +199,7 @@ fn names_agree(
 }
 
 /// A Read finds the elements at the address that a ReadWrite returns.
-fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step {
+fn elements_agree(probe: &mut Probe<'_>, rules: [ClauseId; 2]) -> Step {
     let functions = [Function::FindInstance, Function::ReadElementLength];
     if functions.iter().any(|one| probe.claims(*one) != Claim::Yes) {
         return Ok(());
@@ -212,14 +214,14 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step {
             let count = data.as_deref().and_then(decode_element_count);
             let expected = "a number of elements where the object address says";
             probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));
-            for place in 1..=count.unwrap_or_default().min(SOME) {
+            for place in 1..=count.unwrap_or_default().min(ITEMS_MAX) {
                 let Ok(element) = first.nth(place) else { break };
                 let Some(length) = probe.length_of(element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };
                 let Some(data) = ask_if_claimed(probe, read)? else { continue };
                 let found = || format!("{} bytes", data.len());
                 let same = u32::try_from(data.len()).is_ok_and(|len| len == length);
-                probe.check("ADS-1", same, || format!("{length} bytes, as its length says"), found);
+                probe.check(ADS_1, same, || format!("{length} bytes, as its length says"), found);
             }
         }
     }

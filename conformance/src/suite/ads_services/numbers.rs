@@ -4,6 +4,7 @@ use ads_cnc::Kind;
 use ads_cnc::address::IndexOffset;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{CountObjects, CountVariables, Request, WriteByName};
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step};
 use crate::suite::kit::{Probe, RawCall};
@@ -28,16 +29,15 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
         let found = number(probe, &bad)?;
         let turned = own.0.swap_bytes();
         let expected = || format!("{own:#x}, or another");
-        probe.check("ADS-4", found.is_none_or(|found| found.0 != turned), expected, || {
-            display(found)
-        });
+        probe
+            .check(ADS_4, found.is_none_or(|found| found.0 != turned), expected, || display(found));
     }
     let good = RawCall::new(CountVariables::new(channel, Kind::V_E))?;
     let call = good.with(|call| call.port = AmsPort(1));
     let found = number(probe, &call)?;
     let turned = AdsError::TARGET_PORT_NOT_FOUND.0.swap_bytes();
     let expected = "an error, its lowest byte first";
-    probe.check("ADS-5", found.is_none_or(|found| found.0 != turned), expected, || display(found));
+    probe.check(ADS_5, found.is_none_or(|found| found.0 != turned), expected, || display(found));
     Ok(())
 }
 

@@ -1,16 +1,17 @@
 //! A Write, and reads of the other services at the same address.
 
 use ads_cnc::{CncString, VariableAccess, VariableType};
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use crate::judge::{Checks as _, Rule, Step, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service};
 
 /// Number of values of each kind that are tried.
-const SOME: usize = 3;
+const ITEMS_MAX: usize = 3;
 
-const RULE: &str = "ADS-2";
+const RULE: ClauseId = ADS_2;
 
 /// A value written at an address is read by another service, and at no other address.
 pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
@@ -22,7 +23,7 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
         for variable in written.filter(|one| !is_of_service(one)) {
             let name = variable.name.text.clone();
             let address = ValueAddress::Name { channel, name: name.clone() };
-            if tried.len() >= SOME || !probe.may_write(&address, &name.to_string())? {
+            if tried.len() >= ITEMS_MAX || !probe.may_write(&address, &name.to_string())? {
                 continue;
             }
             let is_text = variable.var_type == VariableType::STRING;
@@ -50,7 +51,7 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
             }
             _ => false,
         };
-        if tried >= SOME || !filled || !probe.may_write(address, &name)? {
+        if tried >= ITEMS_MAX || !filled || !probe.may_write(address, &name)? {
             continue;
         }
         write_beside(probe, address, &name, false, None)?;

@@ -6,6 +6,7 @@ use ads_cnc::dynamic::{DynamicKind, DynamicName, DynamicValue};
 use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName};
 
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::parameters::{number, prefix};
 use crate::judge::{Checks as _, Step};
@@ -30,7 +31,7 @@ pub(super) fn come_and_go(probe: &mut Probe<'_>) -> Step {
         cnc.set_parameters(channel.number(), kind, &[])?;
         judged?;
         let gone = number(probe, channel, kind)?;
-        probe.check("DYN-1", gone == 0, "0, as all are deleted", gone);
+        probe.check(DYN_1, gone == 0, "0, as all are deleted", gone);
     }
     Ok(())
 }
@@ -69,7 +70,7 @@ fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind)
     let (gone, there) = (gone.0, all.first().map(|(name, _)| name.clone()).unwrap_or_default());
     let by_name = |name| DynamicValueByName::new(channel, kind, name);
     let what = format!("{gone}, which is deleted");
-    probe.refuses("DYN-3", &what, by_name(&gone)?, by_name(&there)?)?;
+    probe.refuses(DYN_3, &what, by_name(&gone)?, by_name(&there)?)?;
     // One is inserted at the front.
     all.insert(0, (format!("{}7654", prefix(kind)), -7.5));
     set(cnc, channel, kind, &all)?;
@@ -85,7 +86,7 @@ fn listed(
 ) -> Step {
     let count = u32::try_from(all.len())?;
     let found = number(probe, channel, kind)?;
-    probe.check("DYN-1", found == count, count, found);
+    probe.check(DYN_1, found == count, count, found);
     for index in [1, 2, 10, 11, 127, 128, 255, 256, 257, count] {
         let place = usize::try_from(index).ok().and_then(|index| index.checked_sub(1));
         let Some((name, value)) = place.and_then(|place| all.get(place)) else { continue };
@@ -95,26 +96,26 @@ fn listed(
         let told = told.unwrap_or_default();
         let found = || format!("{told:?} at index {index} of {count}");
         let same = told == *name;
-        probe.check(["DYN-2", "DYN-5"], same, || format!("{name:?}"), found);
+        probe.check([DYN_2, DYN_5], same, || format!("{name:?}"), found);
         // A rejected request has no effect.
         let beyond = DynamicNameByIndex::new(channel, kind, count.saturating_add(1));
         probe.try_ask(beyond?)?;
         let again = probe.try_ask(by_index)?.unwrap_or_default();
         let found = || Hex(again.clone());
         let expected = || format!("{name:?} behind an index that was refused");
-        probe.check("DYN-2", again == data, expected, found);
+        probe.check(DYN_2, again == data, expected, found);
         let by_name = DynamicValueByName::new(channel, kind, name)?;
         let by_name = value_of(probe.try_ask(by_name)?);
         let found = || format!("{by_name:?} of {name:?}");
         let same = by_name == Some(*value);
-        probe.check("DYN-3", same, || value, found);
+        probe.check(DYN_3, same, || value, found);
         if name.len() > 20 {
-            probe.check("DYN-6", told == *name && same, || format!("{value} of {name:?}"), found);
+            probe.check(DYN_6, told == *name && same, || format!("{value} of {name:?}"), found);
         }
         let by_index = DynamicValueByIndex::new(channel, kind, index)?;
         let by_index = value_of(probe.try_ask(by_index)?);
         let found = || format!("{by_index:?} at index {index}");
-        probe.check("DYN-4", by_index == Some(*value), || value, found);
+        probe.check(DYN_4, by_index == Some(*value), || value, found);
     }
     Ok(())
 }

@@ -9,7 +9,8 @@ use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
     CountDynamic, CountVariables, DynamicNameByIndex, DynamicValueByIndex, Function, Request,
 };
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::parameters::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Checks as _, Evidence, Step, Stop, assumed};
@@ -19,7 +20,7 @@ use crate::suite::kit::{PendingCheck, Probe, between, steadily};
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let rules = ["DYN-1", "SDA-12"];
+        let rules = [DYN_1, SDA_12];
         for kind in DynamicKind::ALL {
             let data = probe.ask(rules, CountDynamic::new(channel, kind))?;
             let count = DynamicCount::decode(&data);
@@ -34,7 +35,7 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
             for (_, kind) in KINDS {
                 let kind = CountVariables::new(channel, kind);
                 let answered = probe.try_ask(kind)?.is_some();
-                probe.check("SDA-12", answered, "a number of variables", "an error");
+                probe.check(SDA_12, answered, "a number of variables", "an error");
             }
         }
     }
@@ -192,33 +193,33 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
         probe.set_evidence(reply.evidence.clone());
         let expected = || format!("a name of index {} of {count} of {}", reply.index, prefix(kind));
         // The number or the range may be wrong; for the first index, the function too.
-        let rules: &[&str] = match reply.index {
-            1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
-            _ => &["DYN-1", "DYN-5", "SDA-12"],
+        let rules: &[ClauseId] = match reply.index {
+            1 => &[DYN_1, DYN_5, SDA_12, DYN_2],
+            _ => &[DYN_1, DYN_5, SDA_12],
         };
         probe.check(rules, reply.data.is_some(), expected, &reply.result);
         let Some(data) = &reply.data else { continue };
         let found = || format!("{} bytes of index {}", data.len(), reply.index);
         let expected = || format!("at most {DYNAMIC_NAME_MAX} bytes");
-        probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, found);
+        probe.check(DYN_6, data.len() <= DYNAMIC_NAME_MAX, expected, found);
         let name = DynamicName::decode(data);
-        if !probe.check("DYN-2", name.is_ok(), "a name", found) {
+        if !probe.check(DYN_2, name.is_ok(), "a name", found) {
             continue;
         }
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
         let found = || format!("{name:?} at index {}", reply.index);
         let ended = name.chars().count() < DYNAMIC_NAME_MAX;
-        probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", found);
+        probe.check(assumed(DYN_6), ended, "a name with room for its NUL", found);
         let of_kind = is_of(kind, &name);
-        probe.check("DYN-2", of_kind, || format!("a name of {}", prefix(kind)), found);
+        probe.check(DYN_2, of_kind, || format!("a name of {}", prefix(kind)), found);
         let own = seen.insert(name.clone());
-        probe.check(["DYN-2", "DYN-5"], own, "another at each index", found);
+        probe.check([DYN_2, DYN_5], own, "another at each index", found);
     }
     if let Some(other) = unsteady {
         probe.set_evidence(other.evidence.clone());
         let found = || format!("{}, asked for backwards", other.result);
         let expected = || format!("the name of index {}, whatever was asked before", other.index);
-        probe.check("DYN-2", false, expected, found);
+        probe.check(DYN_2, false, expected, found);
     }
     // A CNC with one parameter more than its count returns its name.
     probe.set_evidence(beyond.evidence.clone());
@@ -228,7 +229,7 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
     let is_whole = *count <= PARAMETERS_MAX;
     let expected = || format!("{} of {} in all", count, prefix(kind));
     let found = || format!("index {} is {}", beyond.index, Hex(data.to_vec()));
-    probe.check("DYN-1", !(another && is_whole), expected, found);
+    probe.check(DYN_1, !(another && is_whole), expected, found);
 }
 
 fn is_of(kind: DynamicKind, name: &str) -> bool {
@@ -259,7 +260,7 @@ fn refused_of(
     }
     let exchange = probe.send(bad)?;
     let expected = || format!("an error number for {what}");
-    Ok(vec![PendingCheck::new(probe, "DYN-5", exchange.is_rejected(), expected, &exchange)])
+    Ok(vec![PendingCheck::new(probe, DYN_5, exchange.is_rejected(), expected, &exchange)])
 }
 
 pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {

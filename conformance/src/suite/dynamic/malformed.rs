@@ -5,6 +5,7 @@ use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
+use ads_cnc_vectors::ids::*;
 
 use super::parameters::{each, first, names_of, rejects_steadily};
 use crate::judge::{Checks as _, Step, assumed};
@@ -15,11 +16,11 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
         let at = (channel, kind);
         let index: Request<'_> = DynamicNameByIndex::new(channel, kind, 1)?.into();
         let value = DynamicValueByIndex::new(channel, kind, 1)?.into();
-        for (id, request) in [("DYN-2", index), ("DYN-4", value)] {
+        for (id, request) in [(DYN_2, index), (DYN_4, value)] {
             let with = |data: &[u8]| -> Step<RawCall> {
                 Ok(RawCall::new(request)?.with(|call| call.data = data.to_vec()))
             };
-            rejects_steadily(probe, "DYN-5", "index 0", at, with(&[0; 4])?, request)?;
+            rejects_steadily(probe, DYN_5, "index 0", at, with(&[0; 4])?, request)?;
             for data in [&[][..], &[1], &[1, 0], &[1, 0, 0, 0, 0]] {
                 let what = format!("an index of {} bytes", data.len());
                 rejects_steadily(probe, assumed(id), &what, at, with(data)?, request)?;
@@ -28,7 +29,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
         let request = Request::from(CountDynamic::new(channel, kind));
         let short = RawCall::new(request)?.with(|call| call.read_length = 3);
         let what = "a read length of 3 for a number";
-        rejects_steadily(probe, assumed("ADS-1"), what, at, short, request)?;
+        rejects_steadily(probe, assumed(ADS_1), what, at, short, request)?;
         for (_, known) in names_of(probe, channel, kind, count)? {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
@@ -40,15 +41,15 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 let long = [known.as_bytes(), &rest, &[0]].concat();
                 let what = format!("a name of {} characters", long.len().saturating_sub(1));
                 let long = good.with(|call| call.data = long);
-                rejects_steadily(probe, "DYN-6", &what, at, long, request)?;
+                rejects_steadily(probe, DYN_6, &what, at, long, request)?;
             }
             let longest = DYNAMIC_NAME_MAX.saturating_add(1);
             let behind = good.with(|call| call.data.resize(longest, b'x'));
             let what = "a request of 97 bytes, with something behind the name's end";
-            rejects_steadily(probe, assumed("DYN-6"), what, at, behind, request)?;
+            rejects_steadily(probe, assumed(DYN_6), what, at, behind, request)?;
             let short = good.with(|call| call.read_length = call.read_length.saturating_sub(1));
             let what = "a read length of 7 for a value";
-            rejects_steadily(probe, assumed("DYN-3"), what, at, short, request)?;
+            rejects_steadily(probe, assumed(DYN_3), what, at, short, request)?;
         }
         Ok(())
     })
@@ -66,7 +67,7 @@ pub(super) fn forms(probe: &mut Probe<'_>) -> Step {
             let exchange = probe.call(&good.with(|call| call.data = data.to_vec()))?;
             let found = exchange.success().is_some();
             let expected = || format!("the value of {known}, {what}");
-            probe.check(assumed("DYN-3"), found, expected, &exchange);
+            probe.check(assumed(DYN_3), found, expected, &exchange);
         }
         Ok(())
     })

@@ -7,6 +7,8 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 use ads_cnc::{CncString, Decode as _, TextRef};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use super::parameters::{PARAMETERS_MAX, each, first, names_of, number, prefix, rejects_steadily};
 use crate::exchange::Exchange;
@@ -48,36 +50,30 @@ fn value(
     let by_index = DynamicValueByIndex::new(channel, kind, index)?;
     let named = probe.send(by_name)?;
     // The returned name must be found.
-    let rules: &[&str] = match name.as_bytes().len() {
-        LONG.. => &["DYN-3", "DYN-2", "DYN-6"],
-        _ => &["DYN-3", "DYN-2"],
+    let rules: &[ClauseId] = match name.as_bytes().len() {
+        LONG.. => &[DYN_3, DYN_2, DYN_6],
+        _ => &[DYN_3, DYN_2],
     };
     let expected = || format!("the value of {name}, as index {index} is called");
     let mut checks =
         vec![PendingCheck::new(probe, rules, named.success().is_some(), expected, &named)];
-    let mut real = |probe: &Probe<'_>, rule: &'static str, exchange: &Exchange| {
+    let mut real = |probe: &Probe<'_>, rule: ClauseId, exchange: &Exchange| {
         let is_real = exchange.success().is_some_and(|data| DynamicValue::decode(data).is_ok());
         let expected = || format!("a REAL64 of {name}");
         checks.push(PendingCheck::new(probe, rule, is_real, expected, exchange));
     };
     if named.success().is_some() {
-        real(probe, "DYN-3", &named);
+        real(probe, DYN_3, &named);
     }
     let indexed = probe.send(by_index)?;
-    real(probe, "DYN-4", &indexed);
+    real(probe, DYN_4, &indexed);
     // A value that changes by itself is not compared.
     let named_again = probe.try_ask(by_name)?;
     let still = named.success().filter(|named| named_again.as_deref() == Some(named));
     if let (Some(named), Some(indexed)) = (still, indexed.success()) {
         let expected = || format!("{} of {name}, at index {index} too", spaced(named));
         let found = || spaced(indexed);
-        checks.push(PendingCheck::new(
-            probe,
-            ["DYN-3", "DYN-4"],
-            named == indexed,
-            expected,
-            found,
-        ));
+        checks.push(PendingCheck::new(probe, [DYN_3, DYN_4], named == indexed, expected, found));
     }
     Ok(checks)
 }
@@ -87,8 +83,9 @@ fn near(kind: DynamicKind, known: &str) -> Vec<String> {
     let mut shorter = known.to_owned();
     let last = shorter.pop();
     let other = if last == Some('x') { 'y' } else { 'x' };
-    let kept = |name: &String| name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty());
-    let shorter = Some(shorter).filter(kept);
+    let passed =
+        |name: &String| name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty());
+    let shorter = Some(shorter).filter(passed);
     let changed = shorter.as_ref().map(|shorter| format!("{shorter}{other}"));
     let longer = ["x", ".x"].map(|more| format!("{known}{more}"));
     longer.into_iter().chain(shorter).chain(changed).collect()
@@ -112,7 +109,7 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let what = format!("the name {unknown:?}");
-            rejects_steadily(probe, "DYN-3", &what, (channel, kind), bad, good.into())?;
+            rejects_steadily(probe, DYN_3, &what, (channel, kind), bad, good.into())?;
         }
         Ok(())
     })
@@ -125,7 +122,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
         for other in DynamicKind::ALL.into_iter().filter(|other| *other != kind) {
             let what = format!("{known} among the {}", prefix(other));
             let bad = DynamicValueByName { kind: other, ..good };
-            let rule = assumed("DYN-3");
+            let rule = assumed(DYN_3);
             rejects_steadily(probe, rule, &what, (channel, kind), bad, good.into())?;
         }
         Ok(())
@@ -162,7 +159,7 @@ fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> 
         let by_number = answers.first().map(Vec::as_slice);
         let expected = || format!("{}, by number", spaced(by_number.unwrap_or_default()));
         let same = exchange.success() == by_number;
-        Ok(vec![PendingCheck::new(probe, ["ADR-1", "ADR-12"], same, expected, &exchange)])
+        Ok(vec![PendingCheck::new(probe, [ADR_1, ADR_12], same, expected, &exchange)])
     })
 }
 

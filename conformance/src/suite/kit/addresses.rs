@@ -4,10 +4,12 @@ use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable,
     ElementAddress, IndexGroup, IndexOffset,
 };
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
-use crate::judge::{IfThere as _, Rule, Step, assumed};
+use crate::judge::{IfPresent as _, Rule, Step, assumed};
 use crate::objects::{Object, ValueAddress};
-use crate::simulator::{Holder, StoredContent};
+use crate::simulator::{ContentOwner, StoredContent};
 use crate::suite::kit::{Instance, Probe};
 
 /// Facts about addresses from the target, where the manuals state none.
@@ -21,7 +23,7 @@ pub(crate) struct Addresses {
 /// An address of a content, and the rules that state it.
 pub(crate) type JudgedAddress = (ValueAddress, Vec<Rule>);
 
-fn rules(ids: &[&'static str]) -> Vec<Rule> {
+fn rules(ids: &[ClauseId]) -> Vec<Rule> {
     ids.iter().map(|&id| Rule::from(id)).collect()
 }
 
@@ -62,33 +64,33 @@ impl Addresses {
         };
         let own = at(AxisStride::X10000, 0)?;
         match held.holder {
-            Holder::Platform => {
+            ContentOwner::Platform => {
                 let of = |addressing, instance| {
                     object(held, com(addressing, ComTable::Channel, instance), own)
                 };
                 let mut all = vec![
-                    (of(Logical, 0)?, rules(&["COM-5", "COM-4", "ADR-3"])),
-                    (of(Index, 0)?, rules(&["ADR-12"])),
+                    (of(Logical, 0)?, rules(&[COM_5, COM_4, ADR_3])),
+                    (of(Index, 0)?, rules(&[ADR_12])),
                 ];
                 // Channel 1 has the platform's objects.
                 if self.channels.first() == Some(&1) {
-                    all.push((of(Logical, 1)?, rules(&["COM-4", "ADR-3"])));
+                    all.push((of(Logical, 1)?, rules(&[COM_4, ADR_3])));
                 }
                 Ok(all)
             }
-            Holder::Channel(channel) => {
-                self.by_number_and_rank(channel, &["COM-5", "ADR-3"], |by, instance| {
+            ContentOwner::Channel(channel) => {
+                self.by_number_and_rank(channel, &[COM_5, ADR_3], |by, instance| {
                     object(held, com(by, ComTable::Channel, instance), own)
                 })
             }
-            Holder::PlatformAxis(axis) => {
+            ContentOwner::PlatformAxis(axis) => {
                 let of = |addressing| object(held, com(addressing, ComTable::Axis, axis), own);
                 Ok(vec![
-                    (of(Logical)?, rules(&["COM-5", "ADR-3", "ADR-13", "GEN-6"])),
-                    (of(Index)?, rules(&["ADR-12"])),
+                    (of(Logical)?, rules(&[COM_5, ADR_3, ADR_13, GEN_6])),
+                    (of(Index)?, rules(&[ADR_12])),
                 ])
             }
-            Holder::ChannelAxis { channel, place } => {
+            ContentOwner::ChannelAxis { channel, place } => {
                 let strides = [AxisStride::X10000, AxisStride::X1000];
                 let offsets = strides.map(|stride| at(stride, place));
                 let group = com(Logical, ComTable::Channel, channel);
@@ -99,16 +101,16 @@ impl Addresses {
                 };
                 let described = offsets.into_iter().flatten().find(described);
                 let offset = described.map_or_else(|| at(AxisStride::X10000, place), Ok)?;
-                self.by_number_and_rank(channel, &["COM-5", "ADR-13"], |by, instance| {
+                self.by_number_and_rank(channel, &[COM_5, ADR_13], |by, instance| {
                     object(held, com(by, ComTable::Channel, instance), offset)
                 })
             }
-            Holder::OfChannel { class, channel } => {
-                self.by_number_and_rank(channel, &["ADR-5", "ADR-6"], |by, instance| {
+            ContentOwner::OfChannel { class, channel } => {
+                self.by_number_and_rank(channel, &[ADR_5, ADR_6], |by, instance| {
                     element(held, (by, class, instance), own)
                 })
             }
-            Holder::OfAxis { class, axis } => {
+            ContentOwner::OfAxis { class, axis } => {
                 let first = self.first(class, 0, axis);
                 // As printed, E-01.
                 let stride = match class {
@@ -117,29 +119,29 @@ impl Addresses {
                 };
                 let offset =
                     first.map_or_else(|| at(stride, axis), |first| offset_of(first, held))?;
-                let mut rules = rules(&["ADR-5", "ADR-13", "GEN-6"]);
-                rules.push(assumed("ADR-7"));
+                let mut rules = rules(&[ADR_5, ADR_13, GEN_6]);
+                rules.push(assumed(ADR_7));
                 Ok(vec![(element(held, (Logical, class, 0), offset)?, rules)])
             }
-            Holder::OfPlace { class: Class::Decoder, channel, place } => {
+            ContentOwner::OfPlace { class: Class::Decoder, channel, place } => {
                 let offset = at(AxisStride::X10000, place)?;
-                self.by_number_and_rank(channel, &["ADR-7", "ADR-13", "GEN-6"], |by, instance| {
+                self.by_number_and_rank(channel, &[ADR_7, ADR_13, GEN_6], |by, instance| {
                     element(held, (by, Class::Decoder, instance), offset)
                 })
             }
-            Holder::OfPlace { class, channel, place } => {
+            ContentOwner::OfPlace { class, channel, place } => {
                 let first = self.first(class, channel, place);
                 let offset = first.map_or_else(
                     || at(AxisStride::X10000, place),
                     |first| offset_of(first, held),
                 )?;
-                self.by_number_and_rank(channel, &["ADR-5", "ADR-13", "GEN-6"], |by, instance| {
+                self.by_number_and_rank(channel, &[ADR_5, ADR_13, GEN_6], |by, instance| {
                     element(held, (by, class, instance), offset)
                 })
             }
-            Holder::Spindle(index) => {
+            ContentOwner::Spindle(index) => {
                 let place = element(held, (Index, Class::Spindle, index), own)?;
-                Ok(vec![(place, rules(&["ADR-2", "ADR-5", "GEN-6"]))])
+                Ok(vec![(place, rules(&[ADR_2, ADR_5, GEN_6]))])
             }
         }
     }
@@ -161,7 +163,7 @@ impl Addresses {
     fn by_number_and_rank(
         &self,
         channel: u8,
-        logical: &[&'static str],
+        logical: &[ClauseId],
         of: impl Fn(Addressing, u8) -> Step<ValueAddress>,
     ) -> Step<Vec<JudgedAddress>> {
         let mut ranks = (1_u8..).zip(&self.channels);
@@ -170,17 +172,17 @@ impl Addresses {
         };
         Ok(vec![
             (of(Addressing::Logical, channel)?, rules(logical)),
-            (of(Addressing::Index, rank)?, rules(&["ADR-1", "ADR-12"])),
+            (of(Addressing::Index, rank)?, rules(&[ADR_1, ADR_12])),
         ])
     }
 
     /// The number of elements of the content's instance according to the target.
     pub(crate) fn count(&self, held: &StoredContent) -> Option<u32> {
         let found = match held.holder {
-            Holder::OfChannel { class, channel } => self.instance(class, channel, 0),
-            Holder::OfAxis { class, axis } => self.instance(class, 0, axis),
-            Holder::OfPlace { class, channel, place } => self.instance(class, channel, place),
-            Holder::Spindle(index) => self.instance(Class::Spindle, index, 0),
+            ContentOwner::OfChannel { class, channel } => self.instance(class, channel, 0),
+            ContentOwner::OfAxis { class, axis } => self.instance(class, 0, axis),
+            ContentOwner::OfPlace { class, channel, place } => self.instance(class, channel, place),
+            ContentOwner::Spindle(index) => self.instance(Class::Spindle, index, 0),
             _ => None,
         };
         found.map(|one| one.count)
@@ -202,7 +204,7 @@ fn offset_of(first: IndexOffset, held: &StoredContent) -> Step<IndexOffset> {
 }
 
 /// Whether the bytes are the same in another order.
-pub(crate) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
+pub(crate) fn is_permutation(one: &[u8], other: &[u8]) -> bool {
     let sorted = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
         bytes.sort_unstable();

@@ -1,5 +1,7 @@
 //! The types of elements, by name.
 
+use ads_cnc_vectors::ids::*;
+
 use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::suite::kit::Probe;
 
@@ -24,7 +26,7 @@ fn rule_of(type_name: &str) -> Rule {
     let is_alike = digits.is_some_and(|digits| {
         digits.len() == 2 && digits.bytes().all(|byte| byte.is_ascii_digit())
     });
-    if is_alike || type_name == "STRING" { assumed("SDA-7") } else { "SDA-7".into() }
+    if is_alike || type_name == "STRING" { assumed(SDA_7) } else { SDA_7.into() }
 }
 
 /// Checks that type and length of an element match.
@@ -35,19 +37,16 @@ pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u3
     probe.check(rule_of(type_name), is_known, "one of the types of the manual", found);
     let found = || format!("{length} bytes of {at}, {type_name}");
     let Some((size, is_printed)) = known else {
-        probe.check(assumed("SDA-8"), length > 0, "a number of bytes", found);
+        probe.check(assumed(SDA_8), length > 0, "a number of bytes", found);
         return;
     };
     let expected = || format!("the {size} bytes of {type_name}");
     // Either the type or the length is wrong.
-    let [of_name, of_length] = if is_printed {
-        ["SDA-7", "SDA-8"].map(Rule::from)
-    } else {
-        ["SDA-7", "SDA-8"].map(online)
-    };
-    let of_type = if type_name == "BOOLEAN" { "GEN-5".into() } else { online("GEN-5") };
+    let [of_name, of_length] =
+        if is_printed { [SDA_7, SDA_8].map(Rule::from) } else { [SDA_7, SDA_8].map(online) };
+    let of_type = if type_name == "BOOLEAN" { GEN_5.into() } else { online(GEN_5) };
     probe.check([of_name, of_length, of_type], length == size, expected, found);
-    probe.check("SDA-8", length > 0, "a number of bytes", found);
+    probe.check(SDA_8, length > 0, "a number of bytes", found);
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::{CncString, Description, VariableType};
 use ads_cnc_vectors::Level;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Rule, Step, assumed};
 
@@ -60,7 +61,7 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
 /// dimension is printed.
 pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
-    if variable.dimensions.len() > 1 || texts { assumed("VAR-21") } else { "VAR-14".into() }
+    if variable.dimensions.len() > 1 || texts { assumed(VAR_21) } else { VAR_14.into() }
 }
 
 /// The bytes of one element in those of the whole array.
@@ -71,8 +72,8 @@ pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
 /// More than one pair of brackets, and texts in an array, are assumed.
 pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
-        Some(Level::Info) => assumed("VAR-20"),
-        _ => "VAR-20".into(),
+        Some(Level::Info) => assumed(VAR_20),
+        _ => VAR_20.into(),
     }
 }
 

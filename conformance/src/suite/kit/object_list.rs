@@ -2,12 +2,14 @@
 
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Step, Stop};
 use crate::suite::kit::{OBJECTS_MAX, Probe};
 
 pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
-    let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
+    let ObjectCount(number) = probe.read(COM_1, CountObjects::new(list))?;
     if number == 0 {
         return Err(Stop::not_applicable("the list has no object"));
     }
@@ -28,7 +30,7 @@ pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Ste
 /// Requests descriptors and accepts at most the requested number.
 pub(crate) fn read_descriptors(
     probe: &mut Probe<'_>,
-    rule: &'static str,
+    rule: ClauseId,
     list: ObjectList,
     first: u32,
     count: u32,
@@ -40,7 +42,7 @@ pub(crate) fn read_descriptors(
 /// Reads every descriptor with a request of its own: other cases judge ranges.
 pub(crate) fn descriptors_one_by_one(
     probe: &mut Probe<'_>,
-    rule: &'static str,
+    rule: ClauseId,
     list: ObjectList,
     number: u32,
 ) -> Step<Descriptors> {

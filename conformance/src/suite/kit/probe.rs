@@ -46,7 +46,7 @@ pub struct Probe<'s> {
     /// Whether the case was stopped because the run is being interrupted.
     pub(crate) interrupted: bool,
     /// Why a value in the file was not written.
-    doubt: Option<String>,
+    ambiguity: Option<String>,
     /// Whether the target has something to try the case on.
     has_subject: bool,
     deadline: Option<Deadline>,
@@ -60,7 +60,7 @@ impl<'s> Probe<'s> {
             last: None,
             requests: 0,
             interrupted: false,
-            doubt: None,
+            ambiguity: None,
             has_subject: false,
             deadline: None,
         }
@@ -96,16 +96,16 @@ impl<'s> Probe<'s> {
         self.confirm_handle(&request)?;
         let checked = self.check_gate(&request)?;
         if let Err(Some(refusal)) = &checked
-            && matches!(refusal.reason, Reason::Doubtful(..))
+            && matches!(refusal.reason, Reason::Ambiguous(..))
         {
-            self.doubt.get_or_insert_with(|| refusal.to_string());
+            self.ambiguity.get_or_insert_with(|| refusal.to_string());
         }
         Ok(checked.is_ok())
     }
 
     /// The result of the case: inconclusive if the gate rejected a write that the file names.
     pub(crate) fn end(&mut self, step: Step) -> Step {
-        match (self.doubt.take(), step) {
+        match (self.ambiguity.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
             (_, step) => step,
         }

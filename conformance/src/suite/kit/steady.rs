@@ -136,7 +136,7 @@ const FAILURES: usize = 3;
 /// A check before it is recorded.
 pub(crate) struct PendingCheck {
     rules: Vec<Rule>,
-    kept: bool,
+    passed: bool,
     expected: String,
     found: String,
     evidence: Option<Evidence>,
@@ -147,19 +147,19 @@ impl PendingCheck {
     pub(crate) fn new(
         probe: &Probe<'_>,
         rules: impl Rules,
-        kept: bool,
+        passed: bool,
         expected: impl Describe,
         found: impl Describe,
     ) -> Self {
-        let words = (!kept).then(|| (expected.describe(), found.describe()));
+        let words = (!passed).then(|| (expected.describe(), found.describe()));
         let (expected, found) = words.unwrap_or_default();
-        Self { rules: rules.rules().collect(), kept, expected, found, evidence: probe.evidence() }
+        Self { rules: rules.rules().collect(), passed, expected, found, evidence: probe.evidence() }
     }
 
     fn record(self, probe: &mut Probe<'_>) {
         let last = probe.evidence();
         probe.set_evidence(self.evidence);
-        probe.check(&self.rules[..], self.kept, self.expected, self.found);
+        probe.check(&self.rules[..], self.passed, self.expected, self.found);
         probe.set_evidence(last);
     }
 }
@@ -179,7 +179,7 @@ pub(crate) fn steadily(
     for _ in 0..TRIES_OF_PARAMETERS {
         let checks = between(probe, answers, |probe, answers| act(probe, answers))?;
         let Some(checks) = checks else { continue };
-        if checks.iter().all(|check| check.kept) {
+        if checks.iter().all(|check| check.passed) {
             checks.into_iter().for_each(|check| check.record(probe));
             return Ok(());
         }

@@ -12,7 +12,7 @@ use crate::judge::{Describe, Step};
 use crate::suite::kit::{Probe, RawCall, with_reply};
 
 /// Maximum number of bytes in the buffer of a program stream.
-pub(crate) const HELD_MAX: usize = 4094;
+pub(crate) const STREAM_BUFFER_LEN: usize = 4094;
 
 /// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented: their
 /// meaning is assumed.

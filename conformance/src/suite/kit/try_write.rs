@@ -111,10 +111,10 @@ impl Probe<'_> {
         };
         self.target.changes.is_now(address, Some(value));
         let exchange = self.send(write)?;
-        let kept = exchange.success().is_some();
+        let passed = exchange.success().is_some();
         let expected = || format!("{} takes {}", write_check.what, Hex(value.to_vec()));
-        self.check(write_check.rules, kept, expected, &exchange);
-        Ok(kept)
+        self.check(write_check.rules, passed, expected, &exchange);
+        Ok(passed)
     }
 
     /// Writes another value, reads it back and restores the old one in any case. Before that,
@@ -158,13 +158,13 @@ impl Probe<'_> {
             return Ok(());
         }
         let after = self.value_at(address)?.unwrap_or_default();
-        let kept = same(&after, other, write_check.is_text);
+        let passed = same(&after, other, write_check.is_text);
         // A value that changes by itself proves nothing.
-        if !kept && self.moves(address, write_check.is_text)? {
+        if !passed && self.moves(address, write_check.is_text)? {
             return Ok(());
         }
         let expected = || format!("{} of {}, as written", Hex(other.to_vec()), write_check.what);
-        self.check(write_check.rules, kept, expected, || Hex(after.clone()));
+        self.check(write_check.rules, passed, expected, || Hex(after.clone()));
         then(self, before, other)
     }
 
@@ -178,13 +178,13 @@ impl Probe<'_> {
         let taken = self.write_checked(write_check, address, before)?;
         // Without a reply the value is unknown.
         let Some(after) = self.value_at(address)? else { return Ok(false) };
-        let kept = same(&after, before, write_check.is_text);
-        if !kept && self.moves(address, write_check.is_text)? {
+        let passed = same(&after, before, write_check.is_text);
+        if !passed && self.moves(address, write_check.is_text)? {
             return Ok(taken);
         }
         let expected = || format!("{} of {} again", Hex(before.to_vec()), write_check.what);
-        self.check(write_check.rules, kept, expected, || Hex(after.clone()));
-        Ok(kept)
+        self.check(write_check.rules, passed, expected, || Hex(after.clone()));
+        Ok(passed)
     }
 
     /// Writes the current value of a read-only address, which must be rejected; `sibling` is an

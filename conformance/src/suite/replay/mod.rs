@@ -8,17 +8,24 @@ mod service;
 mod streaming;
 mod wire;
 
-pub use outcome::{Done, Fault, Otherwise, differs};
-pub use service::{Asking, ServiceActor, fault_class, play as play_service, script, square_root};
+pub use outcome::{Fault, StepError, StepResult, differs};
+pub use service::{
+    RequestingProgram, ServiceActor, fault_class, play as play_service, script, square_root,
+};
 pub use streaming::{StreamActor, play as play_stream, take};
 
-use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Given, Sequence, SequenceExpect, sequences};
 
-use crate::judge::{Body, Case, CaseSubject, Checks as _, Needs, Step, Stop};
+use crate::judge::{Body, Case, CaseSubject, Checks as _, Needs, Rule, Step, Stop};
 use crate::suite::kit::Probe;
 
 /// Requirements of a client or a service, which is the suite itself here.
-const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
+const NOT_THE_TARGETS: [ClauseId; 5] = [STM_17, SVC_2, SVC_5, SVC_7, SVC_13];
+
+fn is_of_target(id: &str) -> bool {
+    NOT_THE_TARGETS.iter().all(|other| other.as_str() != id)
+}
 
 /// One case for each sequence with a requirement of the CNC.
 pub(super) fn cases() -> Vec<Case> {
@@ -30,7 +37,7 @@ pub(super) fn cases() -> Vec<Case> {
             id: format!("seq-{}", sequence.id),
             title: sequence.title.clone(),
             subject: CaseSubject::Target,
-            requirements: ids.filter(|id| !NOT_THE_TARGETS.contains(id)).collect(),
+            requirements: ids.filter(|id| is_of_target(id)).collect(),
             needs: Needs::Simulator,
             body: Body::Sequence(sequence),
         }
@@ -51,15 +58,15 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
             Some((reject.class.as_str(), reject.step.as_deref().unwrap_or_default()))
         }
     };
-    let (kept, expected, found) = match done {
+    let (passed, expected, found) = match done {
         Ok(fault) => (fault == stated, display(stated), display(fault)),
-        Err(Otherwise::Differs(expected, found)) => (false, expected, found),
-        Err(Otherwise::Stop(stop)) => return Err(stop),
+        Err(StepError::Differs(expected, found)) => (false, expected, found),
+        Err(StepError::Stop(stop)) => return Err(stop),
     };
     // For the simulated CNC assumed requirements are judged too.
     let cited = sequence.cited().into_iter().map(|one| one.id.as_str());
-    let cited: Vec<&str> = cited.filter(|id| !NOT_THE_TARGETS.contains(id)).collect();
-    probe.check(&cited, kept, expected, found);
+    let cited: Vec<Rule> = cited.filter(|id| is_of_target(id)).map(Rule::of).collect();
+    probe.check(&cited, passed, expected, found);
     Ok(())
 }
 

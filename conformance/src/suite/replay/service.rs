@@ -7,7 +7,7 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
-use super::outcome::{Done, Fault, differs, lacks};
+use super::outcome::{Fault, StepResult, differs, lacks};
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{
     Repeat, Script, ScriptConfig, ServiceOutcome, ServiceRequest, Wait,
@@ -15,13 +15,13 @@ use crate::simulator::program::{
 
 /// The interfaces of a CNC's channels, by number, and the NC program.
 pub trait ServiceActor {
-    type Program: Asking;
+    type Program: RequestingProgram;
 
     /// An NC program with one request.
     fn ask(&self, request: ServiceRequest) -> Result<Self::Program, CallError>;
 
     /// The value of a variable; a text without its padding.
-    fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>>;
+    fn read(&mut self, channel: u32, variable: ServiceVariable) -> StepResult<Vec<u8>>;
 
     /// Writes a value. Returns the class of the fault if it is rejected.
     fn write(
@@ -29,14 +29,14 @@ pub trait ServiceActor {
         channel: u32,
         variable: ServiceVariable,
         value: &[u8],
-    ) -> Done<Option<&'static str>>;
+    ) -> StepResult<Option<&'static str>>;
 
     /// Changes an interface directly.
-    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()>;
+    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> StepResult<()>;
 }
 
 /// An NC program that sends a request.
-pub trait Asking {
+pub trait RequestingProgram {
     /// Executes one step.
     fn step(&mut self, now: Duration, interface: &mut ServiceInterface);
 
@@ -47,7 +47,7 @@ pub trait Asking {
     fn outcome(&self) -> Option<ServiceOutcome>;
 }
 
-impl Asking for Script {
+impl RequestingProgram for Script {
     fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
         Script::step(self, now, interface);
     }
@@ -62,25 +62,28 @@ impl Asking for Script {
 }
 
 /// Plays the steps up to the first fault.
-pub fn play<'c>(actor: &mut impl ServiceActor, given: &'c ServiceSequence) -> Done<Fault<'c>> {
+pub fn play<'c>(
+    actor: &mut impl ServiceActor,
+    given: &'c ServiceSequence,
+) -> StepResult<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
         ids.insert(name, [ServiceId::new(&service.uuid)?]);
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
-    let mut scene = Scene { actor, given, hosts, program: None, now: Duration::ZERO };
+    let mut replay = ServiceReplay { actor, given, hosts, program: None, now: Duration::ZERO };
     for step in &given.steps {
         if let Some(at) = step.at {
-            scene.now = Duration::from_millis(at);
+            replay.now = Duration::from_millis(at);
         }
-        if let Some(fault) = scene.step(step)? {
+        if let Some(fault) = replay.step(step)? {
             return Ok(Some((fault, &step.id)));
         }
     }
     Ok(None)
 }
 
-struct Scene<'s, 'c, A: ServiceActor> {
+struct ServiceReplay<'s, 'c, A: ServiceActor> {
     actor: &'s mut A,
     given: &'c ServiceSequence,
     hosts: BTreeMap<&'c str, Host<'s>>,
@@ -88,8 +91,8 @@ struct Scene<'s, 'c, A: ServiceActor> {
     now: Duration,
 }
 
-impl<A: ServiceActor> Scene<'_, '_, A> {
-    fn step(&mut self, step: &ServiceStep) -> Done<Option<&'static str>> {
+impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
+    fn step(&mut self, step: &ServiceStep) -> StepResult<Option<&'static str>> {
         match step.action {
             ServiceAction::Read => {
                 let value = bytes(step)?;
@@ -125,9 +128,9 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
                 }
                 Some(other) => differs("an answer", format!("{other:?}")),
             },
-            ServiceAction::Serve => match self.wants(step)? {
-                Wants::Nothing => Ok(Some("not-asked")),
-                Wants::Serve(request, state) => {
+            ServiceAction::Serve => match self.next_action(step)? {
+                HostAction::Nothing => Ok(Some("not-asked")),
+                HostAction::Serve(request, state) => {
                     let stated = (text(&step.request)?, number(&step.request_state)?);
                     let same = (request.as_bytes().to_vec(), state) == stated;
                     Ok((!same).then_some("outcome"))
@@ -135,15 +138,15 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
                 other => differs("a request", format!("{other:?}")),
             },
             ServiceAction::Answer => self.answer(step),
-            ServiceAction::Idle => match self.wants(step)? {
-                Wants::Nothing => Ok(None),
+            ServiceAction::Idle => match self.next_action(step)? {
+                HostAction::Nothing => Ok(None),
                 other => differs("nothing to do", format!("{other:?}")),
             },
         }
     }
 
     /// Executes one step of the program.
-    fn program_step(&mut self, step: &ServiceStep) -> Done<&A::Program> {
+    fn program_step(&mut self, step: &ServiceStep) -> StepResult<&A::Program> {
         let program = self.program.as_mut().ok_or_else(|| lacks("program"))?;
         let now = self.now;
         self.actor.with(channel(step), |interface| program.step(now, interface))?;
@@ -151,13 +154,13 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
     }
 
     /// The outcome of the request, after the program has polled.
-    fn outcome(&mut self, step: &ServiceStep) -> Done<Option<ServiceOutcome>> {
+    fn outcome(&mut self, step: &ServiceStep) -> StepResult<Option<ServiceOutcome>> {
         self.program_step(step)?;
         Ok(self.program_step(step)?.outcome())
     }
 
     /// The next action of the service, after it has read all variables it needs.
-    fn wants(&mut self, step: &ServiceStep) -> Done<Wants> {
+    fn next_action(&mut self, step: &ServiceStep) -> StepResult<HostAction> {
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
         host.poll();
         loop {
@@ -169,17 +172,17 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
                     }
                 }
                 HostStep::Write(variable, value) => {
-                    return Ok(Wants::Write(variable, value.to_vec()));
+                    return Ok(HostAction::Write(variable, value.to_vec()));
                 }
                 HostStep::Serve { request, request_state, .. } => {
-                    return Ok(Wants::Serve(request.into(), request_state));
+                    return Ok(HostAction::Serve(request.into(), request_state));
                 }
-                _ => return Ok(Wants::Nothing),
+                _ => return Ok(HostAction::Nothing),
             }
         }
     }
 
-    fn write(&mut self, step: &ServiceStep) -> Done<Option<&'static str>> {
+    fn write(&mut self, step: &ServiceStep) -> StepResult<Option<&'static str>> {
         let (variable, value) = (variable(step)?, bytes(step)?);
         match step.actor.as_str() {
             "other" => self.actor.write(channel(step), variable, &value),
@@ -196,7 +199,7 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
                 Ok(None)
             }
             service => {
-                if self.wants(step)? != Wants::Write(variable, value.clone()) {
+                if self.next_action(step)? != HostAction::Write(variable, value.clone()) {
                     return Ok(Some("order"));
                 }
                 if self.actor.write(channel(step), variable, &value)?.is_some() {
@@ -209,9 +212,9 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
         }
     }
 
-    fn answer(&mut self, step: &ServiceStep) -> Done<Option<&'static str>> {
+    fn answer(&mut self, step: &ServiceStep) -> StepResult<Option<&'static str>> {
         let (response, state) = (text(&step.response)?, number(&step.response_state)?);
-        let Wants::Serve(request, _) = self.wants(step)? else {
+        let HostAction::Serve(request, _) = self.next_action(step)? else {
             return differs("a request to answer", "none");
         };
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
@@ -229,7 +232,7 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
 
 /// The next action of a service, other than reading.
 #[derive(Debug, PartialEq)]
-enum Wants {
+enum HostAction {
     Nothing,
     Write(ServiceVariable, Vec<u8>),
     Serve(CncString, u32),
@@ -239,7 +242,7 @@ fn channel(step: &ServiceStep) -> u32 {
     step.channel.unwrap_or(1)
 }
 
-fn request(step: &ServiceStep) -> Done<Result<ServiceRequest, CallError>> {
+fn request(step: &ServiceStep) -> StepResult<Result<ServiceRequest, CallError>> {
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value)).transpose();
     let wait = match &step.wait {
         None => Wait::Loop,
@@ -281,20 +284,20 @@ pub fn square_root(request: &str) -> (String, u32) {
     (format!("ERROR: cannot calc square root of negative number {x:.6}"), 99)
 }
 
-fn variable(step: &ServiceStep) -> Done<ServiceVariable> {
+fn variable(step: &ServiceStep) -> StepResult<ServiceVariable> {
     let name = step.variable.as_deref().and_then(ServiceVariable::by_name);
     name.ok_or_else(|| lacks("variable"))
 }
 
-fn bytes(step: &ServiceStep) -> Done<Vec<u8>> {
+fn bytes(step: &ServiceStep) -> StepResult<Vec<u8>> {
     Ok(step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes())
 }
 
-fn text(pieces: &Option<Pieces>) -> Done<Vec<u8>> {
+fn text(pieces: &Option<Pieces>) -> StepResult<Vec<u8>> {
     Ok(pieces.as_ref().ok_or_else(|| lacks("text"))?.bytes())
 }
 
-fn number(value: &Option<String>) -> Done<u32> {
+fn number(value: &Option<String>) -> StepResult<u32> {
     let number = value.as_deref().and_then(|value| value.parse().ok());
     number.ok_or_else(|| lacks("number"))
 }

@@ -5,19 +5,19 @@ use std::time::Duration;
 use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
 use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
-use super::outcome::{Done, Fault, differs, lacks};
+use super::outcome::{Fault, StepResult, differs, lacks};
 use crate::simulator::program::{Message, Pace, State, StreamingProgram};
 
 /// A CNC with a streaming program.
 pub trait StreamActor {
     /// Starts the streaming program.
-    fn start(&mut self, now: Duration) -> Done<()>;
+    fn start(&mut self, now: Duration) -> StepResult<()>;
 
     /// Resets the channel.
-    fn reset(&mut self, now: Duration) -> Done<()>;
+    fn reset(&mut self, now: Duration) -> StepResult<()>;
 
     /// Number of bytes in the buffer.
-    fn held(&mut self) -> Done<usize>;
+    fn held(&mut self) -> StepResult<usize>;
 
     /// Writes the packet of a step.
     ///
@@ -29,14 +29,14 @@ pub trait StreamActor {
         stated: StreamAck,
         step: &StreamStep,
         now: Duration,
-    ) -> Done<Ack>;
+    ) -> StepResult<Ack>;
 
     /// Lets the decoder read the buffer; returns the class of a fault.
-    fn take(&mut self, step: &StreamStep, now: Duration) -> Done<Option<&'static str>>;
+    fn take(&mut self, step: &StreamStep, now: Duration) -> StepResult<Option<&'static str>>;
 }
 
 /// Plays the steps up to the first fault.
-pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> Done<Fault<'c>> {
+pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> StepResult<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
     let mut sender = sender.transpose()?;
@@ -70,7 +70,7 @@ fn write(
     sender: &mut Option<Sender<'_>>,
     step: &StreamStep,
     now: Duration,
-) -> Done<Option<&'static str>> {
+) -> StepResult<Option<&'static str>> {
     let data = step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes();
     let stated = step.ack.ok_or_else(|| lacks("answer"))?;
     let own = match sender {
@@ -100,7 +100,7 @@ pub fn take(
     program: &mut StreamingProgram,
     step: &StreamStep,
     now: Duration,
-) -> Done<Option<&'static str>> {
+) -> StepResult<Option<&'static str>> {
     if !matches!(program.state(), State::Running | State::Dry) {
         return Ok(Some("not-started"));
     }

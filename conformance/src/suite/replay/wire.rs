@@ -8,9 +8,10 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByName, WriteByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::streaming::Ack;
-use ads_cnc_vectors::{Requirement, ServiceSequence, StreamAck, StreamStep, Streaming};
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Requirement, ServiceSequence, StreamAck, StreamStep, Streaming};
 
-use super::outcome::{Done, Fault, differs};
+use super::outcome::{Fault, StepResult, differs};
 use super::service::{ServiceActor, fault_class, script};
 use super::streaming::StreamActor;
 use super::{service, streaming};
@@ -21,11 +22,14 @@ use crate::simulator::program::{
     Pace, ProgramConfig, Script, ServiceRequest, Start, StreamingProgram,
 };
 use crate::suite::kit::{
-    HELD_MAX, Probe, StreamWrite, send, send_until_taken, service_channels, with_reply,
+    Probe, STREAM_BUFFER_LEN, StreamWrite, send, send_until_taken, service_channels, with_reply,
 };
 
 /// Replays a sequence of the Service Interface, and resets the interfaces before and after it.
-pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
+pub(super) fn service<'c>(
+    probe: &mut Probe<'_>,
+    given: &'c ServiceSequence,
+) -> StepResult<Fault<'c>> {
     let (cnc, channels) = (probe.cnc()?, service_channels(probe)?);
     let mut actor = ServicePlayer { probe, cnc, channels };
     for step in &given.steps {
@@ -44,7 +48,7 @@ struct ServicePlayer<'s, 'p> {
 }
 
 impl ServicePlayer<'_, '_> {
-    fn reset(&self) -> Done<()> {
+    fn reset(&self) -> StepResult<()> {
         let mut all = self.channels.iter();
         let reset = |one: &Channel| self.cnc.with_service(one.number(), |service| service.reset());
         Ok(all.try_for_each(reset)?)
@@ -66,7 +70,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
         Ok(self.cnc.as_run(script(request)?))
     }
 
-    fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>> {
+    fn read(&mut self, channel: u32, variable: ServiceVariable) -> StepResult<Vec<u8>> {
         let channel = self.channel(channel)?;
         let request = ReadByName::new(channel, variable.name())?;
         let exchange = with_reply(self.probe.send(request)?)?;
@@ -84,7 +88,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
         channel: u32,
         variable: ServiceVariable,
         value: &[u8],
-    ) -> Done<Option<&'static str>> {
+    ) -> StepResult<Option<&'static str>> {
         let channel = self.channel(channel)?;
         let request = WriteByName::new(channel, variable.name(), value)?;
         let exchange = with_reply(self.probe.send(request)?)?;
@@ -95,7 +99,7 @@ impl ServiceActor for ServicePlayer<'_, '_> {
         Ok((!taken).then(fault))
     }
 
-    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()> {
+    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> StepResult<()> {
         Ok(self.cnc.with_service(self.channel(channel)?.number(), then)?)
     }
 }
@@ -105,7 +109,7 @@ pub(super) fn stream<'c>(
     probe: &mut Probe<'_>,
     given: &'c Streaming,
     rules: &[&'static Requirement],
-) -> Done<Fault<'c>> {
+) -> StepResult<Fault<'c>> {
     let (cnc, channel) = (probe.cnc()?, probe.channel()?);
     let mut actor = StreamPlayer { probe, cnc, channel, rules };
     let config = actor.with(|program| program.config().clone())?;
@@ -128,17 +132,17 @@ struct StreamPlayer<'s, 'p> {
 }
 
 impl StreamPlayer<'_, '_> {
-    fn with<T>(&self, then: impl FnOnce(&mut StreamingProgram) -> T) -> Done<T> {
+    fn with<T>(&self, then: impl FnOnce(&mut StreamingProgram) -> T) -> StepResult<T> {
         Ok(self.cnc.with_program(self.channel.number(), then)?)
     }
 
-    fn set(&self, config: ProgramConfig) -> Done<()> {
+    fn set(&self, config: ProgramConfig) -> StepResult<()> {
         Ok(self.cnc.set_program(self.channel.number(), config)?)
     }
 
     /// Judges the error number of a rejected write.
-    fn number(&mut self, rule: &'static str, ack: Ack, sent: &StreamWrite) {
-        if self.rules.iter().any(|one| one.id == rule) {
+    fn number(&mut self, rule: ClauseId, ack: Ack, sent: &StreamWrite) {
+        if self.rules.iter().any(|one| one.id == rule.as_str()) {
             let expected = || format!("{ack:?} by its number");
             self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
         }
@@ -147,18 +151,18 @@ impl StreamPlayer<'_, '_> {
 
 /// Time does not advance: the program is on hold.
 impl StreamActor for StreamPlayer<'_, '_> {
-    fn start(&mut self, _: Duration) -> Done<()> {
+    fn start(&mut self, _: Duration) -> StepResult<()> {
         match self.with(|one| one.start(Duration::ZERO))? {
             Ok(()) => Ok(()),
             Err(error) => differs("the program starts", error),
         }
     }
 
-    fn reset(&mut self, _: Duration) -> Done<()> {
+    fn reset(&mut self, _: Duration) -> StepResult<()> {
         self.with(|program| program.reset(Duration::ZERO))
     }
 
-    fn held(&mut self) -> Done<usize> {
+    fn held(&mut self) -> StepResult<usize> {
         self.with(|program| program.buffered())
     }
 
@@ -170,7 +174,7 @@ impl StreamActor for StreamPlayer<'_, '_> {
         stated: StreamAck,
         step: &StreamStep,
         _: Duration,
-    ) -> Done<Ack> {
+    ) -> StepResult<Ack> {
         let held = self.held()?;
         let sent = match stated {
             StreamAck::Accepted => send_until_taken(self.probe, self.channel, data)?,
@@ -178,20 +182,20 @@ impl StreamActor for StreamPlayer<'_, '_> {
         };
         match (stated, sent.is_taken()) {
             (StreamAck::Accepted, true) => Ok(Ack::Accepted),
-            (StreamAck::Accepted, false) if held + data.len() > HELD_MAX => Ok(Ack::Busy),
+            (StreamAck::Accepted, false) if held + data.len() > STREAM_BUFFER_LEN => Ok(Ack::Busy),
             (StreamAck::Later, false) => {
-                self.number("STM-6", Ack::Busy, &sent);
+                self.number(STM_6, Ack::Busy, &sent);
                 Ok(Ack::Busy)
             }
             (StreamAck::Refused, false) => {
-                self.number("STM-2", Ack::Rejected, &sent);
+                self.number(STM_2, Ack::Rejected, &sent);
                 Ok(Ack::Rejected)
             }
             _ => differs(format!("{stated:?} in {}", step.id), sent),
         }
     }
 
-    fn take(&mut self, step: &StreamStep, _: Duration) -> Done<Option<&'static str>> {
+    fn take(&mut self, step: &StreamStep, _: Duration) -> StepResult<Option<&'static str>> {
         self.with(|program| streaming::take(program, step, Duration::ZERO))?
     }
 }

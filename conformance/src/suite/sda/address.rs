@@ -8,6 +8,7 @@ use ads_cnc::address::{
 };
 use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Rule, Step, assumed};
 use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
@@ -20,21 +21,21 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let of_class = class == one.class && attribute == Attribute::Content;
         let expected = || format!("the content group of the {}", one.class);
         let found = || format!("{group} for {one}");
-        probe.check("ADR-5", of_class, expected, found);
+        probe.check(ADR_5, of_class, expected, found);
         let same = u32::from(instance) == one.channel;
-        let rule = if one.class == Class::Spindle { "ADR-2" } else { "ADR-5" };
+        let rule = if one.class == Class::Spindle { ADR_2 } else { ADR_5 };
         probe.check(rule, same, || format!("the group of instance {}", one.channel), found);
         if one.class == Class::Spindle {
             let by_index = addressing == Addressing::Index;
-            probe.check("ADR-2", by_index, "a group without the logical bit", found);
+            probe.check(ADR_2, by_index, "a group without the logical bit", found);
         } else {
             let logical = addressing == Addressing::Logical;
-            probe.check("ADR-5", logical, "a group with the logical bit, as asked", found);
+            probe.check(ADR_5, logical, "a group with the logical bit, as asked", found);
         }
         offset(probe, one.class, one.axis, one.first);
         let own = seen.insert((group, one.first.index_offset()));
         let found = || format!("{}, which another instance has too", found());
-        probe.check("SDA-1", own, "a place of its own", found);
+        probe.check(SDA_1, own, "a place of its own", found);
     }
     // If several instances have the same address, the one after the last is not requested.
     for one in probe.instances()? {
@@ -44,18 +45,18 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         };
         let own = beyond != ObjectAddress::from(one.first) || one.class == Class::Spindle;
         let found = || format!("{beyond:?} for the axis behind {one} too");
-        probe.check("SDA-1", own, "a place of its own", found);
+        probe.check(SDA_1, own, "a place of its own", found);
     }
     // In another order every instance has the same address.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;
         let first = ObjectAddress::from(one.first);
         let found = || format!("{again:?} of {one}");
-        probe.check("SDA-1", again == Some(first), || format!("{first:?}, as before"), found);
+        probe.check(SDA_1, again == Some(first), || format!("{first:?}, as before"), found);
     }
     let spindle = probe.address_of(Class::Spindle, 0, 0)?;
     if spindle.is_some_and(|address| address != ObjectAddress::NONE) {
-        probe.pass("GEN-6");
+        probe.pass(GEN_6);
     }
     Ok(())
 }
@@ -65,9 +66,9 @@ fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress)
     let offset = first.index_offset();
     let of = |stride| IndexOffset::for_axis(stride, axis, 0).ok();
     let (rule, expected) = match (class, axis) {
-        (_, 0) => (Rule::from("SDA-1"), vec![Some(IndexOffset::new(0))]),
-        (Class::Decoder, _) => (Rule::from("ADR-7"), vec![of(AxisStride::X10000)]),
-        _ => (assumed("ADR-7"), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
+        (_, 0) => (Rule::from(SDA_1), vec![Some(IndexOffset::new(0))]),
+        (Class::Decoder, _) => (Rule::from(ADR_7), vec![of(AxisStride::X10000)]),
+        _ => (assumed(ADR_7), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
     };
     let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
     let found = || format!("offset {offset} of the {}, axis {axis}", class);
@@ -87,11 +88,11 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);
             let expected =
                 || format!("{} or the address by number", by_index.group(Attribute::Content));
-            probe.check(assumed("SDA-1"), same, expected, &exchange);
+            probe.check(assumed(SDA_1), same, expected, &exchange);
             let mut steady = Steady::default();
             let what = format!("the number of elements of the {} of channel {number}", class);
             let (one, other) = (CountElements::new(first)?, CountElements::new(by_index)?);
-            steady.same(probe, ["ADR-1", "ADR-12"], what, one, other)?;
+            steady.same(probe, [ADR_1, ADR_12], what, one, other)?;
             steady.finish()?;
         }
     }
@@ -109,10 +110,10 @@ pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
         for len in [9, 4, 0] {
             let what = format!("{len} bytes for channel and axis");
             let bad = good.with(|call| call.data.resize(len, 0));
-            probe.refuses(assumed("SDA-1"), &what, bad, &good)?;
+            probe.refuses(assumed(SDA_1), &what, bad, &good)?;
         }
         let short = good.with(|call| call.read_length = 7);
-        probe.refuses(assumed("SDA-1"), "a read length of 7 for an address", short, &good)?;
+        probe.refuses(assumed(SDA_1), "a read length of 7 for an address", short, &good)?;
     }
     Ok(())
 }

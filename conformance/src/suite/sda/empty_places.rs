@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ads_cnc::address::{Class, ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ReadElement};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
@@ -49,7 +50,7 @@ fn is_blank(bytes: &[u8]) -> bool {
 
 fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
     // The number of elements is a content, too.
-    probe.ask("SDA-11", CountElements::new(one.first)?)?;
+    probe.ask(SDA_11, CountElements::new(one.first)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
         let Ok(element) = one.first.nth(place) else { continue };
@@ -65,13 +66,13 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
         let Some(Ok(read)) = length.map(|length| ReadElement::new(element, length)) else {
             continue;
         };
-        let content = probe.ask("SDA-11", read)?;
+        let content = probe.ask(SDA_11, read)?;
         let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
         // A content that equals that of an axis must not be one at an empty place, unless it is
         // zero.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
-        probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", found);
-        probe.check(assumed("SDA-11"), is_blank(&content), "zeros", found);
+        probe.check(SDA_11, !of_axis, "blank, not what an axis has elsewhere", found);
+        probe.check(assumed(SDA_11), is_blank(&content), "zeros", found);
     }
     Ok(())
 }
@@ -85,9 +86,9 @@ fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
         else {
             continue;
         };
-        let content = probe.ask("SDA-11", read)?;
+        let content = probe.ask(SDA_11, read)?;
         let expected = || format!("zeros of {} at place {place} of channel {channel}", object.name);
-        probe.check(assumed("SDA-11"), is_blank(&content), expected, || Hex(content));
+        probe.check(assumed(SDA_11), is_blank(&content), expected, || Hex(content));
     }
     Ok(())
 }
@@ -129,13 +130,13 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     let is_number = |(element, _): &&(ClassElement, Vec<u8>)| numbers.contains(element);
     for ((class, element), content) in blank?.iter().filter(is_number) {
         let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
-        probe.check("SDA-11", is_blank(content), "0 where the axis was", found);
+        probe.check(SDA_11, is_blank(content), "0 where the axis was", found);
     }
     for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for ((class, element), content) in blank_at(probe, channel, place, &numbers)? {
             let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
             let expected = || format!("0 at place {place} of channel {channel}");
-            probe.check("SDA-11", is_blank(&content), expected, found);
+            probe.check(SDA_11, is_blank(&content), expected, found);
         }
     }
     let list = probe.list_of(one.into())?;
@@ -149,9 +150,9 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
         ) else {
             continue;
         };
-        let content = probe.ask("SDA-11", read)?;
+        let content = probe.ask(SDA_11, read)?;
         let expected = || format!("0 of {name} at {offset}");
-        probe.check("SDA-11", is_blank(&content), expected, || Hex(content));
+        probe.check(SDA_11, is_blank(&content), expected, || Hex(content));
     }
     Ok(())
 }

@@ -5,30 +5,32 @@ mod empty_places;
 mod platform;
 mod range;
 
+use ads_cnc_vectors::ids::*;
+
 use super::row::{CaseRow, case};
 use crate::judge::Needs;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("sda-object-address", &["SDA-1", "ADR-2", "ADR-5", "ADR-7", "GEN-6"],
+    case("sda-object-address", &[SDA_1, ADR_2, ADR_5, ADR_7, GEN_6],
         Needs::Queries, address::object_address,
         "The address of an instance is in its class's group, and no other's"),
-    case("sda-configured-instances", &["SDA-1", "SDA-2", "SDA-5", "ADR-5"], Needs::Queries, range::configured,
+    case("sda-configured-instances", &[SDA_1, SDA_2, SDA_5, ADR_5], Needs::Queries, range::configured,
         "Every class has the instances that the configuration makes"),
-    case("sda-no-such-instance", &["SDA-2", "SDA-5", "GEN-6"], Needs::Queries, range::no_such_instance,
+    case("sda-no-such-instance", &[SDA_2, SDA_5, GEN_6], Needs::Queries, range::no_such_instance,
         "An instance that is not there is at (0, 0)"),
-    case("sda-far-instance", &["SDA-2", "SDA-5", "ADR-7"], Needs::Malformed, range::far,
+    case("sda-far-instance", &[SDA_2, SDA_5, ADR_7], Needs::Malformed, range::far,
         "A number that fits no group or no offset is that of no instance"),
-    case("sda-axes-agree", &["SDA-1", "SDA-5"], Needs::Queries, range::axes_agree,
+    case("sda-axes-agree", &[SDA_1, SDA_5], Needs::Queries, range::axes_agree,
         "Classes with the axes of a channel have as many, and so have those of the platform"),
-    case("sda-bad-queries", &["SDA-1"], Needs::Malformed, address::bad_queries,
+    case("sda-bad-queries", &[SDA_1], Needs::Malformed, address::bad_queries,
         "A question for an instance of another length is answered by an error"),
-    case("sda-address-by-index", &["SDA-1", "ADR-1", "ADR-12"], Needs::Queries, address::address_by_index,
+    case("sda-address-by-index", &[SDA_1, ADR_1, ADR_12], Needs::Queries, address::address_by_index,
         "By rank the address is that of the same channel, without the logical bit"),
-    case("sda-platform-axes-of-hld", &["SDA-5", "SDA-13"], Needs::Queries, platform::platform_axes_of_hld,
+    case("sda-platform-axes-of-hld", &[SDA_5, SDA_13], Needs::Queries, platform::platform_axes_of_hld,
         "The HLD of the first channel has the axes of the whole platform"),
-    case("sda-empty-place", &["SDA-11"], Needs::Queries, empty_places::empty_place,
+    case("sda-empty-place", &[SDA_11], Needs::Queries, empty_places::empty_place,
         "A place without an axis reads as blank"),
-    case("sda-axis-number", &["SDA-11"], Needs::Simulator, empty_places::axis_number,
+    case("sda-axis-number", &[SDA_11], Needs::Simulator, empty_places::axis_number,
         "The logical axis number of a place is that of its axis, and 0 without one"),
 ];

@@ -2,6 +2,7 @@
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::ReadElement;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step, Stop};
 use crate::suite::kit::{Probe, Steady};
@@ -23,16 +24,16 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     for axis in &platform {
         let mine = own.iter().find(|one| one.axis == axis.axis);
         let expected = || format!("axis {} under channel {first} as under channel 0", axis.axis);
-        probe.check(["SDA-5", "SDA-13"], mine.is_some(), expected, "no such instance");
+        probe.check([SDA_5, SDA_13], mine.is_some(), expected, "no such instance");
         let Some(mine) = mine else { continue };
         let counts = || format!("{} elements, of {axis} {}", mine.count, axis.count);
-        probe.check("SDA-13", mine.count == axis.count, "the same elements", counts);
+        probe.check(SDA_13, mine.count == axis.count, "the same elements", counts);
         for (one, other) in axis.elements().zip(mine.elements()) {
             let Some(length) = probe.length_of(one)? else { continue };
             let read = |address| ReadElement::new(address, length);
             let (Ok(read_one), Ok(read_other)) = (read(one), read(other)) else { continue };
             let what = format!("element {} of {axis}", one.index_offset());
-            steady.same(probe, "SDA-13", what, read_one, read_other)?;
+            steady.same(probe, SDA_13, what, read_one, read_other)?;
         }
     }
     steady.finish()

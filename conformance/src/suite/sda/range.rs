@@ -4,7 +4,8 @@ use ads_cnc::Decode as _;
 use ads_cnc::address::{Class, ElementAddress, IndexOffset};
 use ads_cnc::operation::{CountElements, FindInstance, Request};
 use ads_cnc::sda::ObjectAddress;
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
@@ -30,27 +31,28 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let group = first.class_group();
         let same = (group.class, u32::from(group.instance)) == (class, channel);
         let expected = || format!("the {} ({channel}, {axis}) in a group of its own", class);
-        probe.check("SDA-1", same, expected, found);
+        probe.check(SDA_1, same, expected, found);
         // An instance has a number of elements.
         let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
         let expected = || format!("the elements of the {} ({channel}, {axis})", class);
-        let of_range: Vec<Rule> = rules.iter().filter(|rule| rule.id == "SDA-5").copied().collect();
+        let of_range: Vec<Rule> =
+            rules.iter().filter(|rule| rule.id == SDA_5.as_str()).copied().collect();
         probe.check(&of_range, read, expected, &exchange);
     }
     Ok(())
 }
 
 /// One section of the manual gives axes to path preparation, another does not.
-fn of_axes(class: Class, id: &'static str) -> Rule {
+fn of_axes(class: Class, id: ClauseId) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
 /// Requests an instance that cannot exist according to the range of these requirements.
 fn is_nowhere(
     probe: &mut Probe<'_>,
-    rules: &[&'static str],
+    rules: &[ClauseId],
     class: Class,
     channel: u32,
     axis: u32,
@@ -61,14 +63,14 @@ fn is_nowhere(
     let Some(data) = data else {
         // Rejected with an error: that the result is (0, 0) instead is assumed.
         let found = exchange.result();
-        probe.check(assumed("SDA-2"), false, "the answer (0, 0)", found);
+        probe.check(assumed(SDA_2), false, "the answer (0, 0)", found);
         return Ok(());
     };
     let address = ObjectAddress::decode(data);
     let none = address == Ok(ObjectAddress::NONE);
     let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class);
     let found = || Hex(data.to_vec());
-    probe.check("SDA-2", none, expected, found);
+    probe.check(SDA_2, none, expected, found);
     // An instance was returned that cannot exist.
     let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
     probe.check(rules, !is_found, expected, found);
@@ -76,7 +78,7 @@ fn is_nowhere(
 }
 
 pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
-    let rules = ["SDA-5", "ADR-5"].map(Rule::from);
+    let rules = [SDA_5, ADR_5].map(Rule::from);
     let numbers: Vec<u32> =
         probe.channels()?.into_iter().map(|channel| channel.number().into()).collect();
     for &channel in &numbers {
@@ -87,7 +89,7 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
     // A place exists with or without an axis.
     for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for class in OF_PLACES {
-            is_there(probe, &[of_axes(class, "SDA-5")], class, channel, place)?;
+            is_there(probe, &[of_axes(class, SDA_5)], class, channel, place)?;
         }
     }
     let axes = probe.target.profile.platform_axes;
@@ -97,28 +99,28 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
         for (rank, &channel) in numbers.iter().enumerate() {
             // The manual gives the platform's axes to the HLD of the first channel, not to the
             // others.
-            let rules = if rank == 0 { rules } else { ["SDA-5", "ADR-5"].map(assumed) };
+            let rules = if rank == 0 { rules } else { [SDA_5, ADR_5].map(assumed) };
             is_there(probe, &rules, Class::Hld, channel, axis)?;
         }
     }
     let beyond = axes.saturating_add(1);
     if axes > 0 {
-        is_nowhere(probe, &["SDA-5"], Class::PositionController, 0, beyond)?;
-        is_nowhere(probe, &["SDA-5"], Class::Hld, 0, beyond)?;
+        is_nowhere(probe, &[SDA_5], Class::PositionController, 0, beyond)?;
+        is_nowhere(probe, &[SDA_5], Class::Hld, 0, beyond)?;
         for &channel in &numbers {
-            is_nowhere(probe, &["SDA-5"], Class::Hld, channel, beyond)?;
+            is_nowhere(probe, &[SDA_5], Class::Hld, channel, beyond)?;
         }
     }
     if let Some(spindles) = probe.target.profile.spindles {
         for index in 0..spindles {
             is_there(probe, &rules, Class::Spindle, index, 0)?;
         }
-        is_nowhere(probe, &["SDA-5"], Class::Spindle, spindles, 0)?;
+        is_nowhere(probe, &[SDA_5], Class::Spindle, spindles, 0)?;
     }
     if let Some(absent) = probe.target.profile.absent_channel {
         for class in OF_PLACES.into_iter().chain([Class::Hld]) {
-            is_nowhere(probe, &["SDA-5"], class, absent, 0)?;
-            is_nowhere(probe, &["SDA-5"], class, absent, 1)?;
+            is_nowhere(probe, &[SDA_5], class, absent, 0)?;
+            is_nowhere(probe, &[SDA_5], class, absent, 1)?;
         }
     }
     Ok(())
@@ -142,7 +144,7 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
             let Some(mine) = mine.filter(|_| last > 0) else { continue };
             any = true;
             let axis = if mine < last { mine.saturating_add(1) } else { last };
-            is_there(probe, &[of_axes(class, "SDA-5")], class, channel, axis)?;
+            is_there(probe, &[of_axes(class, SDA_5)], class, channel, axis)?;
         }
     }
     // The platform has the same number of axes in all classes.
@@ -153,7 +155,7 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
         let Some(mine) = mine.filter(|_| last > 0) else { continue };
         any = true;
         let axis = if mine < last { mine.saturating_add(1) } else { last };
-        is_there(probe, &[Rule::from("SDA-5")], class, 0, axis)?;
+        is_there(probe, &[Rule::from(SDA_5)], class, 0, axis)?;
     }
     applicable(any, "no class names an axis")
 }
@@ -169,28 +171,28 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
         for &channel in &channels {
             let last = last_axis(&all, class, channel).unwrap_or(INSTANCES_MAX);
             if last < INSTANCES_MAX {
-                is_nowhere(probe, &["SDA-5"], class, channel, last.saturating_add(1))?;
+                is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
             }
         }
         // Channels start at 1: 0 is the platform, which these classes do not have.
-        is_nowhere(probe, &["SDA-5", "GEN-6"], class, 0, 0)?;
-        is_nowhere(probe, &["SDA-5", "GEN-6"], class, 0, 1)?;
+        is_nowhere(probe, &[SDA_5, GEN_6], class, 0, 0)?;
+        is_nowhere(probe, &[SDA_5, GEN_6], class, 0, 1)?;
     }
     if has(Class::PositionController) {
         for &channel in &channels {
-            is_nowhere(probe, &["SDA-5"], Class::PositionController, channel, 1)?;
+            is_nowhere(probe, &[SDA_5], Class::PositionController, channel, 1)?;
         }
     }
     for class in [Class::PositionController, Class::Hld] {
         let last = last_axis(&all, class, 0).filter(|last| (1..INSTANCES_MAX).contains(last));
         if let Some(last) = last {
-            is_nowhere(probe, &["SDA-5"], class, 0, last.saturating_add(1))?;
+            is_nowhere(probe, &[SDA_5], class, 0, last.saturating_add(1))?;
         }
     }
     let spindles = all.iter().filter(|one| one.class == Class::Spindle);
     let last = spindles.map(|one| one.channel).max().filter(|last| *last < INSTANCES_MAX);
     if let Some(last) = last {
-        is_nowhere(probe, &["SDA-5"], Class::Spindle, last.saturating_add(1), 0)?;
+        is_nowhere(probe, &[SDA_5], Class::Spindle, last.saturating_add(1), 0)?;
     }
     Ok(())
 }
@@ -205,7 +207,7 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
         };
         for &bit in channels {
             let channel = one.channel.wrapping_add(bit);
-            is_nowhere(probe, &["SDA-5"], one.class, channel, one.axis)?;
+            is_nowhere(probe, &[SDA_5], one.class, channel, one.axis)?;
         }
         // A read there must fail too. Only the addresses of the decoder's axes are printed.
         if one.class == Class::Decoder && one.axis < 0x100 {
@@ -215,14 +217,14 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                 let there = CountElements::new(one.first)?;
                 let far = CountElements::new(ElementAddress::new(group, offset));
                 let what = format!("an axis {:#x} beyond {one}", bit >> 16);
-                probe.refuses(["ADR-7", "SDA-5"], &what, far?, there)?;
+                probe.refuses([ADR_7, SDA_5], &what, far?, there)?;
             }
         }
         // The axis of a spindle is not used.
         if one.class != Class::Spindle {
             for bit in [0x1_0000, 0x100_0000, 0x8000_0000] {
                 let axis = one.axis.wrapping_add(bit);
-                is_nowhere(probe, &["SDA-5"], one.class, one.channel, axis)?;
+                is_nowhere(probe, &[SDA_5], one.class, one.channel, axis)?;
             }
         }
     }

@@ -5,6 +5,7 @@ use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::interface::{NONE, ONE, WIDE, read_variable, within, within_at, write_variable};
 use crate::judge::{Checks as _, Step};
@@ -35,13 +36,13 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
                 let read = ReadByHandle::new(channel, handle, U32List::EMPTY);
                 let read = probe.try_ask(read)?.unwrap_or_default();
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, expected, || Hex(read));
+                probe.check(SVC_1, same, expected, || Hex(read));
                 write_variable(probe, channel, variable, b"\0")?;
                 let write = WriteByHandle::new(channel, handle, U32List::EMPTY, &value);
                 probe.send(write)?;
                 let read = read_variable(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, expected, || Hex(read));
+                probe.check(SVC_1, same, expected, || Hex(read));
             }
         }
         Ok(())
@@ -90,7 +91,7 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
                             )
                         };
                         let same = until_nul(&read) == until_nul(value);
-                        probe.check(["SVC-1", "SVC-4"], same, expected, || Hex(read.clone()));
+                        probe.check([SVC_1, SVC_4], same, expected, || Hex(read.clone()));
                     }
                 }
                 Ok(())

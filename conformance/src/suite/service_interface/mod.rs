@@ -10,6 +10,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByName, WriteByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use self::interface::{NONE, ONE, WIDE, read_variable, within, write_variable};
 use crate::edition::Feature;
@@ -21,25 +22,25 @@ use crate::values::until_nul;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("service-variables", &["SVC-1", "SVC-11"], Needs::Queries, variables,
+    case("service-variables", &[SVC_1, SVC_11], Needs::Queries, variables,
         "A channel with the interface has its five variables, and in them what they hold"),
-    case("service-response", &["SVC-1", "SVC-3", "SVC-4"], Needs::Writes, response,
+    case("service-response", &[SVC_1, SVC_3, SVC_4], Needs::Writes, response,
         "A service writes its response and its state, and a request's state takes it back"),
-    case("service-longest", &["SVC-1"], Needs::Simulator, variables::longest,
+    case("service-longest", &[SVC_1], Needs::Simulator, variables::longest,
         "REQUEST and RESPONSE hold 128 bytes, and no more"),
-    case("service-texts", &["SVC-1"], Needs::Simulator, variables::texts,
+    case("service-texts", &[SVC_1], Needs::Simulator, variables::texts,
         "A text of any length and of any characters is read as it was written"),
-    case("service-variables-apart", &["SVC-1", "SVC-3"], Needs::Simulator, variables::apart,
+    case("service-variables-apart", &[SVC_1, SVC_3], Needs::Simulator, variables::apart,
         "Each of the variables is its own, by name and by handle"),
-    case("service-texts-by-handle", &["SVC-1"], Needs::Simulator, aliases::by_handle,
+    case("service-texts-by-handle", &[SVC_1], Needs::Simulator, aliases::by_handle,
         "A text of any length is written and read by its handle as by its name"),
-    case("service-channels-apart", &["SVC-1", "SVC-4"], Needs::Simulator, aliases::channels_apart,
+    case("service-channels-apart", &[SVC_1, SVC_4], Needs::Simulator, aliases::channels_apart,
         "What is answered in one channel changes nothing that is asked in another"),
-    case("service-asked-by-a-program", &["SVC-3", "SVC-4"], Needs::Simulator, request_states,
+    case("service-asked-by-a-program", &[SVC_3, SVC_4], Needs::Simulator, request_states,
         "When a program writes REQUEST_STATE, the interface takes the last answer back"),
-    case("service-asks-last", &["SVC-12"], Needs::Simulator, program::asks_last,
+    case("service-asks-last", &[SVC_12], Needs::Simulator, program::asks_last,
         "A program writes REQUEST_STATE when UUID and REQUEST are there, and not before"),
-    case("service-square-root", &["SVC-4", "SVC-6", "SVC-8", "SVC-9", "SVC-12"],
+    case("service-square-root", &[SVC_4, SVC_6, SVC_8, SVC_9, SVC_12],
         Needs::Simulator, program::square_root,
         "A program asks for square roots, waits, and has the answers of the service"),
 ];
@@ -49,28 +50,28 @@ fn variables(probe: &mut Probe<'_>) -> Step {
     let since = version.map(|version| version.has(Feature::ServiceInterface));
     let of_version = since
         .filter(|answer| answer.available)
-        .map(|answer| if answer.assumed { assumed("SVC-11") } else { "SVC-11".into() });
+        .map(|answer| if answer.assumed { assumed(SVC_11) } else { SVC_11.into() });
     for channel in service_channels(probe)? {
         let described = probe.variables(channel)?;
         for variable in ServiceVariable::ALL {
             let name = variable.name();
-            let mut rules: Vec<Rule> = vec!["SVC-1".into()];
+            let mut rules: Vec<Rule> = vec![SVC_1.into()];
             rules.extend(of_version);
             let request = ReadByName::new(channel, name)?;
             let value = probe.ask(&rules, request)?;
             probe.ask(&rules, HandleByName::new(channel, name)?)?;
             let found = || format!("{} bytes of {name}", value.len());
             if variable.var_type() == VariableType::UNS32 {
-                probe.check("SVC-1", value.len() == 4, "a state of 4 bytes", found);
+                probe.check(SVC_1, value.len() == 4, "a state of 4 bytes", found);
             } else {
                 let fits = !value.is_empty() && value.len() <= 128;
-                probe.check("SVC-1", fits, "a text of at most 128 bytes", found);
+                probe.check(SVC_1, fits, "a text of at most 128 bytes", found);
             }
             let own = described.iter().find(|one| one.name.text.as_cnc_str() == name);
             let Some(own) = own else { continue };
             let found = || format!("{:?} of {name}", own.var_type);
             let expected = || format!("{:?}", variable.var_type());
-            probe.check("SVC-1", own.var_type == variable.var_type(), expected, found);
+            probe.check(SVC_1, own.var_type == variable.var_type(), expected, found);
         }
     }
     Ok(())
@@ -107,7 +108,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
             read_variable(probe, channel, ResponseState)?,
         );
         let same = (until_nul(&after.0), &after.1) == (until_nul(&before.0), &before.1);
-        probe.check("SVC-1", same, "the old response again", || format!("{after:02x?}"));
+        probe.check(SVC_1, same, "the old response again", || format!("{after:02x?}"));
     }
     probe.finish("no service may be answered for")
 }
@@ -133,23 +134,23 @@ fn with_restoring(
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let taken = write_variable(probe, channel, Response, b"nobody asked\0")?;
-    probe.check("SVC-1", taken, "a response taken", "an error");
+    probe.check(SVC_1, taken, "a response taken", "an error");
     let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"nobody asked";
-    probe.check("SVC-1", same, "the response as written", || Hex(read));
+    probe.check(SVC_1, same, "the response as written", || Hex(read));
     // Any number: its meaning is agreed between program and service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
         let taken = write_variable(probe, channel, ResponseState, &state)?;
-        probe.check("SVC-1", taken, "a response state taken", "an error");
+        probe.check(SVC_1, taken, "a response state taken", "an error");
         let read = read_variable(probe, channel, ResponseState)?;
-        probe.check("SVC-1", read == state, || Hex(state.to_vec()), || Hex(read));
+        probe.check(SVC_1, read == state, || Hex(state.to_vec()), || Hex(read));
     }
     let read = read_variable(probe, channel, RequestState)?;
-    probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
+    probe.check(SVC_4, read == NONE, "no request any more", || Hex(read));
     // That any write of REQUEST_STATE has this effect, over ADS too, is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
     let read = read_variable(probe, channel, ResponseState)?;
-    probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", || Hex(read));
+    probe.check(assumed(SVC_3), read == NONE, "the response state taken back", || Hex(read));
     Ok(())
 }
 
@@ -166,16 +167,16 @@ fn request_states(probe: &mut Probe<'_>) -> Step {
         write_variable(probe, channel, Response, b"one\0")?;
         let read = read_variable(probe, channel, RequestState)?;
         let expected = "the request until it is answered";
-        probe.check(assumed("SVC-4"), read == ONE, expected, || Hex(read));
+        probe.check(assumed(SVC_4), read == ONE, expected, || Hex(read));
         write_variable(probe, channel, ResponseState, &ONE)?;
         // When REQUEST_STATE becomes 0 is assumed; that it does is stated.
         let read = read_variable(probe, channel, RequestState)?;
-        probe.check(assumed("SVC-4"), read == NONE, "the request is over", || Hex(read));
+        probe.check(assumed(SVC_4), read == NONE, "the request is over", || Hex(read));
         write(RequestState, &[2, 0, 0, 0])?;
         let read = read_variable(probe, channel, ResponseState)?;
-        probe.check("SVC-3", read == NONE, "the last response state taken back", || Hex(read));
+        probe.check(SVC_3, read == NONE, "the last response state taken back", || Hex(read));
         let read = read_variable(probe, channel, RequestState)?;
-        probe.check("SVC-3", read == [2, 0, 0, 0], "the new request", || Hex(read));
+        probe.check(SVC_3, read == [2, 0, 0, 0], "the new request", || Hex(read));
         Ok(())
     })
 }

@@ -6,6 +6,7 @@ use ads_cnc::CncStr;
 use ads_cnc::address::Channel;
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::interface::{NONE, read_variable, within, write_variable};
 use crate::judge::{Checks as _, Step, Stop};
@@ -38,14 +39,14 @@ pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
             let found =
                 || format!("state {}, {} of {}", Hex(state.clone()), Hex(request), Hex(uuid));
             let expected = "no request before it is all there";
-            probe.check("SVC-12", same || state == NONE, expected, found);
+            probe.check(SVC_12, same || state == NONE, expected, found);
         }
         Ok(())
     })
 }
 
 /// Time limit for program and service.
-const PATIENCE: Duration = Duration::from_secs(1);
+const SERVICE_TIMEOUT: Duration = Duration::from_secs(1);
 
 pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
     within(probe, |probe, channel, cnc| {
@@ -59,8 +60,8 @@ pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
         let begun = Instant::now();
         let mut host = Host::new(&ids);
         while state()? != Some(ScriptState::Finished) {
-            if begun.elapsed() > PATIENCE {
-                probe.check("SVC-6", false, "a program with its answers", "one that waits on");
+            if begun.elapsed() > SERVICE_TIMEOUT {
+                probe.check(SVC_6, false, "a program with its answers", "one that waits on");
                 return Ok(());
             }
             serve(probe, channel, &mut host)?;
@@ -76,13 +77,13 @@ pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
         ];
         let found = answers?;
         probe.check(
-            ["SVC-6", "SVC-8", "SVC-9"],
+            [SVC_6, SVC_8, SVC_9],
             found == expected,
             || format!("{expected:?}"),
             || format!("{found:?}"),
         );
         let read = read_variable(probe, channel, ServiceVariable::RequestState)?;
-        probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
+        probe.check(SVC_4, read == NONE, "no request any more", || Hex(read));
         Ok(())
     })
 }
@@ -95,7 +96,7 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
         HostStep::Read(variable) => {
             let value = read_variable(probe, channel, variable)?;
             let read = host.read(&value);
-            probe.check("SVC-6", read.is_ok(), "a value that fits", || Hex(value));
+            probe.check(SVC_6, read.is_ok(), "a value that fits", || Hex(value));
             if read.is_err() {
                 return Err(Stop::Judged);
             }
@@ -103,7 +104,7 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
         HostStep::Write(variable, value) => {
             let value = value.to_vec();
             let taken = write_variable(probe, channel, variable, &value)?;
-            probe.check("SVC-6", taken, "the answer taken", "an error");
+            probe.check(SVC_6, taken, "the answer taken", "an error");
             host.written();
         }
         HostStep::Serve { request, request_state, .. } => {
@@ -111,7 +112,7 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
             let (request, known) = (request.to_string(), ["3", "-3"]);
             let whole = known.contains(&request.as_str()) && request_state == 1;
             let found = || format!("{request:?}, state {request_state}");
-            probe.check("SVC-12", whole, "3 or -3, with state 1", found);
+            probe.check(SVC_12, whole, "3 or -3, with state 1", found);
             let (answer, state) = if request == "3" { ("1.732051", 1) } else { (NEGATIVE, 99) };
             host.answer(CncStr::new(answer)?, state)?;
         }

@@ -4,6 +4,7 @@ use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::*;
 
 use super::interface::{NONE, WIDE, read_variable, within, write_variable};
 use crate::judge::{Checks as _, Step};
@@ -17,15 +18,15 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
             let mut value = vec![b'x'; 127];
             value.push(0);
             let taken = write_variable(probe, channel, variable, &value)?;
-            probe.check("SVC-1", taken, "127 characters and a NUL taken", "an error");
+            probe.check(SVC_1, taken, "127 characters and a NUL taken", "an error");
             let read = read_variable(probe, channel, variable)?;
-            probe.check("SVC-1", read == value, "128 bytes as written", || Hex(read));
+            probe.check(SVC_1, read == value, "128 bytes as written", || Hex(read));
             let mut longer = vec![b'y'; 128];
             longer.push(0);
             let taken = write_variable(probe, channel, variable, &longer)?;
-            probe.check("SVC-1", !taken, "129 bytes refused", "taken");
+            probe.check(SVC_1, !taken, "129 bytes refused", "taken");
             let read = read_variable(probe, channel, variable)?;
-            probe.check("SVC-1", read == value, "what was there before", || Hex(read));
+            probe.check(SVC_1, read == value, "what was there before", || Hex(read));
         }
         Ok(())
     })
@@ -50,10 +51,10 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
                 value.push(0);
                 let taken = write_variable(probe, channel, variable, &value)?;
                 let what = format!("{len} characters of {}", variable.name());
-                probe.check("SVC-1", taken, || format!("{what} taken"), "an error");
+                probe.check(SVC_1, taken, || format!("{what} taken"), "an error");
                 let read = read_variable(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, || format!("{what} as written"), || Hex(read));
+                probe.check(SVC_1, same, || format!("{what} as written"), || Hex(read));
             }
         }
         Ok(())
@@ -82,7 +83,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 let read = read_variable(probe, channel, *one)?;
                 let is_text = one.var_type() == VariableType::STRING;
                 let same = read == *written || is_text && until_nul(&read) == until_nul(written);
-                let rule = if *one == ResponseState { "SVC-3" } else { "SVC-1" };
+                let rule = if *one == ResponseState { SVC_3 } else { SVC_1 };
                 let expected = || format!("{} of {}", Hex(written.clone()), one.name());
                 probe.check(rule, same, expected, || Hex(read));
             }
@@ -92,7 +93,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             write_variable(probe, channel, Request, value)?;
             write_variable(probe, channel, Uuid, &[UUID, b"\0"].concat())?;
             let read = read_variable(probe, channel, ResponseState)?;
-            probe.check("SVC-3", read == WIDE, "the response state until the next", || Hex(read));
+            probe.check(SVC_3, read == WIDE, "the response state until the next", || Hex(read));
         }
         for (variable, _) in all {
             let name = HandleByName::new(channel, variable.name())?;
@@ -103,7 +104,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             let by_handle = probe.try_ask(request)?.unwrap_or_default();
             let same = until_nul(&by_handle) == until_nul(&by_name);
             let expected = || format!("{} of {}", Hex(by_name), variable.name());
-            probe.check("SVC-1", same, expected, || Hex(by_handle));
+            probe.check(SVC_1, same, expected, || Hex(by_handle));
             // In the opposite order.
             if variable == Response {
                 let write =
@@ -111,7 +112,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 probe.send(write)?;
                 let read = read_variable(probe, channel, variable)?;
                 let same = until_nul(&read) == b"by handle";
-                probe.check("SVC-1", same, "what was written by handle", || Hex(read));
+                probe.check(SVC_1, same, "what was written by handle", || Hex(read));
             }
         }
         Ok(())

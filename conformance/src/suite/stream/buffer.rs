@@ -5,11 +5,13 @@ use std::time::Duration;
 use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, ProgramConfig, Start, State, StreamingProgram};
-use crate::suite::kit::{HELD_MAX, Probe, StreamWrite, send, send_until_taken};
+use crate::suite::kit::{Probe, STREAM_BUFFER_LEN, StreamWrite, send, send_until_taken};
 
 /// Configures the streaming program of the first channel, calls a function, and restores the
 /// configuration.
@@ -75,13 +77,13 @@ impl StreamProgram<'_> {
     pub(super) fn start(&self, probe: &mut Probe<'_>) -> Step {
         let started = self.with(|program| program.start(Duration::ZERO))?;
         let found = started.as_ref().err().map(ToString::to_string).unwrap_or_default();
-        probe.require("STM-14", started.is_ok(), "a program that starts now", found)
+        probe.require(STM_14, started.is_ok(), "a program that starts now", found)
     }
 }
 
 pub(super) fn expect<T: PartialEq + std::fmt::Debug>(
     probe: &mut Probe<'_>,
-    rules: &[&'static str],
+    rules: &[ClauseId],
     expected: T,
     found: T,
 ) {
@@ -91,7 +93,7 @@ pub(super) fn expect<T: PartialEq + std::fmt::Debug>(
 /// Sends a packet that must be accepted.
 pub(super) fn write_accepted(
     probe: &mut Probe<'_>,
-    rules: &[&'static str],
+    rules: &[ClauseId],
     channel: Channel,
     data: &[u8],
 ) -> Step<StreamWrite> {
@@ -105,17 +107,17 @@ pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
         let most = comment(STREAM_PACKET_MAX);
         // With an empty and a non-empty buffer, and repeatedly.
         for held in [0, most.len()] {
-            for len in [993, 993, 994, 1024, 1984, 2048, HELD_MAX, 4096] {
+            for len in [993, 993, 994, 1024, 1984, 2048, STREAM_BUFFER_LEN, 4096] {
                 let sent = send(probe, channel, &comment(len))?;
                 let expected = || format!("{len} bytes refused");
-                probe.check("STM-2", sent.is_refused(), expected, &sent);
+                probe.check(STM_2, sent.is_refused(), expected, &sent);
                 // That the error number shows it is assumed.
                 let good = sent.assumed() == Ack::Rejected;
-                probe.check(assumed("STM-2"), good, "refused for good", &sent);
-                expect(probe, &["STM-2"], held, stage.held()?);
+                probe.check(assumed(STM_2), good, "refused for good", &sent);
+                expect(probe, &[STM_2], held, stage.held()?);
             }
             if held == 0 {
-                write_accepted(probe, &["STM-2"], channel, &most)?;
+                write_accepted(probe, &[STM_2], channel, &most)?;
             }
         }
         Ok(())
@@ -126,27 +128,27 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         let packets: Vec<Vec<u8>> = [992, 992, 992, 992, 126].map(numbered).into();
         for packet in &packets {
-            write_accepted(probe, &["STM-3"], channel, packet)?;
+            write_accepted(probe, &[STM_3], channel, packet)?;
         }
-        expect(probe, &["STM-3"], HELD_MAX, stage.held()?);
+        expect(probe, &[STM_3], STREAM_BUFFER_LEN, stage.held()?);
         let more = b"N1\r\n";
         for _ in 0..2 {
             let sent = send(probe, channel, more)?;
-            probe.check("STM-3", sent.is_refused(), "no byte more", &sent);
-            probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
+            probe.check(STM_3, sent.is_refused(), "no byte more", &sent);
+            probe.check(STM_6, sent.is_refused(), "refused for now", &sent);
             // That the error number shows it is assumed.
             let now = sent.assumed() == Ack::Busy;
-            probe.check(assumed("STM-6"), now, "refused for now, and not for good", &sent);
-            expect(probe, &["STM-6"], HELD_MAX, stage.held()?);
+            probe.check(assumed(STM_6), now, "refused for now, and not for good", &sent);
+            expect(probe, &[STM_6], STREAM_BUFFER_LEN, stage.held()?);
         }
         stage.pace(Pace::Fast)?;
         stage.pace(Pace::Hold)?;
-        expect(probe, &["STM-12"], 0, stage.held()?);
-        write_accepted(probe, &["STM-6"], channel, more)?;
+        expect(probe, &[STM_12], 0, stage.held()?);
+        write_accepted(probe, &[STM_6], channel, more)?;
         stage.pace(Pace::Fast)?;
         let mut all = packets.concat();
         all.extend(more);
-        expect(probe, &["STM-12", "STM-15"], all, stage.executed()?);
+        expect(probe, &[STM_12, STM_15], all, stage.executed()?);
         Ok(())
     })
 }
@@ -155,29 +157,29 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
 pub(super) fn many(probe: &mut Probe<'_>) -> Step {
     const LEN: usize = 20;
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
-        let count = HELD_MAX / LEN;
+        let count = STREAM_BUFFER_LEN / LEN;
         let line = |number: usize| format!("N{number:05} (of many)  \r\n").into_bytes();
         let mut all = Vec::new();
         for number in 0..count {
-            let sent = write_accepted(probe, &["STM-3"], channel, &line(number))?;
+            let sent = write_accepted(probe, &[STM_3], channel, &line(number))?;
             if !sent.is_taken() {
                 return Ok(());
             }
             all.extend(line(number));
         }
-        expect(probe, &["STM-3"], all.len(), stage.held()?);
+        expect(probe, &[STM_3], all.len(), stage.held()?);
         // A shorter packet fits, but then not even one of a single line.
-        let left = HELD_MAX.saturating_sub(all.len());
+        let left = STREAM_BUFFER_LEN.saturating_sub(all.len());
         let last = comment(left);
         let sent = send(probe, channel, &line(count))?;
-        probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
-        write_accepted(probe, &["STM-3"], channel, &last)?;
-        expect(probe, &["STM-3"], HELD_MAX, stage.held()?);
+        probe.check(STM_6, sent.is_refused(), "refused for now", &sent);
+        write_accepted(probe, &[STM_3], channel, &last)?;
+        expect(probe, &[STM_3], STREAM_BUFFER_LEN, stage.held()?);
         all.extend(last);
         stage.pace(Pace::Fast)?;
-        write_accepted(probe, &["STM-6"], channel, &line(count))?;
+        write_accepted(probe, &[STM_6], channel, &line(count))?;
         all.extend(line(count));
-        expect(probe, &["STM-15"], all, stage.executed()?);
+        expect(probe, &[STM_15], all, stage.executed()?);
         Ok(())
     })
 }
@@ -211,15 +213,15 @@ fn numbered(len: usize) -> Vec<u8> {
 pub(super) fn dry(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Fast, Start::ByHand, |probe, channel, stage| {
         let (first, second) = (b"N10 X1\r\nN20 X2\r\n", b"N30 X3\r\n");
-        write_accepted(probe, &["STM-14"], channel, first)?;
-        expect(probe, &["STM-14"], first.len(), stage.held()?);
-        expect(probe, &["STM-14"], Vec::new(), stage.executed()?);
+        write_accepted(probe, &[STM_14], channel, first)?;
+        expect(probe, &[STM_14], first.len(), stage.held()?);
+        expect(probe, &[STM_14], Vec::new(), stage.executed()?);
         stage.start(probe)?;
-        expect(probe, &["STM-14", "STM-7"], first.to_vec(), stage.executed()?);
-        expect(probe, &["STM-16"], State::Dry, stage.state()?);
+        expect(probe, &[STM_14, STM_7], first.to_vec(), stage.executed()?);
+        expect(probe, &[STM_16], State::Dry, stage.state()?);
         send_until_taken(probe, channel, second)?;
         let both = [&first[..], second].concat();
-        expect(probe, &["STM-16", "STM-7"], both, stage.executed()?);
+        expect(probe, &[STM_16, STM_7], both, stage.executed()?);
         Ok(())
     })
 }
@@ -228,12 +230,12 @@ pub(super) fn reset(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         send_until_taken(probe, channel, b"N10 X1\r\n")?;
         stage.with(|program| program.reset(Duration::ZERO))?;
-        expect(probe, &["STM-11"], (0, State::Stopped), (stage.held()?, stage.state()?));
+        expect(probe, &[STM_11], (0, State::Stopped), (stage.held()?, stage.state()?));
         send_until_taken(probe, channel, b"N10 Y1\r\n")?;
         stage.pace(Pace::Fast)?;
-        expect(probe, &["STM-14"], Vec::new(), stage.executed()?);
+        expect(probe, &[STM_14], Vec::new(), stage.executed()?);
         stage.start(probe)?;
-        expect(probe, &["STM-11", "STM-14"], b"N10 Y1\r\n".to_vec(), stage.executed()?);
+        expect(probe, &[STM_11, STM_14], b"N10 Y1\r\n".to_vec(), stage.executed()?);
         Ok(())
     })
 }

@@ -1,6 +1,7 @@
 //! The program streams of the simulated CNC: which lines it executes.
 
 use ads_cnc::address::Channel;
+use ads_cnc_vectors::ids::*;
 
 use super::buffer::{expect, set_up, set_up_at, write_accepted};
 use crate::judge::{Checks as _, Step, Stop};
@@ -14,12 +15,12 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
         let number = channel.number();
         set_up_at(probe, channel, Pace::Fast, Start::Once, |probe, channel, stage| {
             let (one, two) = (format!("X{number}\r\n"), format!("Y{number}\r\n"));
-            write_accepted(probe, &["STM-1"], channel, one.as_bytes())?;
-            expect(probe, &["STM-1"], one.as_bytes().to_vec(), stage.executed()?);
+            write_accepted(probe, &[STM_1], channel, one.as_bytes())?;
+            expect(probe, &[STM_1], one.as_bytes().to_vec(), stage.executed()?);
             // Without the bit of logical addressing the group has the channel's rank.
-            write_accepted(probe, &["STM-1", "ADR-12"], rank, two.as_bytes())?;
+            write_accepted(probe, &[STM_1, ADR_12], rank, two.as_bytes())?;
             let both = [one, two].concat().into_bytes();
-            expect(probe, &["STM-1", "ADR-12"], both, stage.executed()?);
+            expect(probe, &[STM_1, ADR_12], both, stage.executed()?);
             Ok(())
         })?;
     }
@@ -39,17 +40,15 @@ pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
     ];
     set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
         let all = lines.concat().into_bytes();
-        write_accepted(probe, &["STM-4", "STM-7"], channel, &all)?;
-        expect(probe, &["STM-4", "STM-7"], all.clone(), stage.executed()?);
+        write_accepted(probe, &[STM_4, STM_7], channel, &all)?;
+        expect(probe, &[STM_4, STM_7], all.clone(), stage.executed()?);
         // The same, with one line per packet.
         for line in &lines {
-            write_accepted(probe, &["STM-7"], channel, line.as_bytes())?;
+            write_accepted(probe, &[STM_7], channel, line.as_bytes())?;
         }
-        expect(probe, &["STM-7"], all.repeat(2), stage.executed()?);
+        expect(probe, &[STM_7], all.repeat(2), stage.executed()?);
         let state = stage.state()?;
-        probe.check("STM-4", state == State::Dry, "lines that all were run", || {
-            format!("{state:?}")
-        });
+        probe.check(STM_4, state == State::Dry, "lines that all were run", || format!("{state:?}"));
         Ok(())
     })
 }
@@ -64,13 +63,13 @@ pub(super) fn at_once(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         let packets = ["X1\r\n", "X2\r\nX3\r\n", "X4\r\n"];
         for packet in packets {
-            write_accepted(probe, &["STM-12"], channel, packet.as_bytes())?;
+            write_accepted(probe, &[STM_12], channel, packet.as_bytes())?;
         }
-        expect(probe, &["STM-12"], packets.concat().len(), stage.held()?);
+        expect(probe, &[STM_12], packets.concat().len(), stage.held()?);
         stage.pace(slow)?;
-        expect(probe, &["STM-12"], (0, Vec::new()), (stage.held()?, stage.executed()?));
+        expect(probe, &[STM_12], (0, Vec::new()), (stage.held()?, stage.executed()?));
         stage.pace(Pace::Fast)?;
-        expect(probe, &["STM-12"], packets.concat().into_bytes(), stage.executed()?);
+        expect(probe, &[STM_12], packets.concat().into_bytes(), stage.executed()?);
         Ok(())
     })
 }
@@ -80,21 +79,21 @@ pub(super) fn behind_end(probe: &mut Probe<'_>) -> Step {
     for end in ["M30", "M2", "M17", "M29"] {
         set_up(probe, slow, Start::Once, |probe, channel, stage| {
             let ending = format!("X1\r\n{end}\r\nX2\r\n");
-            write_accepted(probe, &["STM-10"], channel, ending.as_bytes())?;
+            write_accepted(probe, &[STM_10], channel, ending.as_bytes())?;
             // The program end was read, but not executed yet.
-            expect(probe, &["STM-10"], 0, stage.held()?);
+            expect(probe, &[STM_10], 0, stage.held()?);
             let next = b"Y1\r\n";
-            write_accepted(probe, &["STM-10"], channel, next)?;
+            write_accepted(probe, &[STM_10], channel, next)?;
             stage.pace(Pace::Fast)?;
             let ended = matches!(stage.state()?, State::Ended(_));
-            probe.require("STM-10", ended, || format!("{end} ends it"), "no end")?;
+            probe.require(STM_10, ended, || format!("{end} ends it"), "no end")?;
             let before = stage.executed()?;
             let lost = !before.windows(2).any(|two| two == b"X2" || two == b"Y1");
-            probe.check("STM-10", lost, "nothing run behind it", || format!("{before:02x?}"));
-            expect(probe, &["STM-10"], next.len(), stage.held()?);
+            probe.check(STM_10, lost, "nothing run behind it", || format!("{before:02x?}"));
+            expect(probe, &[STM_10], next.len(), stage.held()?);
             stage.start(probe)?;
             let all = [before, next.to_vec()].concat();
-            expect(probe, &["STM-10", "STM-14"], all, stage.executed()?);
+            expect(probe, &[STM_10, STM_14], all, stage.executed()?);
             Ok(())
         })?;
     }

@@ -1,9 +1,11 @@
 //! Buffers: each channel has its own, and rejected packets take no space.
 
+use ads_cnc_vectors::ids::*;
+
 use super::buffer::{comment, expect, set_up, set_up_at, write_accepted};
 use crate::judge::{Checks as _, Step};
 use crate::simulator::program::{Pace, Start};
-use crate::suite::kit::{HELD_MAX, Probe, send};
+use crate::suite::kit::{Probe, STREAM_BUFFER_LEN, send};
 
 /// Packets that fill a buffer.
 const FILLING: [usize; 5] = [992, 992, 992, 992, 126];
@@ -16,16 +18,26 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
             set_up_at(probe, full, Pace::Hold, Start::Once, |probe, full, first| {
                 set_up_at(probe, other, Pace::Hold, Start::Once, |probe, other, second| {
                     for len in FILLING {
-                        write_accepted(probe, &["STM-3"], full, &comment(len))?;
+                        write_accepted(probe, &[STM_3], full, &comment(len))?;
                     }
-                    expect(probe, &["STM-3"], (HELD_MAX, 0), (first.held()?, second.held()?));
+                    expect(
+                        probe,
+                        &[STM_3],
+                        (STREAM_BUFFER_LEN, 0),
+                        (first.held()?, second.held()?),
+                    );
                     for len in FILLING {
-                        write_accepted(probe, &["STM-3"], other, &comment(len))?;
+                        write_accepted(probe, &[STM_3], other, &comment(len))?;
                     }
-                    expect(probe, &["STM-3"], HELD_MAX, second.held()?);
+                    expect(probe, &[STM_3], STREAM_BUFFER_LEN, second.held()?);
                     // Executing lines in one channel does not empty the buffer of the other.
                     second.pace(Pace::Fast)?;
-                    expect(probe, &["STM-12"], (HELD_MAX, 0), (first.held()?, second.held()?));
+                    expect(
+                        probe,
+                        &[STM_12],
+                        (STREAM_BUFFER_LEN, 0),
+                        (first.held()?, second.held()?),
+                    );
                     Ok(())
                 })
             })?;
@@ -39,10 +51,10 @@ pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
     for room in [4, 40, 500, 988] {
         set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
             let mut all = Vec::new();
-            let last = HELD_MAX.saturating_sub(4 * 700).saturating_sub(room);
+            let last = STREAM_BUFFER_LEN.saturating_sub(4 * 700).saturating_sub(room);
             for len in [700, 700, 700, 700, last.min(992), last.saturating_sub(992)] {
                 if len > 0 {
-                    write_accepted(probe, &["STM-3"], channel, &comment(len))?;
+                    write_accepted(probe, &[STM_3], channel, &comment(len))?;
                     all.extend(comment(len));
                 }
             }
@@ -50,14 +62,14 @@ pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
             let packet = [&b"X1\r\n"[..], &comment(room)].concat();
             for _ in 0..2 {
                 let sent = send(probe, channel, &packet)?;
-                probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
-                expect(probe, &["STM-6"], all.len(), stage.held()?);
+                probe.check(STM_6, sent.is_refused(), "refused for now", &sent);
+                expect(probe, &[STM_6], all.len(), stage.held()?);
             }
             stage.pace(Pace::Fast)?;
-            expect(probe, &["STM-6"], all.clone(), stage.executed()?);
-            write_accepted(probe, &["STM-6"], channel, &packet)?;
+            expect(probe, &[STM_6], all.clone(), stage.executed()?);
+            write_accepted(probe, &[STM_6], channel, &packet)?;
             all.extend(packet);
-            expect(probe, &["STM-6"], all, stage.executed()?);
+            expect(probe, &[STM_6], all, stage.executed()?);
             Ok(())
         })?;
     }
@@ -73,9 +85,9 @@ pub(super) fn lengths(probe: &mut Probe<'_>) -> Step {
                 0..=8 => b";\r\n".to_vec(),
                 _ => [b"X1\r\n".to_vec(), comment(len.saturating_sub(4))].concat(),
             };
-            write_accepted(probe, &["STM-2", "STM-4"], channel, &packet)?;
+            write_accepted(probe, &[STM_2, STM_4], channel, &packet)?;
             all.extend(packet);
-            expect(probe, &["STM-2", "STM-4"], all.clone(), stage.executed()?);
+            expect(probe, &[STM_2, STM_4], all.clone(), stage.executed()?);
         }
         Ok(())
     })

@@ -11,54 +11,56 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
 
 use self::buffer::comment;
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop};
 use crate::objects::List;
-use crate::suite::kit::{HELD_MAX, Probe, send};
+use crate::suite::kit::{Probe, STREAM_BUFFER_LEN, send};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("stream-object", &["STM-1"], Needs::Queries, object,
+    case("stream-object", &[STM_1], Needs::Queries, object,
         "The object of the stream is listed by its name and at its address, and takes writes"),
-    case("stream-whole-lines", &["STM-1", "STM-4", "STM-7"], Needs::Writes, whole_lines,
+    case("stream-whole-lines", &[STM_1, STM_4, STM_7], Needs::Writes, whole_lines,
         "A packet of whole lines is taken, by the number of the channel and by its rank"),
-    case("stream-longest", &["STM-2", "STM-20"], Needs::Writes, longest,
+    case("stream-longest", &[STM_2, STM_20], Needs::Writes, longest,
         "A packet of 992 bytes is taken, and a line of 990 characters in it"),
-    case("stream-refused-for-now", &["STM-6"], Needs::Writes, refused_for_now,
+    case("stream-refused-for-now", &[STM_6], Needs::Writes, refused_for_now,
         "What is refused for now is taken later, the same bytes again"),
-    case("stream-too-long", &["STM-2"], Needs::Simulator, buffer::too_long,
+    case("stream-too-long", &[STM_2], Needs::Simulator, buffer::too_long,
         "A packet of 993 bytes is refused, and nothing of it is taken"),
-    case("stream-full", &["STM-3", "STM-6", "STM-12", "STM-15"], Needs::Simulator, buffer::full,
+    case("stream-full", &[STM_3, STM_6, STM_12, STM_15], Needs::Simulator, buffer::full,
         "The interface holds 4094 bytes; then a write is refused until they were read"),
-    case("stream-channels", &["STM-1", "ADR-12"], Needs::Simulator, execution::channels,
+    case("stream-channels", &[STM_1, ADR_12], Needs::Simulator, execution::channels,
         "What is written to the stream of a channel is run there, and nowhere else"),
-    case("stream-as-written", &["STM-4", "STM-7"], Needs::Simulator, execution::as_written,
+    case("stream-as-written", &[STM_4, STM_7], Needs::Simulator, execution::as_written,
         "Every character is run as it was written, and every line as a line"),
-    case("stream-read-at-once", &["STM-12"], Needs::Simulator, execution::at_once,
+    case("stream-read-at-once", &[STM_12], Needs::Simulator, execution::at_once,
         "All that is there is read at once, before any of it is run"),
-    case("stream-behind-the-end", &["STM-10", "STM-14"], Needs::Simulator, execution::behind_end,
+    case("stream-behind-the-end", &[STM_10, STM_14], Needs::Simulator, execution::behind_end,
         "What comes behind a program end that was read stays for the next start"),
-    case("stream-dry", &["STM-7", "STM-14", "STM-16"], Needs::Simulator, buffer::dry,
+    case("stream-dry", &[STM_7, STM_14, STM_16], Needs::Simulator, buffer::dry,
         "Where nothing more is written motion stops, and the next write resumes it"),
-    case("stream-reset", &["STM-11", "STM-14"], Needs::Simulator, buffer::reset,
+    case("stream-reset", &[STM_11, STM_14], Needs::Simulator, buffer::reset,
         "A reset empties the interface, and the next program is another"),
-    case("stream-many-packets", &["STM-3", "STM-6", "STM-15"], Needs::Simulator, buffer::many,
+    case("stream-many-packets", &[STM_3, STM_6, STM_15], Needs::Simulator, buffer::many,
         "The interface holds packets of one line as long as they fit, however many"),
-    case("stream-room-of-channels", &["STM-3", "STM-12"], Needs::Simulator, isolation::channels,
+    case("stream-room-of-channels", &[STM_3, STM_12], Needs::Simulator, isolation::channels,
         "The interface of each channel has all its room, however full another's is"),
-    case("stream-refused-whole", &["STM-3", "STM-6"], Needs::Simulator, isolation::in_part,
+    case("stream-refused-whole", &[STM_3, STM_6], Needs::Simulator, isolation::in_part,
         "Of a packet that is refused no line is taken, though some would fit"),
-    case("stream-lengths", &["STM-2", "STM-4"], Needs::Simulator, isolation::lengths,
+    case("stream-lengths", &[STM_2, STM_4], Needs::Simulator, isolation::lengths,
         "A packet is run whole, whatever its length up to 992 bytes"),
-    case("stream-comments", &["STM-8", "STM-9"], Needs::Simulator, words::comments,
+    case("stream-comments", &[STM_8, STM_9], Needs::Simulator, words::comments,
         "A comment ends where it ends: behind it the same word ends streaming"),
-    case("stream-ends", &["STM-9", "STM-10"], Needs::Simulator, words::ends,
+    case("stream-ends", &[STM_9, STM_10], Needs::Simulator, words::ends,
         "M2, M30, M17 and M29 end a program anywhere in a line, and no other word does"),
-    case("stream-forbidden-words", &["STM-8", "STM-9"], Needs::Simulator, words::forbidden_words,
+    case("stream-forbidden-words", &[STM_8, STM_9], Needs::Simulator, words::forbidden_words,
         "Each word of a loop ends streaming where it stands, unless it is in a comment"),
-    case("stream-permitted-words", &["STM-8", "STM-19"], Needs::Simulator, words::permitted_words,
+    case("stream-permitted-words", &[STM_8, STM_19], Needs::Simulator, words::permitted_words,
         "Branches and jumps forward may span packets"),
 ];
 
@@ -83,14 +85,14 @@ fn object(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{} at {group}, {offset}", object.name);
         let expected =
             || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
-        probe.check("STM-1", here && named, expected, found);
-        probe.check("STM-1", object.is_writable(), "write access", "none");
+        probe.check(STM_1, here && named, expected, found);
+        probe.check(STM_1, object.is_writable(), "write access", "none");
     }
     probe.finish(&format!("no list names {NAME}"))
 }
 
 /// How long a device may take to empty its buffer.
-const PATIENCE: Duration = Duration::from_secs(30);
+const BUSY_TIMEOUT: Duration = Duration::from_secs(30);
 
 /// The first channel whose stream may be written. On the simulated CNC its program is configured anew, so
 /// that earlier lines have no effect.
@@ -118,7 +120,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
     let (wait, patience) = if probe.target.cnc.is_some() {
         (Duration::from_millis(5), Duration::from_millis(300))
     } else {
-        (RETRY_AFTER, PATIENCE)
+        (RETRY_AFTER, BUSY_TIMEOUT)
     };
     loop {
         let sent = send(probe, channel, data)?;
@@ -129,7 +131,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
             let room = match &probe.target.cnc {
                 Some(cnc) => {
                     let held = cnc.with_program(channel.number(), |program| program.buffered());
-                    held?.saturating_add(data.len()) <= HELD_MAX
+                    held?.saturating_add(data.len()) <= STREAM_BUFFER_LEN
                 }
                 None => false,
             };
@@ -142,7 +144,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
     }
 }
 
-fn write_accepted(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
+fn write_accepted(probe: &mut Probe<'_>, rules: &[ClauseId], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, data)?;
     let expected = || format!("{} bytes of whole lines taken", data.len());
     probe.check(rules, taken.is_some(), expected, "refused while there is room");
@@ -152,20 +154,20 @@ fn write_accepted(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, da
 fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let lines = b"; comment\r\n(a second line)\r\n\r\n";
-    write_accepted(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
+    write_accepted(probe, &[STM_1, STM_4, STM_7], channel, lines)?;
     let rank = probe.ranks()?.into_iter().find(|(_, one)| *one == channel);
     let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
-        write_accepted(probe, &["STM-1"], by_index, lines)?;
+        write_accepted(probe, &[STM_1], by_index, lines)?;
     }
     Ok(())
 }
 
 fn longest(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
-    write_accepted(probe, &["STM-2", "STM-20"], channel, &comment(STREAM_PACKET_MAX))?;
+    write_accepted(probe, &[STM_2, STM_20], channel, &comment(STREAM_PACKET_MAX))?;
     let many = comment(STREAM_PACKET_MAX / 8).repeat(8);
-    write_accepted(probe, &["STM-2"], channel, &many)
+    write_accepted(probe, &[STM_2], channel, &many)
 }
 
 fn refused_for_now(probe: &mut Probe<'_>) -> Step {
@@ -174,7 +176,7 @@ fn refused_for_now(probe: &mut Probe<'_>) -> Step {
     for _ in 0..8 {
         let taken = write(probe, channel, &packet)?;
         let found = "refused while there is room";
-        probe.check("STM-6", taken.is_some(), "taken, or refused for now", found);
+        probe.check(STM_6, taken.is_some(), "taken, or refused for now", found);
         if taken != Some(0) {
             return Ok(());
         }

@@ -62,11 +62,11 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         let frame = match kind {
             0 => {
                 let (mut call, reply) = (call(&mut input, &PORTS), input.piece());
-                rule.learn(&call, reply);
-                gate.learn(&call, reply);
+                rule.observe(&call, reply);
+                gate.observe(&call, reply);
                 if defect.is(5) {
                     call.index_group = IndexGroup::new(call.index_group.get() & !0xFF | 1);
-                    gate.learn(&call, reply);
+                    gate.observe(&call, reply);
                 }
                 continue;
             }

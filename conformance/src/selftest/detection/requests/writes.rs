@@ -11,9 +11,9 @@ use ads_cnc::operation::{
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 
-use super::{AXES, ContentAddress, Dialogue, Variable, brackets, number, parts};
+use super::{AXES, AnswerRecorder, ContentAddress, Variable, brackets, number, parts};
 
-impl Dialogue<'_> {
+impl AnswerRecorder<'_> {
     /// Writes to each writable value: another value, too short and too long ones, and the original.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {

@@ -5,15 +5,16 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::Function;
 use ads_cnc::{CncStr, CncString, Handle, Kind, U32List, VariablePath};
+use ads_cnc_vectors::ids::*;
 
 use super::AnsweringCnc;
 use crate::edition::Feature;
-use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
+use crate::simulator::model::{ChannelModel, Variable, VariableRef, handle_at, parameter_kind};
 use crate::simulator::to_len;
 
 /// The result of resolving a name on the channel interface.
 pub(super) enum Resolved {
-    Variable(At),
+    Variable(VariableRef),
     /// A V.P, V.L or V.S, in editions that have them here.
     Parameter,
 }
@@ -28,7 +29,7 @@ impl AnsweringCnc<'_> {
         match (answer.available, function) {
             (true, _) => Ok(()),
             // The variable exists, but has no handle.
-            (false, Function::HandleByName) if answer.requirement == "VAR-18" => {
+            (false, Function::HandleByName) if answer.requirement == VAR_18.as_str() => {
                 Err(AdsError::INVALID_DATA)
             }
             (false, _) => Err(UNKNOWN),
@@ -40,7 +41,7 @@ impl AnsweringCnc<'_> {
         &self,
         channel: usize,
         kind: Kind<'_>,
-    ) -> impl Iterator<Item = At> + use<'_> {
+    ) -> impl Iterator<Item = VariableRef> + use<'_> {
         let model = self.model.channels.get(channel);
         // A kind may be padded with NULs, so only its text is compared.
         let is = |known: Kind<'_>| kind.text() == known.text();
@@ -53,9 +54,9 @@ impl AnsweringCnc<'_> {
         let places = (0..model.map_or(0, |model| model.places.len()))
             .filter(move |&place| self.state.axis_at(channel, place).is_some());
         let of_axes = (0..of_axes).flat_map(move |variable| {
-            places.clone().map(move |place| At::Place { place, variable })
+            places.clone().map(move |place| VariableRef::Axis { place, variable })
         });
-        own.iter().copied().map(At::Own).chain(of_axes)
+        own.iter().copied().map(VariableRef::Channel).chain(of_axes)
     }
 
     pub(super) fn by_index(
@@ -63,11 +64,15 @@ impl AnsweringCnc<'_> {
         channel: usize,
         kind: Kind<'_>,
         index: u32,
-    ) -> Result<At, AdsError> {
+    ) -> Result<VariableRef, AdsError> {
         self.of_kind(channel, kind).nth(to_len(index)).ok_or(AdsError::INVALID_DATA)
     }
 
-    pub(super) fn by_handle(&self, channel: usize, handle: Handle) -> Result<At, AdsError> {
+    pub(super) fn by_handle(
+        &self,
+        channel: usize,
+        handle: Handle,
+    ) -> Result<VariableRef, AdsError> {
         let channel = self.model.channels.get(channel);
         let at = channel.and_then(|channel| channel.by_handle.get(&handle.0));
         at.copied().ok_or(AdsError::INVALID_DATA)
@@ -91,7 +96,7 @@ impl AnsweringCnc<'_> {
         let model = self.model.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
         let (whole, indices) = (CncString::from(path.variable().text()), path.elements());
         if let Some(place) = model.variables.named(whole.as_bytes()) {
-            return Ok((Resolved::Variable(At::Own(place)), indices));
+            return Ok((Resolved::Variable(VariableRef::Channel(place)), indices));
         }
         if path.kind() == Kind::V_A {
             let at = self.of_named_axis(channel, model, whole.as_bytes()).ok_or(UNKNOWN)?;
@@ -108,7 +113,7 @@ impl AnsweringCnc<'_> {
         channel: usize,
         model: &ChannelModel,
         whole: &[u8],
-    ) -> Option<At> {
+    ) -> Option<VariableRef> {
         let dot = whole.iter().rposition(|&byte| byte == b'.')?;
         let (name, axis) = whole.split_at_checked(dot)?;
         let axis = axis.strip_prefix(b".")?;
@@ -118,7 +123,7 @@ impl AnsweringCnc<'_> {
             let there = there.and_then(|there| self.model.axes.get(there));
             there.is_some_and(|there| there.name.as_bytes() == axis)
         })?;
-        Some(At::Place { place, variable })
+        Some(VariableRef::Axis { place, variable })
     }
 
     /// Resolves a name on the axis interface, for the axis at a place.
@@ -128,7 +133,7 @@ impl AnsweringCnc<'_> {
         channel: Channel,
         axis: ChannelAxis,
         name: CncStr<'n>,
-    ) -> Result<(usize, At, U32List<'n>), AdsError> {
+    ) -> Result<(usize, VariableRef, U32List<'n>), AdsError> {
         let channel = self.channel(channel)?;
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;
@@ -136,24 +141,24 @@ impl AnsweringCnc<'_> {
         let place = usize::from(axis.index()).checked_sub(1).filter(|&place| place < places);
         let whole = CncString::from(path.variable().text());
         let variable = self.model.axis_variables.named(whole.as_bytes()).ok_or(UNKNOWN)?;
-        let at = At::Place { place: place.ok_or(UNKNOWN)?, variable };
+        let at = VariableRef::Axis { place: place.ok_or(UNKNOWN)?, variable };
         Ok((channel, at, path.elements()))
     }
 
-    pub(super) fn variable(&self, channel: usize, at: At) -> Result<&Variable, AdsError> {
+    pub(super) fn variable(&self, channel: usize, at: VariableRef) -> Result<&Variable, AdsError> {
         let variable = match at {
-            At::Own(place) => {
+            VariableRef::Channel(place) => {
                 self.model.channels.get(channel).and_then(|one| one.variables.list.get(place))
             }
-            At::Place { variable, .. } => self.model.axis_variables.list.get(variable),
+            VariableRef::Axis { variable, .. } => self.model.axis_variables.list.get(variable),
         };
         variable.ok_or(AdsError::INVALID_DATA)
     }
 
     /// The name, with the axis's name appended for an axis variable.
-    pub(super) fn name(&self, channel: usize, at: At) -> Result<CncString, AdsError> {
+    pub(super) fn name(&self, channel: usize, at: VariableRef) -> Result<CncString, AdsError> {
         let variable = self.variable(channel, at)?;
-        let At::Place { place, .. } = at else { return Ok(variable.name.clone()) };
+        let VariableRef::Axis { place, .. } = at else { return Ok(variable.name.clone()) };
         let axis = self.state.axis_at(channel, place);
         let axis = axis.and_then(|axis| self.model.axes.get(axis)).ok_or(UNKNOWN)?;
         let path = VariablePath::from_text(variable.name.as_cnc_str()).map_err(|_| UNKNOWN)?;
@@ -161,12 +166,12 @@ impl AnsweringCnc<'_> {
     }
 
     /// The handle; 0 for a variable that is accessible by name only.
-    pub(super) fn handle(&self, channel: usize, at: At) -> Result<Handle, AdsError> {
+    pub(super) fn handle(&self, channel: usize, at: VariableRef) -> Result<Handle, AdsError> {
         let handle = self.variable(channel, at)?.handle.unwrap_or(Handle(0));
         let number = self.model.channels.get(channel).map_or(0, |channel| channel.number);
         Ok(match at {
-            At::Own(_) => handle,
-            At::Place { place, .. } => {
+            VariableRef::Channel(_) => handle,
+            VariableRef::Axis { place, .. } => {
                 let place = u8::try_from(place.saturating_add(1)).unwrap_or(u8::MAX);
                 handle_at(handle, number, place)
             }

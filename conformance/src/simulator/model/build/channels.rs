@@ -7,7 +7,7 @@ use ads_cnc::{Descriptors, Handle};
 use super::super::document::ChannelTable;
 use super::super::error::Source;
 use super::super::item::Objects;
-use super::super::variable::{At, Variables, handle_at};
+use super::super::variable::{VariableRef, Variables, handle_at};
 use super::super::{AxisModel, ChannelModel, ModelError};
 use super::variables::{self, handle_span};
 use super::{items, parameters, programs};
@@ -78,12 +78,13 @@ impl Channels<'_> {
             self.version.is_none_or(|version| version.has(Feature::ServiceInterface).available);
         let variables = variables::of_channel(source, number, &table.variables, service)?;
         let mut by_handle = HashMap::new();
-        let mut take = |handle: Handle, at: At| {
+        let mut take = |handle: Handle, at: VariableRef| {
             by_handle.insert(handle.0, at);
             handles.insert(handle.0)
         };
         for (place, variable) in variables.list.iter().enumerate() {
-            let free = variable.handle.is_none_or(|handle| take(handle, At::Own(place)));
+            let free =
+                variable.handle.is_none_or(|handle| take(handle, VariableRef::Channel(place)));
             if !free {
                 let span = table.variables.get(place).map_or(span.clone(), handle_span);
                 let handle = variable.handle.map_or(0, |handle| handle.0);
@@ -94,7 +95,8 @@ impl Channels<'_> {
         for (variable, of) in self.axis_variables.list.iter().enumerate() {
             for (place, at) in (0..places.len()).zip(1_u8..) {
                 let handle = of.handle.map(|handle| handle_at(handle, number, at));
-                let free = handle.is_none_or(|handle| take(handle, At::Place { place, variable }));
+                let free =
+                    handle.is_none_or(|handle| take(handle, VariableRef::Axis { place, variable }));
                 if !free {
                     let handle = handle.map_or(0, |handle| handle.0);
                     let why =

@@ -22,7 +22,7 @@ pub(super) fn fill(
     document: &Document,
     model: &mut Model,
 ) -> Result<(), ModelError> {
-    let mut ids = Ids::of(source, document)?;
+    let mut ids = IdAllocator::of(source, document)?;
     let unencodable = |error: Error| source.error(&(0..0), error);
     let platform = own(&model.platform, 0, Some(&document.platform.objects), &mut ids);
     let platform = platform.map_err(unencodable)?;
@@ -60,12 +60,12 @@ pub(super) fn fill(
 }
 
 /// Assigns the IDs that are not declared, from 1 on.
-struct Ids {
+struct IdAllocator {
     taken: BTreeSet<u32>,
     next: u32,
 }
 
-impl Ids {
+impl IdAllocator {
     fn of(source: Source<'_>, document: &Document) -> Result<Self, ModelError> {
         let mut taken = BTreeSet::new();
         let channels = document.channel.iter().flat_map(|channel| &channel.objects);
@@ -108,7 +108,7 @@ fn own(
     objects: &Objects,
     number: u8,
     rows: Option<&[ObjectRow]>,
-    ids: &mut Ids,
+    ids: &mut IdAllocator,
 ) -> Result<Vec<Descriptor>, Error> {
     let group = content(ComTable::Channel, number);
     let mut list = Vec::new();
@@ -125,7 +125,7 @@ fn of_channel(
     channel: &ChannelModel,
     of_places: &Objects,
     rows: Option<&[ObjectRow]>,
-    ids: &mut Ids,
+    ids: &mut IdAllocator,
 ) -> Result<Vec<Descriptor>, Error> {
     let mut list = own(&channel.objects, channel.number, rows, ids)?;
     let group = content(ComTable::Channel, channel.number);
@@ -140,7 +140,7 @@ fn of_axis(
     objects: &Objects,
     group: IndexGroup,
     place: u32,
-    ids: &mut Ids,
+    ids: &mut IdAllocator,
 ) -> impl Iterator<Item = Result<Descriptor, Error>> {
     objects.items.iter().zip(&objects.elements).map(move |(item, &element)| {
         let offset = IndexOffset::for_axis(AxisStride::X10000, place, element)?;

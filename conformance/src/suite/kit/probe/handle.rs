@@ -4,7 +4,7 @@ use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
 use crate::exchange::ExchangeError;
-use crate::gate::{Doubt, Reason, Refusal};
+use crate::gate::{Ambiguity, Reason, Refusal};
 use crate::judge::Step;
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
@@ -45,7 +45,8 @@ impl Probe<'_> {
     fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
         Ok(match self.check_gate(request)? {
             Err(Some(Refusal {
-                reason: Reason::Doubtful(_, Doubt::Unconfirmed(name)), ..
+                reason: Reason::Ambiguous(_, Ambiguity::Unconfirmed(name)),
+                ..
             })) => Some(name),
             _ => None,
         })

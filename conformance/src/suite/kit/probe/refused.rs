@@ -2,6 +2,7 @@
 
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Level;
+use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Rule, Rules, Step, Stop, Verdict};
 use crate::suite::kit::{IntoRawCall, Probe};
@@ -49,7 +50,7 @@ impl Probe<'_> {
                 } else if data.is_empty()
                     && rules.iter().any(|rule| rule.level == Some(Level::Must))
                 {
-                    let (rule, last) = (Rule::from("ADS-7"), &self.last);
+                    let (rule, last) = (Rule::from(ADS_7), &self.last);
                     let found = "a success that gives nothing";
                     let by_nothing = &mut self.target.refusals.by_nothing;
                     let verdict = rule.verdict(false);
@@ -59,8 +60,7 @@ impl Probe<'_> {
             }
             None => {
                 // A missing reply is never permitted, even to an undocumented request.
-                let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
-                let rules: Vec<Rule> = rules.into_iter().map(must).collect();
+                let rules: Vec<Rule> = rules.into_iter().map(|rule| rule.at(Level::Must)).collect();
                 self.check(&rules, false, expected, &exchange);
                 if self.target.silences > 1 {
                     return Err(Stop::Judged);

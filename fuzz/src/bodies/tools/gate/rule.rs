@@ -56,7 +56,7 @@ impl<'e> Rule<'e> {
     }
 
     /// An answer came.
-    pub(super) fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
+    pub(super) fn observe(&mut self, call: &Call<'_>, reply: &[u8]) {
         let (group, offset) = (call.index_group.get(), call.index_offset.get());
         if let (Some(at), Some(handle)) = (decoder(group), reply.first_chunk()) {
             let handle = u32::from_le_bytes(*handle);

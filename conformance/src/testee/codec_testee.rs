@@ -12,11 +12,11 @@ use crate::faults::{FieldDefect, Seed};
 
 /// The codec's answers, with a defect if one is set.
 #[derive(Clone, Debug, Default)]
-pub struct Own {
+pub struct CodecTestee {
     pub defect: Option<Seed>,
 }
 
-impl Own {
+impl CodecTestee {
     /// Its capabilities: all streams and ops of the vectors.
     pub fn hello(&self) -> TesteeHello {
         let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
@@ -101,7 +101,7 @@ fn refusal(refused: Refused) -> Answer {
             message: Some(error.to_string()),
             ..Rejection::default()
         }),
-        Refused::Unfit(why) => {
+        Refused::InvalidFields(why) => {
             Answer::Reject(Rejection { message: Some(why), ..Rejection::default() })
         }
         Refused::Unsupported(what) => {

@@ -15,7 +15,7 @@ use crate::judge::Exit;
 /// Why a tool fails. The text includes advice.
 #[derive(Debug)]
 #[non_exhaustive]
-pub enum Trouble {
+pub enum ToolError {
     /// An invalid argument or file.
     Usage(String),
     /// The CNC does not have the requested value or function.
@@ -56,7 +56,7 @@ pub enum Trouble {
     Reply(Error),
 }
 
-impl Trouble {
+impl ToolError {
     /// The exit code.
     pub const fn exit(&self) -> Exit {
         match self {
@@ -162,7 +162,7 @@ impl Trouble {
     }
 }
 
-impl fmt::Display for Trouble {
+impl fmt::Display for ToolError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(why)
@@ -199,7 +199,7 @@ impl fmt::Display for Trouble {
     }
 }
 
-impl std::error::Error for Trouble {}
+impl std::error::Error for ToolError {}
 
 /// The usual meaning of an error number; the CNC's numbers are not documented (ADS-7).
 const fn meaning(error: AdsError) -> Option<&'static str> {

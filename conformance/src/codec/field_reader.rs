@@ -9,15 +9,15 @@ use super::Refused;
 
 /// The fields of one record.
 #[derive(Clone, Copy)]
-pub(super) struct Given<'f>(pub(super) &'f Fields);
+pub(super) struct FieldReader<'f>(pub(super) &'f Fields);
 
-pub(super) fn unfit(why: impl Display) -> Refused {
-    Refused::Unfit(why.to_string())
+pub(super) fn invalid(why: impl Display) -> Refused {
+    Refused::InvalidFields(why.to_string())
 }
 
-impl<'f> Given<'f> {
+impl<'f> FieldReader<'f> {
     fn field(self, name: &str) -> Result<&'f Value, Refused> {
-        self.0.get(name).ok_or_else(|| unfit(format_args!("no field {name}")))
+        self.0.get(name).ok_or_else(|| invalid(format_args!("no field {name}")))
     }
 
     pub(super) fn has(self, name: &str) -> bool {
@@ -25,19 +25,19 @@ impl<'f> Given<'f> {
     }
 
     fn one(self, name: &str) -> Result<&'f Tagged, Refused> {
-        let single = || unfit(format_args!("{name} is not a single value"));
+        let single = || invalid(format_args!("{name} is not a single value"));
         self.field(name)?.tagged().ok_or_else(single)
     }
 
     fn list(self, name: &str) -> Result<&'f [Value], Refused> {
-        self.field(name)?.list().ok_or_else(|| unfit(format_args!("{name} is not a list")))
+        self.field(name)?.list().ok_or_else(|| invalid(format_args!("{name} is not a list")))
     }
 
-    pub(super) fn record(self, name: &str) -> Result<Given<'f>, Refused> {
+    pub(super) fn record(self, name: &str) -> Result<FieldReader<'f>, Refused> {
         record(self.field(name)?)
     }
 
-    pub(super) fn records(self, name: &str) -> Result<Vec<Given<'f>>, Refused> {
+    pub(super) fn records(self, name: &str) -> Result<Vec<FieldReader<'f>>, Refused> {
         self.list(name)?.iter().map(record).collect()
     }
 
@@ -49,14 +49,14 @@ impl<'f> Given<'f> {
     pub(super) fn numbers(self, name: &str) -> Result<Vec<u32>, Refused> {
         let number = |value: &Value| match value.tagged() {
             Some(tagged) => integer(tagged),
-            None => Err(unfit(format_args!("{name} is not a list of numbers"))),
+            None => Err(invalid(format_args!("{name} is not a list of numbers"))),
         };
         self.list(name)?.iter().map(number).collect()
     }
 
     pub(super) fn word(self, name: &str) -> Result<&'f str, Refused> {
         let tagged = self.one(name)?;
-        tagged.value.as_deref().ok_or_else(|| unfit(format_args!("{name} has no value")))
+        tagged.value.as_deref().ok_or_else(|| invalid(format_args!("{name} has no value")))
     }
 
     pub(super) fn bytes(self, name: &str) -> Result<Vec<u8>, Refused> {
@@ -69,24 +69,24 @@ impl<'f> Given<'f> {
     }
 }
 
-fn record(value: &Value) -> Result<Given<'_>, Refused> {
+fn record(value: &Value) -> Result<FieldReader<'_>, Refused> {
     match value {
-        Value::Record(fields) => Ok(Given(fields)),
-        _ => Err(unfit("no record where one has to be")),
+        Value::Record(fields) => Ok(FieldReader(fields)),
+        _ => Err(invalid("no record where one has to be")),
     }
 }
 
 pub(super) fn integer<T: TryFrom<i128>>(tagged: &Tagged) -> Result<T, Refused> {
-    let number = tagged.integer().ok_or_else(|| unfit("no whole number where one has to be"))?;
-    T::try_from(number).map_err(|_| unfit(format_args!("{number} is out of range")))
+    let number = tagged.integer().ok_or_else(|| invalid("no whole number where one has to be"))?;
+    T::try_from(number).map_err(|_| invalid(format_args!("{number} is out of range")))
 }
 
 pub(super) fn bits(tagged: &Tagged) -> Result<u64, Refused> {
-    tagged.real_bits().ok_or_else(|| unfit("a float without its bits"))
+    tagged.real_bits().ok_or_else(|| invalid("a float without its bits"))
 }
 
 pub(super) fn hex(tagged: &Tagged) -> Result<&[u8], Refused> {
-    tagged.hex.as_deref().ok_or_else(|| unfit("no hex where there has to be some"))
+    tagged.hex.as_deref().ok_or_else(|| invalid("no hex where there has to be some"))
 }
 
 pub(super) fn text(tagged: &Tagged) -> Result<TextRef<'_>, Refused> {
