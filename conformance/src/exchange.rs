@@ -7,7 +7,7 @@ use std::time::Duration;
 use ads_cnc::Error;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{Call, Function, Service};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
@@ -195,14 +195,14 @@ impl Describe for &Exchange {
 
 impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
-        let function = exchange.call().dispatch().ok().map(|request| request.function().spec());
+        let function = exchange.call().dispatch().ok().map(|request| request.function());
+        let spec = function.map(Function::spec);
         let data = exchange.answer().and_then(|answer| answer.data.as_deref());
         let evidence = Self {
             call: exchange.to_string(),
-            request_stream: function
-                .and_then(|spec| spec.request)
-                .map(|stream| stream.layout().name),
-            reply_stream: function.and_then(|spec| spec.reply).map(|stream| stream.layout().name),
+            function,
+            request_stream: spec.and_then(|spec| spec.request).map(|stream| stream.layout().name),
+            reply_stream: spec.and_then(|spec| spec.reply).map(|stream| stream.layout().name),
             sent: Evidence::start(&exchange.data).to_vec(),
             received: data.map(|data| Self::start(data).to_vec()),
             result: exchange.result(),

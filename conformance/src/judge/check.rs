@@ -202,6 +202,8 @@ pub struct Judgement {
     pub evidence: Option<Evidence>,
     /// The number of further checks with the same verdict, which are not stored.
     pub more: usize,
+    /// The clause whose failure explains this one, if it is inconclusive for that.
+    pub follows: Option<&'static str>,
 }
 
 /// Maximum number of failed checks stored for a requirement of a case; the others are counted.
@@ -303,8 +305,16 @@ impl Record {
             let short = |text: String| shorten(&text, TEXT_MAX);
             (short(expected.describe()), short(found.describe()), evidence())
         };
-        let judgement =
-            Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
+        let judgement = Judgement {
+            requirement,
+            level,
+            verdict,
+            expected,
+            found,
+            evidence,
+            more: 0,
+            follows: None,
+        };
         self.judgements.push(judgement);
     }
 

@@ -1,5 +1,7 @@
 //! The bytes that a check is based on.
 
+use ads_cnc::operation::Function;
+
 use crate::values::ValueFormat;
 
 /// The bytes of an exchange, as a report shows them.
@@ -7,6 +9,10 @@ use crate::values::ValueFormat;
 pub struct Evidence {
     /// The address and service of the request.
     pub call: String,
+    /// The variable or object it is about, if it is about one.
+    pub subject: Option<String>,
+    /// The documented function that the request addresses.
+    pub function: Option<Function>,
     /// Name of the stream of the request's data, if the function is documented.
     pub request_stream: Option<&'static str>,
     /// Name of the stream of the reply's data.

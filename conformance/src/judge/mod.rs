@@ -2,6 +2,7 @@
 //! opens a file or a socket.
 
 mod case;
+mod cause;
 mod check;
 mod evidence;
 mod left_changed;
@@ -12,6 +13,7 @@ mod verdict;
 mod waivers;
 
 pub use case::{Body, Case, CaseSubject, Needs};
+pub(crate) use cause::attribute;
 pub(crate) use check::{Checks, IfPresent, OrStop, Record, TEXT_MAX, applicable};
 pub use check::{Describe, Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub use evidence::Evidence;

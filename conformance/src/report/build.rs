@@ -223,6 +223,7 @@ fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
         expected: judgement.expected.clone(),
         found: judgement.found.clone(),
         more: judgement.more,
+        follows: judgement.follows.map(str::to_owned),
         evidence: judgement.evidence.as_ref().map(EvidenceReport::from),
     }
 }

@@ -154,7 +154,8 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
     }
     writeln!(out, "  expected  {}", failure.expected)?;
     writeln!(out, "  found     {}", failure.found)?;
-    if let Some(evidence) = &failure.evidence {
+    // The clause that it follows from has the bytes.
+    if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
         bytes(evidence, out)?;
     }
     if failure.more > 0 {
@@ -164,6 +165,9 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
 }
 
 fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
+    if let Some(cause) = &failure.follows {
+        return writeln!(out, "  {:<8}  follows from {cause}, which fails", failure.requirement);
+    }
     let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
     writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
     if failure.sources.is_empty() {

@@ -120,6 +120,7 @@ fn escape_case(case: &mut CaseReport) {
         let FailureReport {
             requirement,
             level: _,
+            follows: _,
             clause,
             sources,
             verdict: _,

@@ -170,6 +170,9 @@ pub struct FailureReport {
     pub found: String,
     /// Number of further checks with the same verdict, which are not shown.
     pub more: usize,
+    /// The clause whose failure explains it, if it is inconclusive for that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub follows: Option<String>,
     /// The bytes it is based on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceReport>,
@@ -228,20 +231,15 @@ impl Report {
 impl CaseReport {
     /// The failures, grouped by evidence: one check may count for several requirements.
     pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
+        fn check(one: &FailureReport) -> impl PartialEq + '_ {
+            let seen = (&one.expected, &one.found, &one.evidence);
+            (seen, one.verdict, one.waived, &one.follows)
+        }
         let mut findings: Vec<Vec<&FailureReport>> = Vec::new();
         for failure in &self.failures {
-            let same = findings.iter_mut().find(|all| {
-                all.first().is_some_and(|first| {
-                    (&first.expected, &first.found, &first.evidence, first.verdict, first.waived)
-                        == (
-                            &failure.expected,
-                            &failure.found,
-                            &failure.evidence,
-                            failure.verdict,
-                            failure.waived,
-                        )
-                })
-            });
+            let same = findings
+                .iter_mut()
+                .find(|all| all.first().is_some_and(|first| check(first) == check(failure)));
             match same {
                 Some(all) => all.push(failure),
                 None => findings.push(vec![failure]),

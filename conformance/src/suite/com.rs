@@ -76,8 +76,10 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
         let list = ObjectList::from(channel);
         let mut ids = HashSet::new();
         for first in 1..=known_object_count(probe, list)? {
+            probe.end_subject();
             let one = read_descriptors(probe, COM_2, list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
+            probe.set_subject(object.name());
             let id = object.id();
             probe.check(COM_2, ids.insert(id), "an ID no other object has", || format!("ID {id}"));
             descriptor_holds_together(probe, object);

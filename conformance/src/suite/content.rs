@@ -31,6 +31,7 @@ pub(super) const CASES: &[CaseRow] = &[
 
 fn content(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
+        probe.set_subject(&object.name);
         let rules = [COM_5, COM_2];
         let size = object.size();
         let read = match object.address.read() {
@@ -65,6 +66,7 @@ fn room(probe: &mut Probe<'_>) -> Step {
         if object.address.read().is_err() {
             continue;
         }
+        probe.set_subject(&object.name);
         for more in [1, 7, 64] {
             let size = object.size().saturating_add(more);
             let Ok(read) = ReadObject::new(group, offset, size) else { continue };

@@ -16,7 +16,7 @@ use super::row::Try;
 use super::{printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
-use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, caught};
+use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, attribute, caught};
 use crate::process::interrupt;
 use crate::testee::{self, Terms};
 
@@ -45,6 +45,7 @@ pub fn run(
         let run = TRIES.get(case.id.as_str()).copied();
         one(case, run, target.as_deref_mut())
     }));
+    attribute(&mut outcomes);
     if let Some(target) = target {
         // Values that this leaves changed after a panic are reported.
         let _panic = caught(|| Probe::new(target).restore_rest());

@@ -92,7 +92,7 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
             let same = u32::try_from(value.len()) == Ok(variable.size);
             let expected = || format!("the {} bytes of its description", variable.size);
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);
-            probe.check([VAR_14, GEN_2], same, expected, found);
+            probe.check(VAR_14, same, expected, found);
         }
         let at = (channel, variable);
         compare_with_whole(&mut steady, probe, VAR_9, at, request, <[u8]>::to_vec)

@@ -80,12 +80,14 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
             for index in 0..number {
                 let request = DescribeByIndex::new(channel, index, kind);
                 let variable: Description = probe.read(VAR_4, request)?;
+                probe.set_subject(&variable.name.text);
                 holds_together(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
                 let found = || format!("{} again at index {index}", variable.name.text);
                 probe.check(VAR_3, unique, "another variable at each index", found);
                 all.push(variable);
             }
+            probe.end_subject();
             descriptions_backwards(probe, channel, kind, &all)?;
         }
     }

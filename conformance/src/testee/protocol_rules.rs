@@ -65,6 +65,7 @@ impl ProtocolRules {
             found: found.into(),
             evidence,
             more: 0,
+            follows: None,
         });
     }
 
@@ -86,6 +87,7 @@ impl ProtocolRules {
             found: String::new(),
             evidence: None,
             more: 0,
+            follows: None,
         };
         let judgements = if self.faults.is_empty() { vec![pass] } else { self.faults };
         CaseOutcome::tried(case, judgements, self.checks.max(1), None)

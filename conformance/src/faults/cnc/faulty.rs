@@ -10,6 +10,7 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Call;
 
 use super::{CncFault, Memory, ReplyData, Upstream, is};
+use crate::faults::field::FieldDefect;
 use crate::faults::seed::{How, Seed};
 use crate::simulator::{Cnc, Model, Responder, respond};
 use crate::wire_service::{reply_stream, request_stream, service_of};
@@ -22,6 +23,8 @@ use crate::wire_service::{reply_stream, request_stream, service_of};
 pub struct Faulty {
     cnc: Arc<Cnc>,
     how: Option<How>,
+    /// The defects of fields.
+    fields: Vec<FieldDefect>,
     memory: Mutex<Memory>,
     /// Whether a defect of a field has changed any byte.
     shown: AtomicBool,
@@ -41,7 +44,17 @@ impl Faulty {
             Some(How::Cnc(CncFault::Program(policy))) => cnc.with_policy(*policy),
             _ => cnc,
         };
-        Self { cnc: Arc::new(cnc), how, memory: Mutex::default(), shown: AtomicBool::new(false) }
+        let fields = match &how {
+            Some(How::Field(defect)) => vec![defect.clone()],
+            _ => Vec::new(),
+        };
+        let (cnc, memory, shown) = (Arc::new(cnc), Mutex::default(), AtomicBool::new(false));
+        Self { cnc, how, fields, memory, shown }
+    }
+
+    /// A CNC with several defects of fields.
+    pub fn with_fields(cnc: Cnc, fields: Vec<FieldDefect>) -> Self {
+        Self { fields, ..Self::new(cnc, None) }
     }
 
     /// The CNC without the defect.
@@ -52,7 +65,7 @@ impl Faulty {
     /// Whether the defect has changed a byte: a change to the value that a field already has is not
     /// detectable.
     pub(crate) fn has_shown(&self) -> bool {
-        !matches!(self.how, Some(How::Field(_))) || self.shown.load(Ordering::Relaxed)
+        self.fields.is_empty() || self.shown.load(Ordering::Relaxed)
     }
 
     fn upstream(&self) -> Upstream<'_> {
@@ -61,8 +74,11 @@ impl Faulty {
 
     /// The bytes of a stream with the defect, if it changes any.
     fn change(&self, stream: Option<Stream>, bytes: &[u8]) -> Option<Vec<u8>> {
-        let Some(How::Field(defect)) = &self.how else { return None };
-        let changed = stream.filter(|stream| defect.touches(*stream)).map(|_| defect.apply(bytes));
+        let stream = stream?;
+        let mut changed = None;
+        for defect in self.fields.iter().filter(|defect| defect.touches(stream)) {
+            changed = Some(defect.apply(changed.as_deref().unwrap_or(bytes)));
+        }
         let changed = changed.filter(|changed| changed != bytes)?;
         self.shown.store(true, Ordering::Relaxed);
         Some(changed)
@@ -96,7 +112,7 @@ impl Responder for Faulty {
             Some(How::Cnc(CncFault::Function(functions, answer))) if is(call, functions) => {
                 answer(&self.upstream(), call)
             }
-            Some(How::Field(_)) => {
+            _ if !self.fields.is_empty() => {
                 let spec = call.dispatch().ok().map(|request| request.function().spec());
                 let misread = self.change(spec.and_then(|spec| spec.request), call.data);
                 let data = misread.as_deref().unwrap_or(call.data);

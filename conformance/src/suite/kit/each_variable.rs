@@ -13,9 +13,11 @@ pub(crate) fn each_variable(
 ) -> Step {
     for channel in probe.channels()? {
         for variable in probe.readable(channel)? {
+            probe.set_subject(&variable.name.text);
             judge(probe, channel, &variable)?;
         }
     }
+    probe.end_subject();
     Ok(())
 }
 

@@ -42,6 +42,8 @@ pub struct Probe<'s> {
     pub target: &'s mut TargetState,
     record: Record,
     last: Option<Evidence>,
+    /// The variable or object that the next checks are about.
+    subject: Option<String>,
     requests: usize,
     /// Whether the case was stopped because the run is being interrupted.
     pub(crate) interrupted: bool,
@@ -58,6 +60,7 @@ impl<'s> Probe<'s> {
             target,
             record: Record::default(),
             last: None,
+            subject: None,
             requests: 0,
             interrupted: false,
             ambiguity: None,
@@ -256,7 +259,7 @@ impl<'s> Probe<'s> {
             let evidence = || Some(evidence.clone());
             state.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
         }
-        self.last = Some(evidence);
+        self.last = Some(Evidence { subject: self.subject.clone(), ..evidence });
         Ok(())
     }
 
@@ -306,6 +309,19 @@ impl<'s> Probe<'s> {
             self.check(rule, false, expected, || error);
             Stop::Judged
         })
+    }
+
+    /// Notes the variable or object that the checks are about, from the last call on.
+    pub(crate) fn set_subject(&mut self, subject: impl Display) {
+        self.subject = Some(subject.to_string());
+        if let Some(last) = &mut self.last {
+            last.subject.clone_from(&self.subject);
+        }
+    }
+
+    /// Ends what [`set_subject`](Self::set_subject) began.
+    pub(crate) fn end_subject(&mut self) {
+        self.subject = None;
     }
 
     /// The evidence of the last call.

@@ -1,0 +1,262 @@
+//! Attributes failures to their cause: the clause that is broken fails, and what only follows from it is
+//! inconclusive.
+//!
+//! A wrong size in a description makes every comparison with that size fail. Only the first function of
+//! the chain shows which clause is broken, so a failed check of a later function does not count against
+//! its own clause while an earlier one of the same variable or object fails.
+
+use std::collections::HashSet;
+
+use ads_cnc::operation::{Function, Service};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
+
+use super::{Case, CaseOutcome, Judgement, Needs, RequirementVerdict, Verdict, gravest};
+
+/// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
+/// from.
+const fn sources(function: Function) -> &'static [Function] {
+    use Function::*;
+    match function {
+        ReadDescriptors => &[CountObjects],
+        ReadObject | WriteObject | WriteProgramStream => &[ReadDescriptors],
+        DescribeByIndex | DescribeExtended => &[CountVariables],
+        HandleByName | DescribeByName | ReadByName | WriteByName => &[DescribeByIndex],
+        AxisHandleByName | AxisReadByName | AxisWriteByName => &[DescribeByIndex],
+        ReadByHandle | WriteByHandle => &[DescribeByIndex, HandleByName],
+        DynamicNameByIndex => &[CountDynamic],
+        DynamicValueByName => &[DynamicNameByIndex],
+        DynamicValueByIndex => &[CountDynamic, DynamicNameByIndex],
+        CountElements => &[FindInstance],
+        ReadElementName | ReadElementType | ReadElementLength => &[CountElements],
+        ReadElementUnit | ReadElementWriteFlag => &[CountElements],
+        ReadElement | WriteElement => &[CountElements, ReadElementLength, ReadElementType],
+        _ => &[],
+    }
+}
+
+/// All functions before `function` in a chain.
+fn before(function: Function) -> HashSet<Function> {
+    let mut all = HashSet::new();
+    let mut open = vec![function];
+    while let Some(next) = open.pop() {
+        open.extend(sources(next).iter().filter(|source| all.insert(**source)));
+    }
+    all
+}
+
+/// The function that a chain begins with.
+fn origin(function: Function) -> Function {
+    let mut first = function;
+    while let [source, ..] = sources(first) {
+        first = *source;
+    }
+    first
+}
+
+/// Clauses whose checks prove them broken whatever else is: they look for the one error, such as
+/// reversed bytes, which no error of another clause looks like.
+const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, SVC_1];
+
+/// Clauses of every function: an error of the function itself looks like an error of these.
+const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
+
+fn is_one_of(clause: &str, list: &[ClauseId]) -> bool {
+    list.iter().any(|one| one.as_str() == clause)
+}
+
+/// Whether the clause defines the function, or a field of its request or reply.
+fn defines(clause: &str, function: Function) -> bool {
+    let spec = function.spec();
+    let streams = [spec.request, spec.reply].into_iter().flatten();
+    spec.clause == clause
+        || streams.into_iter().any(|stream| {
+            let mut fields = stream.fields().filter_map(|field| field.spec());
+            stream.layout().clause == clause || fields.any(|field| field.clause == clause)
+        })
+}
+
+/// Whether only functions have the clause, so that a failure of it shows a function broken.
+fn is_of_functions(clause: &str) -> bool {
+    let area = clause.split_once('-').map_or(clause, |(area, _)| area);
+    !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
+}
+
+const fn is_broken(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Fail | Verdict::Vacuous)
+}
+
+/// A failed check of a function by a clause that defines it, with no failed one before it.
+struct Root {
+    function: Function,
+    clause: &'static str,
+    subject: Option<String>,
+    check: (String, String, String),
+}
+
+/// What explains the failures of a run.
+struct Causes {
+    roots: Vec<Root>,
+    /// The clause of the service that all of them use.
+    service: Option<&'static str>,
+    /// The clause of the request that several of them use, and these.
+    request: Option<(&'static str, Vec<Function>)>,
+}
+
+fn site(judgement: &Judgement) -> (Option<Function>, Option<&str>) {
+    let evidence = judgement.evidence.as_ref();
+    let subject = evidence.and_then(|evidence| evidence.subject.as_deref());
+    (evidence.and_then(|evidence| evidence.function), subject)
+}
+
+/// Whether the two can be about the same: one of them may be about all.
+fn related(one: Option<&str>, other: Option<&str>) -> bool {
+    one.is_none() || other.is_none() || one == other
+}
+
+fn check(case: &str, judgement: &Judgement) -> (String, String, String) {
+    (case.to_owned(), judgement.expected.clone(), judgement.found.clone())
+}
+
+fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
+    let mut all = Vec::new();
+    for (case, judgement) in judgements(outcomes).filter(|(_, one)| is_broken(one.verdict)) {
+        let (Some(function), subject) = site(judgement) else { continue };
+        let clause = judgement.requirement;
+        if is_of_functions(clause) && defines(clause, function) {
+            let (subject, check) = (subject.map(str::to_owned), check(case, judgement));
+            all.push(Root { function, clause, subject, check });
+        }
+    }
+    let has_earlier = |root: &Root| {
+        let before = before(root.function);
+        all.iter().any(|other| {
+            let (one, other_subject) = (root.subject.as_deref(), other.subject.as_deref());
+            before.contains(&other.function) && related(one, other_subject)
+        })
+    };
+    let first: Vec<bool> = all.iter().map(|root| !has_earlier(root)).collect();
+    let mut first = first.into_iter();
+    all.retain(|_| first.next().unwrap_or_default());
+    all
+}
+
+fn judgements(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&str, &Judgement)> {
+    outcomes.iter().flat_map(|outcome| {
+        let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
+        judged.map(|judgement| (outcome.case.id.as_str(), judgement))
+    })
+}
+
+/// The clause of the service, if functions of several chains fail, all of them of this service, and its
+/// clause fails too.
+fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> {
+    let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
+    let service = roots.first()?.function.spec().service;
+    let clause = match service {
+        Service::Read => ADS_1.as_str(),
+        Service::ReadWrite => ADS_3.as_str(),
+        _ => return None,
+    };
+    let is_alone = roots.iter().all(|root| root.function.spec().service == service);
+    let fails =
+        judgements(outcomes).any(|(_, one)| one.requirement == clause && is_broken(one.verdict));
+    (origins.len() > 1 && is_alone && fails).then_some(clause)
+}
+
+/// The clause of a request that several functions have, if it and all of several of them fail.
+fn request_of(roots: &[Root]) -> Option<(&'static str, Vec<Function>)> {
+    let request = |root: &Root| root.function.spec().request;
+    let by_clause =
+        |root: &&Root| request(root).is_some_and(|stream| stream.layout().clause == root.clause);
+    roots.iter().filter(by_clause).find_map(|root| {
+        let alike = roots.iter().filter(|other| request(other) == request(root));
+        let mut functions: Vec<Function> = alike.map(|other| other.function).collect();
+        functions.sort_unstable();
+        functions.dedup();
+        (functions.len() > 1).then_some((root.clause, functions))
+    })
+}
+
+/// The clause whose failure explains this one.
+fn cause(
+    case: &Case,
+    judgement: &Judgement,
+    Causes { roots, service, request }: &Causes,
+) -> Option<&'static str> {
+    let clause = judgement.requirement;
+    if case.needs == Needs::Frames || is_one_of(clause, &SPECIFIC) {
+        return None;
+    }
+    if let Some(service) = *service {
+        return (clause != service).then_some(service);
+    }
+    let (function, subject) = site(judgement);
+    let roots = || roots.iter().filter(|root| related(root.subject.as_deref(), subject));
+    let Some(function) = function else {
+        let homes = |root: &Root| {
+            let homes = Function::ALL.iter().filter(|one| defines(clause, **one));
+            homes.clone().any(|home| before(*home).contains(&root.function))
+                || homes.count() == 0 && !is_of_functions(clause)
+        };
+        return roots().find(|root| homes(root)).map(|root| root.clause);
+    };
+    if let Some((shared, functions)) = request
+        && functions.contains(&function)
+        && defines(clause, function)
+    {
+        return (clause != *shared).then_some(*shared);
+    }
+    let earlier = before(function);
+    let explains = |root: &&Root| {
+        if is_of_functions(clause) {
+            if defines(clause, function) {
+                return earlier.contains(&root.function);
+            }
+            let mut homes = earlier.iter().filter(|one| defines(clause, **one)).peekable();
+            if homes.peek().is_some() {
+                return homes.any(|home| before(*home).contains(&root.function));
+            }
+        }
+        earlier.contains(&root.function) || root.function == function && is_one_of(clause, &GENERAL)
+    };
+    let same = check(&case.id, judgement);
+    if roots().any(|root| root.check == same) {
+        return None;
+    }
+    roots().find(explains).map(|root| root.clause)
+}
+
+/// Makes failed checks inconclusive that follow from the failure of an earlier function.
+pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
+    let roots = roots(outcomes);
+    if roots.is_empty() {
+        return;
+    }
+    let (service, request) = (service_of(&roots, outcomes), request_of(&roots));
+    let causes = Causes { roots, service, request };
+    for outcome in outcomes {
+        for verdict in &mut outcome.verdicts {
+            follow(&outcome.case, verdict, &causes);
+        }
+    }
+}
+
+fn follow(case: &Case, verdict: &mut RequirementVerdict, causes: &Causes) {
+    for judgement in &mut verdict.judgements {
+        let counts = is_broken(judgement.verdict) || judgement.verdict == Verdict::Warning;
+        if !counts {
+            continue;
+        }
+        if let Some(clause) = cause(case, judgement, causes)
+            && clause != judgement.requirement
+        {
+            judgement.verdict = Verdict::Inconclusive;
+            judgement.follows = Some(clause);
+        }
+    }
+    let by_checks = is_broken(verdict.verdict) || verdict.verdict == Verdict::Warning;
+    if by_checks && let Some(gravest) = gravest(verdict.judgements.iter().map(|one| one.verdict)) {
+        verdict.verdict = gravest;
+    }
+}
