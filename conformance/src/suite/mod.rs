@@ -24,7 +24,6 @@ mod needs;
 mod no_padding;
 mod platform;
 mod printed;
-pub mod replay;
 mod row;
 mod run;
 mod sda;
@@ -111,7 +110,6 @@ pub fn cases() -> Vec<Case> {
         needs: row.needs,
         body: Body::Probe,
     }));
-    cases.extend(replay::cases());
     cases.extend(printed::cases());
     cases
 }
