@@ -1,7 +1,6 @@
 //! The suite can fail: a wrong field anywhere is seen by its vectors and by its cases.
 
 use std::net::SocketAddr;
-use std::sync::Arc;
 
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::client::{Client, Target};
@@ -33,12 +32,11 @@ fn run_against(
     let cases = suite::cases().into_iter().filter(wanted).collect();
     let seed = defect.cloned().map(Seed::from);
     let faulty = Faulty::new(cnc, seed.as_ref());
-    let cnc = Arc::clone(faulty.cnc());
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let server = Server::start(listener, faulty).unwrap();
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::of_server(&server)).unwrap();
-    let mut session = TargetState::new(client, profile).with_cnc(cnc);
+    let mut session = TargetState::new(client, profile);
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 

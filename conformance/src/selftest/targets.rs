@@ -69,8 +69,7 @@ fn run(
     let internal = |error| ToolError::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
     let faulty = Arc::new(Faulty::new(Cnc::new(model.map_err(internal)?), Some(seed)));
-    let cnc = Arc::clone(faulty.cnc());
-    let profile = cnc.model().profile();
+    let profile = faulty.cnc().model().profile();
     let profile = Profile { printed_examples: seed.printed, ..profile };
     let session = session::Session::simulated_to_try(Arc::clone(&faulty))?;
     // The CNC runs until `_running` is dropped.
@@ -79,7 +78,7 @@ fn run(
         SeedKind::Different => client,
         SeedKind::Codec | SeedKind::Cnc => client.with_timeout(DEFECT_TIMEOUT),
     };
-    let mut session = TargetState::new(client, profile).with_cnc(cnc);
+    let mut session = TargetState::new(client, profile);
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);
     let cases = suite::cases().into_iter().filter(of_target).collect();
     let outcomes = suite::run(cases, Some(&mut session), None, 1);

@@ -67,8 +67,7 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
     if let Some(deadline) = late.filter(Deadline::is_over) {
         return CaseOutcome::untried(case, Verdict::Inconclusive, deadline.to_string());
     }
-    let (gate, inside) = (target.client.gate(), target.cnc.is_some());
-    if let Some((verdict, why)) = case.needs.unmet(gate, &target.profile, inside) {
+    if let Some((verdict, why)) = case.needs.unmet(target.client.gate(), &target.profile) {
         return CaseOutcome::untried(case, verdict, why);
     }
     let writes = matches!(case.needs, Needs::Writes | Needs::MalformedWrites);
