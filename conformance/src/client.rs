@@ -143,13 +143,6 @@ impl Client {
         })
     }
 
-    /// Sets the time to wait for a connection and for an answer.
-    #[must_use]
-    pub(crate) const fn with_timeout(mut self, timeout: Duration) -> Self {
-        self.target.timeout = timeout;
-        self
-    }
-
     /// Captures everything sent and received from now on.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
