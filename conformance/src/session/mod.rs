@@ -22,7 +22,7 @@ use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
 use crate::report::lines;
-use crate::simulator::{NET_ID, Responder, Server};
+use crate::simulator::{LocalCnc, NET_ID, Responder, Server};
 
 pub use error::ToolError;
 
@@ -99,7 +99,7 @@ impl Session {
     /// If the gate allows malformed requests to another machine.
     pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, ToolError> {
         let target = Target::local(IN_PROCESS, NET_ID);
-        let client = Client::in_process(target, gate, cnc);
+        let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID));
         let client = client.map_err(|error| ToolError::unreachable(&target, &error))?;
         Ok(Self::over(client, None))
     }

@@ -42,7 +42,7 @@ mod state;
 pub use crate::gate::NET_ID;
 pub use answer::Cnc;
 pub use control::ControlError;
-pub(crate) use in_process::InProcess;
+pub use in_process::LocalCnc;
 pub use inspect::{ContentOwner, CurrentParameter, CurrentVariable, StoredContent};
 pub use model::{ConfiguredVariable, DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, ReplyData};
