@@ -96,15 +96,21 @@ fn repeat(
 /// never is.
 ///
 /// An error number does not show whether a rejection is temporary, nor whether the buffer of a device
-/// is emptied at all. But if as many bytes are accepted in two packets, there is room for the one.
-fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
+/// is emptied at all. But if as many bytes are accepted in two packets, by the number of the same
+/// channel, there is room for the one.
+fn write(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    by_number: Channel,
+    data: &[u8],
+) -> Step<Option<u32>> {
     let half = comment(data.len().div_ceil(2).max(4));
     // Twice: the device may have read its buffer meanwhile.
     for _ in 0..2 {
         let (rejection, refused) = repeat(probe, channel, data)?;
         let Some(rejection) = rejection else { return Ok(Some(refused)) };
         for _ in 0..2 {
-            if !send(probe, channel, &half)?.is_taken() {
+            if !send(probe, by_number, &half)?.is_taken() {
                 let seconds = BUSY_TIMEOUT.as_secs();
                 let why = format!("still refused after {seconds} s: {rejection}");
                 return Err(Stop::Inconclusive(why));
@@ -115,7 +121,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
 }
 
 fn write_accepted(probe: &mut Probe<'_>, rules: &[ClauseId], at: Channel, data: &[u8]) -> Step {
-    let taken = write(probe, at, data)?;
+    let taken = write(probe, at, at, data)?;
     let expected = || format!("{} bytes of whole lines taken", data.len());
     probe.check(rules, taken.is_some(), expected, "refused while there is room");
     Ok(())
@@ -128,7 +134,8 @@ fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let rank = probe.ranks()?.into_iter().find(|(_, one)| *one == channel);
     let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
-        write_accepted(probe, &[STM_1], by_index, lines)?;
+        let taken = write(probe, by_index, channel, lines)?.is_some();
+        probe.check(STM_1, taken, "lines taken by the rank of the channel", "refused");
     }
     Ok(())
 }
@@ -153,7 +160,7 @@ fn refused_for_now(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let packet = comment(STREAM_PACKET_MAX);
     for _ in 0..8 {
-        let taken = write(probe, channel, &packet)?;
+        let taken = write(probe, channel, channel, &packet)?;
         let found = "refused while there is room";
         probe.check(STM_6, taken.is_some(), "taken, or refused for now", found);
         if taken != Some(0) {

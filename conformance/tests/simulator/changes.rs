@@ -1,10 +1,11 @@
 //! An operator exchanges axes and deactivates channels.
 
-use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::address::{Channel, ChannelAxis, Class};
 use ads_cnc::operation::{
-    AxisHandleByName, AxisReadByName, CountObjects, CountVariables, DescribeByIndex, HandleByName,
-    ReadByHandle, ReadByName, Request,
+    AxisHandleByName, AxisReadByName, CountElements, CountObjects, CountVariables, DescribeByIndex,
+    FindInstance, HandleByName, ReadByHandle, ReadByName, ReadElement, ReadElementLength, Request,
 };
+use ads_cnc::sda::{ElementLength, ObjectAddress};
 use ads_cnc::{Handle, Kind, U32List};
 use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
 use ads_cnc_vectors::ids::*;
@@ -15,6 +16,7 @@ use crate::target::{Check, Reply, Target, ensure, same};
 
 checks! {
     an_axis_takes_its_values_to_another_place: [ADR_13, SDA_11, SDA_13, VAR_10],
+    a_place_without_an_axis_is_blank: [SDA_11],
     names_and_handles_of_a_place_are_of_its_axis: [VAR_10, VAR_26],
     ranks_are_those_of_the_active_channels: [ADR_11],
 }
@@ -59,6 +61,30 @@ fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
         let Ok(request) = address.read() else { continue };
         let value = target.ask(request)?.unwrap_or_default();
         ensure(value.iter().all(|&byte| byte == 0), format_args!("{address:?} is {value:02x?}"))?;
+    }
+    Ok(())
+}
+
+/// Every element of the first place of channel 2, which has the axis 4.
+fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
+    let mut reads = Vec::new();
+    for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation] {
+        let first = target.read::<ObjectAddress>(FindInstance::new(class, 2, 1))?;
+        let Some(first) = first.first_element()? else { continue };
+        let count = target.ask(CountElements::new(first)?)??;
+        for number in 1..=count.into_iter().next().unwrap_or_default() {
+            let element = first.nth(number.into())?;
+            let length = target.read::<ElementLength>(ReadElementLength::new(element))?;
+            let read = ReadElement::new(element, length.get())?;
+            reads.push((read, target.ask(read)??));
+        }
+    }
+    let is_blank = |value: &[u8]| value.iter().all(|&byte| byte == 0);
+    ensure(reads.iter().any(|(_, value)| !is_blank(value)), "axis 4 has no values")?;
+    target.cnc().exchange_axis(2, 1, 0)?;
+    for (read, _) in reads {
+        let value = target.ask(read)??;
+        ensure(is_blank(&value), format_args!("{read:?}: {value:02x?}"))?;
     }
     Ok(())
 }

@@ -6,13 +6,19 @@ use crate::checks::SimulatorCheck;
 use crate::player::play;
 use crate::sequences::with_steps;
 use crate::target::Target;
-use crate::{changes, contents, device, streams, variables};
+use crate::{changes, contents, device, services, streams, variables};
 
 /// All checks.
 fn checks() -> impl Iterator<Item = &'static SimulatorCheck> {
-    [changes::CHECKS, contents::CHECKS, device::CHECKS, streams::CHECKS, variables::CHECKS]
-        .into_iter()
-        .flatten()
+    let all = [
+        changes::CHECKS,
+        contents::CHECKS,
+        device::CHECKS,
+        services::CHECKS,
+        streams::CHECKS,
+        variables::CHECKS,
+    ];
+    all.into_iter().flatten()
 }
 
 /// The checks and sequences that a CNC with this seed fails, of those with one of these requirements;

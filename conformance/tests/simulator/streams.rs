@@ -22,6 +22,8 @@ checks! {
     many_packets_fill_the_interface: [STM_3, STM_6, STM_15],
     each_channel_has_its_own_room: [STM_3, STM_12],
     a_packet_without_room_is_rejected_whole: [STM_3, STM_6],
+    all_packets_are_read_at_once: [STM_12],
+    a_packet_that_is_sent_twice_is_executed_twice: [STM_4, STM_15],
     lines_written_after_a_program_end_stay: [STM_10, STM_14],
     a_reset_ends_the_program: [STM_11, STM_14],
     loops_and_jumps_back_end_streaming: [STM_8, STM_9],
@@ -263,6 +265,28 @@ fn a_packet_without_room_is_rejected_whole(target: &Target) -> Check {
         stream.has_executed(&[all, packet].concat())?;
     }
     Ok(())
+}
+
+fn all_packets_are_read_at_once(target: &Target) -> Check {
+    let slow = Pace::lines_per_second(1).expect("a pace");
+    let stream = first(target, Pace::Hold, Start::Once)?;
+    let packets = ["X1\r\n", "X2\r\nX3\r\n", "X4\r\n"];
+    for packet in packets {
+        stream.accepts(packet.as_bytes())?;
+    }
+    stream.holds(packets.concat().len())?;
+    stream.pace(slow)?;
+    stream.holds(0)?;
+    stream.has_executed(b"")?;
+    stream.pace(Pace::Fast)?;
+    stream.has_executed(packets.concat().as_bytes())
+}
+
+fn a_packet_that_is_sent_twice_is_executed_twice(target: &Target) -> Check {
+    let stream = first(target, Pace::Fast, Start::Once)?;
+    stream.accepts(b"X1\r\n")?;
+    stream.accepts(b"X1\r\n")?;
+    stream.has_executed(b"X1\r\nX1\r\n")
 }
 
 /// Written after the program end was read, and before it was executed.

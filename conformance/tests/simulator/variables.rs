@@ -5,7 +5,7 @@ use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName, DynamicValue};
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{
     CountDynamic, CountVariables, DescribeByIndex, DescribeExtended, DynamicNameByIndex,
-    DynamicValueByIndex, DynamicValueByName, ReadByName,
+    DynamicValueByIndex, DynamicValueByName, ReadByName, WriteByName,
 };
 use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::ids::*;
@@ -18,6 +18,7 @@ checks! {
         VAR_2, VAR_3, VAR_4, VAR_5, VAR_6, VAR_7, VAR_8, VAR_14, VAR_15, VAR_16, GEN_3,
     ],
     values_have_their_lowest_byte_first: [GEN_1],
+    variables_without_a_handle_are_written_by_name: [VAR_18],
     parameters_come_and_go: [DYN_1, DYN_2, DYN_3, DYN_4, DYN_5, DYN_6],
 }
 
@@ -77,6 +78,22 @@ fn values_have_their_lowest_byte_first(target: &Target) -> Check {
         same(&parameter.name, value, parameter.value.to_le_bytes().to_vec())?;
     }
     Ok(())
+}
+
+fn variables_without_a_handle_are_written_by_name(target: &Target) -> Check {
+    let mut written = 0;
+    for number in target.channels() {
+        let channel = Channel::new(number.into())?;
+        for name in target.cnc().written_by_name_only(number) {
+            let read = ReadByName { channel, name: name.as_cnc_str().into() };
+            let new: Vec<u8> = target.ask(read)??.iter().map(|byte| byte ^ 1).collect();
+            let name = name.as_cnc_str();
+            target.ask(WriteByName { channel, name, value: new[..].into() })??;
+            same(name, target.ask(read)??, new)?;
+            written += 1;
+        }
+    }
+    ensure(written > 0, "no such variable")
 }
 
 /// More than fit into a byte.

@@ -4,10 +4,12 @@ use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByName, WriteByName};
 use ads_cnc::service::ServiceVariable;
+use ads_cnc_vectors::ids::*;
 
-use crate::judge::{Step, Stop};
+use crate::judge::{Checks as _, Step, Stop};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Probe, WriteCheck, service_channels, with_reply};
+use crate::values::until_nul;
 
 pub(super) fn read_variable(
     probe: &mut Probe<'_>,
@@ -85,13 +87,17 @@ fn restoring(
     then: &mut dyn FnMut(&mut Probe<'_>) -> Step,
 ) -> Step {
     let Some((&variable, others)) = variables.split_first() else { return then(probe) };
-    let was = read_variable(probe, channel, variable)?;
+    let mut was = read_variable(probe, channel, variable)?;
     if was.is_empty() {
         let name = variable.name();
         return Err(Stop::Inconclusive(format!("{name} could not be read to be restored")));
     }
     let address = ValueAddress::Name { channel, name: variable.name().parse()? };
     let is_text = variable.var_type() == VariableType::STRING;
+    if is_text {
+        // Without its padding: a device may reject more bytes than the text has.
+        was = [until_nul(&was), b"\0"].concat();
+    }
     let write_check = WriteCheck { what: variable.name(), rules: &[], is_text, name: None };
     probe.changing(
         &write_check,
@@ -100,7 +106,10 @@ fn restoring(
         |probe| restoring(probe, channel, others, then),
         |probe| {
             write_variable(probe, channel, variable, &was)?;
-            probe.is_as_before(&address, &was, is_text)
+            let same = probe.is_as_before(&address, &was, is_text)?;
+            let found = || format!("another value of {}", variable.name());
+            probe.check(SVC_1, same, "the value before, written back", found);
+            Ok(same)
         },
     )
 }
