@@ -12,7 +12,7 @@ use ads_cnc_vectors::ids::*;
 
 use crate::addresses::addresses;
 use crate::checks::checks;
-use crate::target::{Check, Reply, Target, ensure, same};
+use crate::target::{Check, Failed, Reply, Target, ensure, same};
 
 checks! {
     an_axis_takes_its_values_to_another_place: [ADR_13, SDA_11, SDA_13, VAR_10],
@@ -65,26 +65,48 @@ fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
     Ok(())
 }
 
-/// Every element of the first place of channel 2, which has the axis 4.
-fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
-    let mut reads = Vec::new();
-    for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation] {
-        let first = target.read::<ObjectAddress>(FindInstance::new(class, 2, 1))?;
-        let Some(first) = first.first_element()? else { continue };
-        let count = target.ask(CountElements::new(first)?)??;
-        for number in 1..=count.into_iter().next().unwrap_or_default() {
-            let element = first.nth(number.into())?;
-            let length = target.read::<ElementLength>(ReadElementLength::new(element))?;
-            let read = ReadElement::new(element, length.get())?;
-            reads.push((read, target.ask(read)??));
-        }
+/// The elements of a class at a place, as many as are at the place of another channel.
+fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Vec<ReadElement>> {
+    let at = |channel, place| -> Check<_> {
+        let address = target.read::<ObjectAddress>(FindInstance::new(class, channel, place))?;
+        address.first_element()?.ok_or_else(|| Failed(format!("no {class:?} at place {place}")))
+    };
+    let (first, known) = (at(channel, place)?, at(1, 1)?);
+    let count = target.ask(CountElements::new(known)?)??.into_iter().next().unwrap_or_default();
+    let mut all = Vec::new();
+    for number in (1..=count).map(u32::from) {
+        let length = ReadElementLength::new(known.nth(number)?);
+        let Ok(length) = target.read::<ElementLength>(length) else { continue };
+        all.push(ReadElement::new(first.nth(number)?, length.get())?);
     }
-    let is_blank = |value: &[u8]| value.iter().all(|&byte| byte == 0);
-    ensure(reads.iter().any(|(_, value)| !is_blank(value)), "axis 4 has no values")?;
-    target.cnc().exchange_axis(2, 1, 0)?;
-    for (read, _) in reads {
-        let value = target.ask(read)??;
-        ensure(is_blank(&value), format_args!("{read:?}: {value:02x?}"))?;
+    Ok(all)
+}
+
+/// In the model, and after the axis 4 has left the first place of channel 2.
+fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
+    let cnc = target.cnc();
+    let is_blank = |read: &ReadElement| -> Check<bool> {
+        Ok(target.ask(*read)??.iter().all(|&byte| byte == 0))
+    };
+    let empty = cnc.model().profile().empty_places;
+    ensure(!empty.is_empty(), "every place has an axis")?;
+    for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation] {
+        let left = elements(target, class, 2, 1)?;
+        for &(channel, place) in empty.iter() {
+            for read in elements(target, class, channel, place)? {
+                ensure(is_blank(&read)?, format_args!("{read:?} has a value"))?;
+            }
+        }
+        let mut values = 0;
+        for read in &left {
+            values += u32::from(!is_blank(read)?);
+        }
+        ensure(values > 0, format_args!("axis 4 has no values of {class:?}"))?;
+        cnc.exchange_axis(2, 1, 0)?;
+        for read in &left {
+            ensure(is_blank(read)?, format_args!("{read:?} has a value"))?;
+        }
+        cnc.exchange_axis(2, 1, 4)?;
     }
     Ok(())
 }

@@ -1,6 +1,9 @@
 //! Defects that the checks and the golden sequences find.
 
-use ads_cnc_conformance::faults::{self, Seed};
+use std::collections::BTreeSet;
+
+use ads_cnc_conformance::faults::{self, Seed, SeedKind};
+use ads_cnc_conformance::selftest::UNSEEN;
 
 use crate::checks::SimulatorCheck;
 use crate::player::play;
@@ -35,11 +38,38 @@ fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
     checks.chain(sequences).collect()
 }
 
+/// Each fails by a requirement that it breaks.
 #[test]
-#[ignore]
-fn explore() {
-    for seed in faults::all().iter().filter(|seed| seed.is_for_cnc()) {
-        let failing = failing(seed, &seed.requirements);
-        println!("{}\t{}\t{}", seed.id, failing.len(), failing.first().map_or("", |one| one));
+fn defects_that_no_case_shows_are_found() {
+    for id in UNSEEN {
+        let seed = faults::by_id(id).expect("a defect");
+        assert!(!failing(seed, &seed.requirements).is_empty(), "{id} is not found");
     }
+}
+
+/// Variants that differ in what the checks compare: another model, or what a CNC is free to do.
+const OTHERWISE: [&str; 13] = [
+    "different.axes-move",
+    "different.axis-handles",
+    "different.come-and-go",
+    "different.device-silent-of-itself",
+    "different.error-numbers",
+    "different.error-one",
+    "different.extended-external-only",
+    "different.model",
+    "different.model-bare",
+    "different.model-many",
+    "different.model-numbers",
+    "different.path-preparation-without-axes",
+    "different.request-over-early",
+];
+
+#[test]
+fn correct_variants_fail_nothing() {
+    let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
+    let failing: BTreeSet<&str> = variants
+        .filter(|seed| !failing(seed, &[]).is_empty())
+        .map(|seed| seed.id.as_str())
+        .collect();
+    assert_eq!(failing, BTreeSet::from(OTHERWISE));
 }
