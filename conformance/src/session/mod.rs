@@ -104,9 +104,12 @@ impl Session {
         Ok(Self::over(client, None))
     }
 
-    /// Like [`in_process`](Self::in_process), with a gate that allows every request except those that
-    /// are never sent.
-    pub(crate) fn in_process_to_try(cnc: Arc<dyn Responder>) -> Result<Self, ToolError> {
+    /// Connects to a CNC of this process without a socket, with a gate that allows every request except
+    /// those that are never sent. The clock of the CNC must be stopped.
+    ///
+    /// # Errors
+    /// None: the gate is for this address.
+    pub fn in_process_to_try(cnc: Arc<dyn Responder>) -> Result<Self, ToolError> {
         Self::in_process(cnc, Gate::of_address(IN_PROCESS))
     }
 

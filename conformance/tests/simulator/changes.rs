@@ -8,17 +8,16 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ObjectAddress};
 use ads_cnc::{Handle, Kind, U32List};
 use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
-use ads_cnc_vectors::ids::*;
 
 use crate::addresses::addresses;
 use crate::checks::checks;
 use crate::target::{Check, Failed, Reply, Target, ensure, same};
 
 checks! {
-    an_axis_takes_its_values_to_another_place: [ADR_13, SDA_11, SDA_13, VAR_10],
-    a_place_without_an_axis_is_blank: [SDA_11],
-    names_and_handles_of_a_place_are_of_its_axis: [VAR_10, VAR_26],
-    ranks_are_those_of_the_active_channels: [ADR_11],
+    an_axis_takes_its_values_to_another_place,
+    a_place_without_an_axis_is_blank,
+    names_and_handles_of_a_place_are_of_its_axis,
+    ranks_are_those_of_the_active_channels,
 }
 
 /// The place of an axis in channel 1 of a content; 0 for an axis of the platform.

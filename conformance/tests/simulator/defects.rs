@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use ads_cnc_conformance::faults::{self, Seed, SeedKind};
+use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
 use ads_cnc_conformance::selftest::UNSEEN;
 
 use crate::checks::SimulatorCheck;
@@ -31,11 +32,19 @@ fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
     let fails = |failed: crate::target::Check, name: &str| {
         failed.err().map(|why| format!("{name}: {why:?}"))
     };
-    let checks = checks().filter(|one| one.clauses.iter().any(|id| wanted(id.as_str())));
+    let checks = checks().filter(|one| one.clauses().iter().any(|id| wanted(id.as_str())));
     let checks = checks.filter_map(|one| fails((one.run)(&Target::new(Some(seed))), one.name));
     let sequences = with_steps().filter(|one| one.cited().iter().any(|one| wanted(&one.id)));
     let sequences = sequences.filter_map(|one| fails(play(&Target::new(Some(seed)), one), &one.id));
     checks.chain(sequences).collect()
+}
+
+/// The matrix of requirements lists these checks.
+#[test]
+fn the_matrix_has_every_check() {
+    let names: BTreeSet<&str> = checks().map(|one| one.name).collect();
+    let listed: BTreeSet<&str> = SIMULATOR_CHECKS.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, listed);
 }
 
 /// Each fails by a requirement that it breaks.

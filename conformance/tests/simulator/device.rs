@@ -5,14 +5,13 @@ use ads_cnc::Kind;
 use ads_cnc::address::{Channel, IndexOffset};
 use ads_cnc::ads::{AdsError, AdsState, AmsPort, Command, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::{Call, CountObjects, CountVariables, Request, WriteByName};
-use ads_cnc_vectors::ids::*;
 
 use crate::checks::checks;
 use crate::target::{Check, Target, same};
 
 checks! {
-    each_task_has_the_information_of_the_program: [ADS_8, ADS_9],
-    errors_have_their_numbers: [ADS_4, ADS_5, ADS_6, ADS_7],
+    each_task_has_the_information_of_the_program,
+    errors_have_their_numbers,
 }
 
 fn each_task_has_the_information_of_the_program(target: &Target) -> Check {

@@ -9,27 +9,26 @@ use ads_cnc::operation::{Call, Request, WriteProgramStream};
 use ads_cnc_conformance::simulator::program::{
     Pace, ProgramConfig, Start, State, StreamingProgram,
 };
-use ads_cnc_vectors::ids::*;
 
 use crate::checks::checks;
 use crate::target::{Check, Target, ensure, same};
 
 checks! {
-    each_channel_executes_its_own_stream: [STM_1, ADR_12],
-    lines_are_executed_as_written: [STM_4, STM_7],
-    packets_of_any_length_are_executed: [STM_2, STM_4],
-    a_packet_that_is_too_long_takes_no_room: [STM_2],
-    many_packets_fill_the_interface: [STM_3, STM_6, STM_15],
-    each_channel_has_its_own_room: [STM_3, STM_12],
-    a_packet_without_room_is_rejected_whole: [STM_3, STM_6],
-    all_packets_are_read_at_once: [STM_12],
-    a_packet_that_is_sent_twice_is_executed_twice: [STM_4, STM_15],
-    lines_written_after_a_program_end_stay: [STM_10, STM_14],
-    a_reset_ends_the_program: [STM_11, STM_14],
-    loops_and_jumps_back_end_streaming: [STM_8, STM_9],
-    branches_may_span_packets: [STM_8, STM_19],
-    comments_hide_words: [STM_8, STM_9],
-    four_words_end_the_program: [STM_9, STM_10],
+    each_channel_executes_its_own_stream,
+    lines_are_executed_as_written,
+    packets_of_any_length_are_executed,
+    a_packet_that_is_too_long_takes_no_room,
+    many_packets_fill_the_interface,
+    each_channel_has_its_own_room,
+    a_packet_without_room_is_rejected_whole,
+    all_packets_are_read_at_once,
+    a_packet_that_is_sent_twice_is_executed_twice,
+    lines_written_after_a_program_end_stay,
+    a_reset_ends_the_program,
+    loops_and_jumps_back_end_streaming,
+    branches_may_span_packets,
+    comments_hide_words,
+    four_words_end_the_program,
 }
 
 /// Maximum number of bytes in the interface.

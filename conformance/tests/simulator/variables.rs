@@ -8,18 +8,15 @@ use ads_cnc::operation::{
     DynamicValueByIndex, DynamicValueByName, ReadByName, WriteByName,
 };
 use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
-use ads_cnc_vectors::ids::*;
 
 use crate::checks::checks;
 use crate::target::{Check, Target, ensure, same};
 
 checks! {
-    variables_are_described_as_configured: [
-        VAR_2, VAR_3, VAR_4, VAR_5, VAR_6, VAR_7, VAR_8, VAR_14, VAR_15, VAR_16, GEN_3,
-    ],
-    values_have_their_lowest_byte_first: [GEN_1],
-    variables_without_a_handle_are_written_by_name: [VAR_18],
-    parameters_come_and_go: [DYN_1, DYN_2, DYN_3, DYN_4, DYN_5, DYN_6],
+    variables_are_described_as_configured,
+    values_have_their_lowest_byte_first,
+    variables_without_a_handle_are_written_by_name,
+    parameters_come_and_go,
 }
 
 /// V.E and V.G of every channel; values that are READ_ONLY too.
