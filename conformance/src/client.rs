@@ -18,8 +18,7 @@ use ads_cnc_vectors::ids::*;
 
 use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
 use crate::gate::{Gate, Permit};
-use crate::net::Wire;
-use crate::simulator::{InProcess, Responder, Server};
+use crate::net::{LocalPeers, Wire};
 use crate::text::Moment;
 use crate::wire_service::{decode_reply, service_of};
 
@@ -52,7 +51,7 @@ enum Dial {
     /// Over TCP, to the target's address.
     Tcp,
     /// To a CNC of this process, without a socket.
-    InProcess(Arc<dyn Responder>),
+    InProcess(Arc<dyn LocalPeers>),
 }
 
 /// The time between two pieces of a frame that is sent in pieces.
@@ -65,15 +64,6 @@ const STRAYS_MAX: u64 = 3;
 /// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte
 /// in a response's ID is noticed.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
-
-impl Gate {
-    /// Allows every request that the gate does not forbid altogether: only for the simulated CNC of
-    /// this server in this process, which moves nothing. [`Client`] accepts no other address with
-    /// it.
-    pub fn of_server(server: &Server) -> Self {
-        Self::of_address(server.addr())
-    }
-}
 
 impl Client {
     /// Connects. A gate that allows malformed requests is accepted only for a target on this
@@ -90,7 +80,7 @@ impl Client {
     ///
     /// # Errors
     /// If the gate allows malformed requests to another machine.
-    pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn Responder>) -> io::Result<Self> {
+    pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn LocalPeers>) -> io::Result<Self> {
         Self::dialled(target, gate, Dial::InProcess(cnc))
     }
 
@@ -113,9 +103,7 @@ impl Client {
     fn dial(&self) -> io::Result<Wire> {
         match &self.dial {
             Dial::Tcp => Wire::connect(self.target.addr, self.target.timeout),
-            Dial::InProcess(cnc) => {
-                Ok(Wire::over(Box::new(InProcess::new(Arc::clone(cnc), self.target.net_id))))
-            }
+            Dial::InProcess(cnc) => Ok(Wire::over(cnc.connect())),
         }
     }
 
@@ -141,13 +129,6 @@ impl Client {
             invoke_id: FIRST_INVOKE_ID,
             piece: None,
         })
-    }
-
-    /// Sets the time to wait for a connection and for an answer.
-    #[must_use]
-    pub(crate) const fn with_timeout(mut self, timeout: Duration) -> Self {
-        self.target.timeout = timeout;
-        self
     }
 
     /// Captures everything sent and received from now on.

@@ -12,6 +12,7 @@
 
 mod fuzzed;
 mod sections;
+mod simulated;
 mod types;
 
 use std::collections::BTreeSet;
@@ -19,7 +20,7 @@ use std::fmt::Write as _;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
-use ads_cnc_vectors::{Requirement, requirements, sequences, vectors};
+use ads_cnc_vectors::{Given, Requirement, requirements, sequences, vectors};
 use serde::Serialize;
 
 use crate::clients;
@@ -27,6 +28,7 @@ use crate::judge::Needs;
 use crate::suite;
 
 pub use sections::to_sections;
+pub use simulated::{SEQUENCES, SIMULATOR_CHECKS};
 
 /// A requirement with its sources and all that judges it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -54,6 +56,8 @@ pub struct RequirementRow {
     /// Cases of the suite against a target, and scenarios for a client. Cases that decode a vector
     /// are listed with the vectors.
     pub cases: Vec<String>,
+    /// Tests of the simulated CNC, for what no case can show.
+    pub tests: Vec<&'static str>,
     /// Fuzz targets that reach its bytes.
     pub fuzz_targets: BTreeSet<&'static str>,
 }
@@ -75,7 +79,14 @@ fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRo
         streams.extend(Stream::by_name(&vector.stream));
         names.insert(vector.stream.as_str());
     }
+    let checks =
+        SIMULATOR_CHECKS.iter().filter(|(_, clauses)| clauses.iter().any(|one| one.as_str() == id));
+    let mut tests: Vec<&str> = checks.map(|(name, _)| *name).collect();
     for sequence in sequences().iter().filter(|one| one.cited().contains(&requirement)) {
+        let has_steps = matches!(sequence.given, Given::Streaming(_) | Given::Service(_));
+        if has_steps && !tests.contains(&SEQUENCES) {
+            tests.push(SEQUENCES);
+        }
         let list = if sequence.is_accepted() { &mut accepted } else { &mut rejected };
         list.push(sequence.id.clone());
         names.insert(sequence.kind());
@@ -108,6 +119,7 @@ fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRo
         accepted,
         rejected,
         cases: judging.map(|case| case.id.clone()).collect(),
+        tests,
         fuzz_targets,
     }
 }
@@ -136,6 +148,9 @@ pub fn to_text(rows: &[RequirementRow]) -> String {
                 let _ = writeln!(text, "  {name:<8}  {}", list.join(", "));
             }
         }
+        if !row.tests.is_empty() {
+            let _ = writeln!(text, "  tests     {}", row.tests.join(", "));
+        }
         if !row.fuzz_targets.is_empty() {
             let _ = writeln!(text, "  fuzzed    {}", joined(&row.fuzz_targets, ", "));
         }
@@ -146,27 +161,25 @@ pub fn to_text(rows: &[RequirementRow]) -> String {
 /// One Markdown table, with the numbers of vectors and cases.
 pub fn to_markdown(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
-        "| requirement | level | basis | sources | errata | accepted | rejected | cases | fuzzed |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
+        "| requirement | level | basis | sources | errata | accepted | rejected | cases | tests | fuzzed |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
     );
     for row in rows {
-        let count = |list: &[String]| match (list.len(), &row.excluded) {
-            (0, _) => String::new(),
-            (count, _) => count.to_string(),
-        };
+        let count = |len: usize| if len == 0 { String::new() } else { len.to_string() };
         let title = row.title.replace('|', "\\|");
         let excluded = row.excluded.as_ref().map_or("", |_| " (excluded)");
         let _ = writeln!(
             text,
-            "| {} {title}{excluded} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {} {title}{excluded} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
             row.id,
             row.level,
             row.basis,
             row.sources.join("<br>"),
             row.errata.join(" "),
-            count(&row.accepted),
-            count(&row.rejected),
-            count(&row.cases),
+            count(row.accepted.len()),
+            count(row.rejected.len()),
+            count(row.cases.len()),
+            count(row.tests.len()),
             joined(&row.fuzz_targets, " "),
         );
     }
@@ -187,7 +200,8 @@ mod tests {
         let sequences: usize = sequences().iter().map(|one| one.cited().len()).sum();
         assert_eq!(listed, vectors + sequences);
         for row in &rows {
-            let by_bytes = !row.accepted.is_empty() || !row.cases.is_empty();
+            let by_bytes =
+                !row.accepted.is_empty() || !row.cases.is_empty() || !row.tests.is_empty();
             let live = requirements().iter().any(|one| {
                 one.id == row.id && !one.observable.contains(&ads_cnc_vectors::Observable::Codec)
             });

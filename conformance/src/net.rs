@@ -121,6 +121,15 @@ pub trait Peer: fmt::Debug + Send {
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
 }
 
+/// Peers in this process, which need no socket, and their clock.
+pub trait LocalPeers: fmt::Debug + Send + Sync {
+    /// Opens a connection.
+    fn connect(&self) -> Box<dyn Peer>;
+
+    /// Advances the clock.
+    fn pass(&self, time: Duration);
+}
+
 impl Peer for TcpStream {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.write_all(bytes)

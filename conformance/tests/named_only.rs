@@ -16,7 +16,7 @@ use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::judge::Selection;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
-use ads_cnc_conformance::simulator::{Cnc, NET_ID};
+use ads_cnc_conformance::simulator::{Cnc, LocalCnc, NET_ID};
 use ads_cnc_conformance::suite;
 use common::file::TestFile;
 use common::harmless::number;
@@ -182,7 +182,7 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
         let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
-        let client = Client::in_process(target, gate, cnc).unwrap();
+        let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID)).unwrap();
         let mut session = suite::TargetState::new(client, Profile::DEVICE);
         let only = named.cases.iter().map(|case| (*case).to_owned()).collect();
         let plan = Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap();

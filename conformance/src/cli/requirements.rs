@@ -7,7 +7,7 @@ use crate::judge::{Exit, names};
 use crate::matrix::{self, RequirementRow};
 
 /// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
-/// the suite and fuzz targets
+/// the suite, tests of the simulated CNC and fuzz targets
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  ads-cnc requirements --only VAR\n  \
     ads-cnc requirements --only VAR-11 --format json\n\n\

@@ -355,7 +355,7 @@ impl Run {
             }
         };
         let unmet = |needs: Needs| {
-            let unmet = needs.unmet(gate.as_ref()?, profile, false);
+            let unmet = needs.unmet(gate.as_ref()?, profile);
             unmet.map(|(_, why)| why.to_owned())
         };
         let listed = list::of_plan(&plan, unmet);

@@ -60,8 +60,6 @@ pub enum Needs {
     Writes,
     /// Malformed writes: only for a target that cannot move.
     MalformedWrites,
-    /// The simulated CNC in this process, whose state the case reads or changes directly.
-    Simulator,
     /// A target whose profile claims the manuals' printed examples.
     PrintedExamples,
     /// The frames that the other cases or other clients exchanged.

@@ -14,6 +14,7 @@ mod targets;
 #[cfg(test)]
 mod tests;
 mod tried;
+mod unseen;
 
 use serde::Serialize;
 
@@ -25,6 +26,7 @@ use parallel::parallel;
 pub use show::print;
 use tried::{Candidate, judge, whole};
 pub use tried::{SelfTestGroup, Trial, TrialResult};
+pub use unseen::UNSEEN;
 
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {

@@ -1,6 +1,7 @@
 //! Why some defects may survive.
 
 use super::tried::{SelfTestGroup, Trial, TrialResult};
+use super::unseen::UNSEEN;
 
 /// Group, prefix of the ID, and why the defect is not detectable.
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[(
@@ -9,8 +10,14 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[(
     "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
 )];
 
+/// The reason of [`UNSEEN`].
+const INSIDE: &str = "No case shows it: a test of the simulated CNC finds it.";
+
 /// The reason for a survivor, if there is one.
 pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
+    if group == SelfTestGroup::Cnc && UNSEEN.contains(&id) {
+        return Some(INSIDE);
+    }
     let mine = REASONS.iter().find(|(of, start, _)| *of == group && id.starts_with(start));
     mine.map(|(_, _, reason)| *reason)
 }
@@ -18,7 +25,8 @@ pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
 /// Group and prefix of all reasons.
 #[cfg(test)]
 pub(super) fn names() -> impl Iterator<Item = (SelfTestGroup, &'static str)> {
-    REASONS.iter().map(|(group, start, _)| (*group, *start))
+    let unseen = UNSEEN.iter().map(|id| (SelfTestGroup::Cnc, *id));
+    REASONS.iter().map(|(group, start, _)| (*group, *start)).chain(unseen)
 }
 
 /// Reasons that no survivor needs.
@@ -31,5 +39,9 @@ pub(super) fn stale(tried: &[Trial]) -> Vec<String> {
         })
     };
     let stale = REASONS.iter().filter(|reason| !needed(reason));
-    stale.map(|(group, start, _)| format!("{} {start}", group.name())).collect()
+    let stale = stale.map(|(group, start, _)| format!("{} {start}", group.name()));
+    let survives =
+        |id: &str| tried.iter().any(|one| one.id == id && one.reason.as_deref() == Some(INSIDE));
+    let seen = UNSEEN.iter().filter(|id| !survives(id));
+    stale.chain(seen.map(|id| format!("cnc {id}"))).collect()
 }

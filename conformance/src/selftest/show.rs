@@ -63,7 +63,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     writeln!(out, "{verdict}  exit code {}", test.exit().code())
 }
 
-/// The detection of defects of a CNC over the wire, and in process.
+/// The detection of defects of a CNC: from outside, and by all cases for the simulated CNC.
 fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     let CheckedTable { table, measured, differences } = &test.detection;
     for difference in differences {
@@ -90,7 +90,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     let (right, all) = test.rate(SelfTestGroup::Cnc);
     if all > 0 {
         let missed = all.saturating_sub(right);
-        writeln!(out, "{:<10} {all:>8} {right:>7} {:>10} {missed:>7}", "inside", "")?;
+        writeln!(out, "{:<10} {all:>8} {right:>7} {:>10} {missed:>7}", "simulated", "")?;
     }
     let ((fields, fields_most), (others, others_most)) = (table.blame(true), table.blame(false));
     writeln!(

@@ -1,14 +1,13 @@
 //! CNCs with a defect, and valid variants.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use super::tried::{Candidate, SelfTestGroup, TrialResult, judge};
 use crate::edition::Edition;
 use crate::faults::{self, Faulty, Seed, SeedKind};
 use crate::judge::{Case, CaseOutcome, Needs};
 use crate::profile::Profile;
-use crate::session::{self, ToolError};
+use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, TargetState};
 
@@ -29,10 +28,6 @@ fn of_seed(seed: &'static Seed) -> Candidate {
         run: Box::new(move || against(seed)),
     }
 }
-
-/// Time limit of a CNC with a defect: a silent one takes this long per request. A valid variant has
-/// the usual limit.
-const DEFECT_TIMEOUT: Duration = Duration::from_millis(400);
 
 /// Runs the cases of a target against a simulated CNC with the seed: with the default model, and
 /// with a version that has all features.
@@ -68,18 +63,13 @@ fn run(
 ) -> Result<(Vec<CaseOutcome>, bool), ToolError> {
     let internal = |error| ToolError::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
-    let faulty = Arc::new(Faulty::new(Cnc::new(model.map_err(internal)?), Some(seed)));
-    let cnc = Arc::clone(faulty.cnc());
-    let profile = cnc.model().profile();
+    let cnc = Cnc::new(model.map_err(internal)?).with_stopped_clock();
+    let faulty = Arc::new(Faulty::new(cnc, Some(seed)));
+    let profile = faulty.cnc().model().profile();
     let profile = Profile { printed_examples: seed.printed, ..profile };
-    let session = session::Session::simulated_to_try(Arc::clone(&faulty))?;
-    // The CNC runs until `_running` is dropped.
-    let (client, _running) = session.into_parts();
-    let client = match seed.kind {
-        SeedKind::Different => client,
-        SeedKind::Codec | SeedKind::Cnc => client.with_timeout(DEFECT_TIMEOUT),
-    };
-    let mut session = TargetState::new(client, profile).with_cnc(cnc);
+    let session = Session::in_process_to_try(Arc::<Faulty>::clone(&faulty))?;
+    let (client, _) = session.into_parts();
+    let mut session = TargetState::new(client, profile);
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);
     let cases = suite::cases().into_iter().filter(of_target).collect();
     let outcomes = suite::run(cases, Some(&mut session), None, 1);

@@ -99,7 +99,7 @@ fn what_changes_nothing_counts_neither_way() {
     let mut shown = Vec::new();
     print(&test, false, &mut shown).unwrap();
     let shown = String::from_utf8(shown).unwrap();
-    let line = "inside            2       1                  1\n";
+    let line = "simulated         2       1                  1\n";
     assert!(shown.contains(line), "{shown}");
     assert!(shown.contains("SURVIVED     cnc        an-id  [VAR-4]"), "{shown}");
 }

@@ -4,7 +4,7 @@ mod error;
 
 use std::fmt;
 use std::io::{self, Write as _};
-use std::net::SocketAddr;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
 use crate::report::lines;
-use crate::simulator::{NET_ID, Responder, Server};
+use crate::simulator::{LocalCnc, NET_ID, Responder, Server};
 
 pub use error::ToolError;
 
@@ -98,10 +98,19 @@ impl Session {
     /// # Errors
     /// If the gate allows malformed requests to another machine.
     pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, ToolError> {
-        let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
-        let client = Client::in_process(target, gate, cnc);
+        let target = Target::local(IN_PROCESS, NET_ID);
+        let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID));
         let client = client.map_err(|error| ToolError::unreachable(&target, &error))?;
         Ok(Self::over(client, None))
+    }
+
+    /// Connects to a CNC of this process without a socket, with a gate that allows every request except
+    /// those that are never sent. The clock of the CNC must be stopped.
+    ///
+    /// # Errors
+    /// None: the gate is for this address.
+    pub fn in_process_to_try(cnc: Arc<dyn Responder>) -> Result<Self, ToolError> {
+        Self::in_process(cnc, Gate::of_address(IN_PROCESS))
     }
 
     /// Starts a CNC in this process, whose gate allows every request except those that are never
@@ -365,6 +374,9 @@ impl fmt::Display for Shown<'_> {
         lines::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
     }
 }
+
+/// The address of a CNC without a socket.
+const IN_PROCESS: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
 
 /// How long to wait for a reply of the simulated CNC.
 const SIMULATED_TIMEOUT: Duration = Duration::from_secs(6);

@@ -169,8 +169,9 @@ impl Cnc {
         self.of_channel(channel, |channel| then(channel.script.as_mut()))
     }
 
-    /// The script with the policy of this CNC.
-    pub(crate) fn as_run(&self, script: Script) -> Script {
+    /// The script as this CNC runs it.
+    #[must_use]
+    pub fn as_run(&self, script: Script) -> Script {
         script.with_policy(self.policy())
     }
 

@@ -8,14 +8,38 @@ use std::time::Duration;
 use ads_cnc::ads::AmsNetId;
 
 use super::{Received, Responder};
-use crate::net::Peer;
+use crate::net::{LocalPeers, Peer};
+
+/// A CNC to be connected to without a socket.
+#[derive(Debug)]
+pub struct LocalCnc {
+    cnc: Arc<dyn Responder>,
+    net_id: AmsNetId,
+}
+
+impl LocalCnc {
+    /// A CNC with a stopped clock, at an address.
+    pub fn new(cnc: Arc<dyn Responder>, net_id: AmsNetId) -> Arc<Self> {
+        Arc::new(Self { cnc, net_id })
+    }
+}
+
+impl LocalPeers for LocalCnc {
+    fn connect(&self) -> Box<dyn Peer> {
+        Box::new(InProcess::new(Arc::clone(&self.cnc), self.net_id))
+    }
+
+    fn pass(&self, time: Duration) {
+        self.cnc.pass(time);
+    }
+}
 
 /// The CNC's end of a connection.
 ///
 /// Where a socket would wait for bytes, the CNC's clock is advanced by the timeout instead: a test
 /// with a missing reply takes no time, and the answers are repeatable.
 #[derive(Debug)]
-pub(crate) struct InProcess {
+struct InProcess {
     cnc: Arc<dyn Responder>,
     net_id: AmsNetId,
     received: Received,
@@ -25,7 +49,7 @@ pub(crate) struct InProcess {
 }
 
 impl InProcess {
-    pub(crate) fn new(cnc: Arc<dyn Responder>, net_id: AmsNetId) -> Self {
+    fn new(cnc: Arc<dyn Responder>, net_id: AmsNetId) -> Self {
         Self { cnc, net_id, received: Received::new(), answers: VecDeque::new(), closed: false }
     }
 }

@@ -11,7 +11,7 @@ use super::owner::Owner;
 
 /// The owner of a content: channels by their numbers, axes and places from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ContentOwner {
+pub enum ContentOwner {
     /// COM: the platform.
     Platform,
     /// COM: a channel.
@@ -32,41 +32,41 @@ pub(crate) enum ContentOwner {
 
 /// The current content of an object or an element.
 #[derive(Clone, Debug)]
-pub(crate) struct StoredContent {
-    pub(crate) holder: ContentOwner,
+pub struct StoredContent {
+    pub holder: ContentOwner,
     /// Its element number.
-    pub(crate) element: u32,
-    pub(crate) name: CncString,
-    pub(crate) type_name: &'static str,
-    pub(crate) unit: CncString,
-    pub(crate) writable: bool,
-    pub(crate) value: Vec<u8>,
+    pub element: u32,
+    pub name: CncString,
+    pub type_name: &'static str,
+    pub unit: CncString,
+    pub writable: bool,
+    pub value: Vec<u8>,
     owner: Owner,
     index: usize,
 }
 
 /// A variable of a channel by its name there, with its current value.
 #[derive(Clone, Debug)]
-pub(crate) struct CurrentVariable {
-    pub(crate) channel: u8,
-    pub(crate) name: CncString,
-    pub(crate) var_type: VariableType,
-    pub(crate) value: Vec<u8>,
+pub struct CurrentVariable {
+    pub channel: u8,
+    pub name: CncString,
+    pub var_type: VariableType,
+    pub value: Vec<u8>,
 }
 
 /// A dynamic parameter that exists at the moment.
 #[derive(Clone, Debug)]
-pub(crate) struct CurrentParameter {
-    pub(crate) channel: u8,
-    pub(crate) kind: DynamicKind,
-    pub(crate) name: CncString,
-    pub(crate) value: f64,
+pub struct CurrentParameter {
+    pub channel: u8,
+    pub kind: DynamicKind,
+    pub name: CncString,
+    pub value: f64,
 }
 
 impl Cnc {
     /// All contents that hold the value written last: without those derived from the configuration,
     /// and without places that have no axis.
-    pub(crate) fn stored_contents(&self) -> Vec<StoredContent> {
+    pub fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
             let elements = elements(self.model(), owner);
@@ -93,7 +93,7 @@ impl Cnc {
     }
 
     /// Sets the value, which must have the size of the old one.
-    pub(crate) fn set_content(&self, held: &StoredContent, value: &[u8]) {
+    pub fn set_content(&self, held: &StoredContent, value: &[u8]) {
         let mut state = self.state();
         let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
         if let Some(content) = content.filter(|content| content.len() == value.len()) {
@@ -102,7 +102,7 @@ impl Cnc {
     }
 
     /// All variables in lists, except those of the Service Interface.
-    pub(crate) fn current_variables(&self) -> Vec<CurrentVariable> {
+    pub fn current_variables(&self) -> Vec<CurrentVariable> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
         for (at, one) in model.channels.iter().enumerate() {
@@ -139,7 +139,7 @@ impl Cnc {
     }
 
     /// Writable variables of a channel without a handle.
-    pub(crate) fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
+    pub fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
         let channels = self.model().channels.iter().filter(|channel| channel.number == number);
         let all = channels.flat_map(|channel| channel.variables.list.iter());
         let own = all.filter(|one| one.handle.is_none() && one.is_writable());
@@ -147,7 +147,7 @@ impl Cnc {
     }
 
     /// All dynamic parameters that exist at the moment.
-    pub(crate) fn current_parameters(&self) -> Vec<CurrentParameter> {
+    pub fn current_parameters(&self) -> Vec<CurrentParameter> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
         for (at, one) in model.channels.iter().enumerate() {

@@ -42,12 +42,11 @@ mod state;
 pub use crate::gate::NET_ID;
 pub use answer::Cnc;
 pub use control::ControlError;
-pub(crate) use in_process::InProcess;
-pub(crate) use inspect::{ContentOwner, StoredContent};
-pub(crate) use model::ConfiguredVariable;
-pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
+pub use in_process::LocalCnc;
+pub use inspect::{ContentOwner, CurrentParameter, CurrentVariable, StoredContent};
+pub use model::{ConfiguredVariable, DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, ReplyData};
-pub(crate) use respond::{FRAME_MAX, INFO, respond};
+pub(crate) use respond::{FRAME_MAX, respond};
 pub use responder::Responder;
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 

@@ -130,7 +130,7 @@ fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
 const SERVICE_LEN: usize = 8;
 
 /// The device information of the simulated CNC: a name, and the version of this program.
-pub(crate) const INFO: DeviceInfoReply = DeviceInfoReply {
+const INFO: DeviceInfoReply = DeviceInfoReply {
     result: AdsError::NO_ERROR,
     major: number(env!("CARGO_PKG_VERSION_MAJOR")),
     minor: number(env!("CARGO_PKG_VERSION_MINOR")),

@@ -13,6 +13,7 @@ use std::time::Duration;
 use ads_cnc::ads::AmsNetId;
 
 use super::Responder;
+use crate::gate::Gate;
 use crate::net;
 
 pub use connection::Received;
@@ -45,6 +46,15 @@ struct ServerState {
     /// The open connections, to close them from outside.
     connections: Mutex<BTreeMap<u64, TcpStream>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
+}
+
+impl Gate {
+    /// Allows every request that the gate does not forbid altogether: only for the simulated CNC of
+    /// this server in this process, which moves nothing. A client accepts no
+    /// other address with it.
+    pub fn of_server(server: &Server) -> Self {
+        Self::of_address(server.addr())
+    }
 }
 
 impl Server {

@@ -26,8 +26,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "A channel answers the same by its number and by its rank"),
     case("adr-rank-among-active", &[ADR_11], Needs::Queries, rank_among_active,
         "By index, channels are counted without gaps"),
-    case("adr-rank-after-deactivation", &[ADR_11], Needs::Simulator, rank_after_deactivation,
-        "When a channel is deactivated, those behind it move up by index, and not logically"),
     case("adr-geo-answers-too", &[ADR_10], Needs::Malformed, geo_answers_too,
         "GEO and SDA both answer for a class of the CNC"),
     case("adr-absent-channel", &[ADS_4], Needs::Queries, absent_channel,
@@ -126,45 +124,6 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
         "a rank beyond the last channel",
         CountVariables::new(beyond, Kind::V_E),
         CountVariables::new(rank, Kind::V_E),
-    )
-}
-
-/// Deactivates each channel in turn and activates it again in any case.
-fn rank_after_deactivation(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    let all = probe.channels()?;
-    if all.len() < 2 {
-        return Err(Stop::not_applicable("there is but one channel"));
-    }
-    for &gone in &all {
-        let left: Vec<Channel> = all.iter().filter(|one| **one != gone).copied().collect();
-        cnc.set_active(gone.number(), false)?;
-        let judged = ranks_are(probe, &left);
-        cnc.set_active(gone.number(), true)?;
-        judged?;
-    }
-    ranks_are(probe, &all)
-}
-
-/// Checks that these are the active channels, in the order of their ranks.
-fn ranks_are(probe: &mut Probe<'_>, channels: &[Channel]) -> Step {
-    let mut last = None;
-    for (rank, &number) in (1..).zip(channels) {
-        let logical = probe.try_ask(CountVariables::new(number, Kind::V_E))?.is_some();
-        let expected = || format!("channel {} by its number", number.number());
-        probe.check(ADR_11, logical, expected, "an error");
-        let rank = Channel::by_index(rank)?;
-        same_by_rank(probe, &[ADR_11], rank, number)?;
-        last = Some(rank);
-    }
-    let Some(last) = last else { return Ok(()) };
-    let beyond = u32::from(last.number()).saturating_add(1);
-    let beyond = Channel::by_index(beyond)?;
-    probe.refuses(
-        ADR_11,
-        "a rank beyond the last channel",
-        CountVariables::new(beyond, Kind::V_E),
-        CountVariables::new(last, Kind::V_E),
     )
 }
 

@@ -2,12 +2,12 @@
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{
-    ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, Request,
+    ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit,
 };
 use ads_cnc::sda::{ElementLength, ElementText};
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
+use super::kit::{Probe, Steady, attribute_reads, element_by_rank};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 
@@ -17,8 +17,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "Type and length of an element are what their groups say"),
     case("adr-attributes-by-index", &[ADR_1, ADR_12], Needs::Queries, by_index,
         "By number and by rank of the channel, an element has the same attributes"),
-    case("adr-attributes-within", &[ADR_6], Needs::Simulator, within,
-        "Each group has the attribute that the CNC has within"),
 ];
 
 /// Whether a name is one of the manual's types.
@@ -78,40 +76,4 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
         }
     }
     steady.finish()
-}
-
-fn within(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    let addresses = Addresses::new(probe)?;
-    let all = cnc.stored_contents();
-    for held in &all {
-        let Some(element) = addresses.element(held)? else { continue };
-        let at = format!("{} ({:?})", held.name, held.holder);
-        let own: [(Request<'static>, String, &str); 3] = [
-            (ReadElementName::new(element).into(), held.name.to_string(), "name"),
-            (ReadElementType::new(element).into(), held.type_name.to_owned(), "type"),
-            (ReadElementUnit::new(element).into(), held.unit.to_string(), "unit"),
-        ];
-        for (request, text_of, what) in &own {
-            let text_read: Option<ElementText> = probe.try_read(*request)?;
-            let Some(text_read) = text_read.as_ref().map(text) else { continue };
-            // A missing attribute may have any value, except that of another attribute.
-            let others = own.iter().filter(|(_, _, other)| other != what);
-            let mut others = others.map(|(_, text, _)| text);
-            let of_others = *what == "name"
-                && all
-                    .iter()
-                    .any(|one| one.holder == held.holder && one.name.to_string() == text_read);
-            let taken = others.any(|other| *other == text_read) || of_others;
-            let passed = text_read == *text_of || text_read.is_empty() || !taken;
-            let found = || format!("{text_read:?} for {at}");
-            probe.check(ADR_6, passed, || format!("the {what} {text_of:?}"), found);
-        }
-        let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
-        let length = length.map(ElementLength::get).and_then(|length| usize::try_from(length).ok());
-        let expected = || format!("a length of {}", held.value.len());
-        let found = || format!("{length:?} for {at}");
-        probe.check(ADR_6, length == Some(held.value.len()), expected, found);
-    }
-    probe.finish("the CNC has no element")
 }

@@ -3,10 +3,8 @@
 use std::collections::HashSet;
 
 use ads_cnc::address::{Channel, ChannelAxis, IndexOffset};
-use ads_cnc::operation::{
-    AxisHandleByName, AxisReadByName, HandleByName, ReadByHandle, ReadByName, Request,
-};
-use ads_cnc::{CncString, Description, Handle, TextRef, U32List};
+use ads_cnc::operation::{AxisHandleByName, AxisReadByName, ReadByName, Request};
+use ads_cnc::{CncString, Description, Handle, TextRef};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
@@ -15,7 +13,7 @@ use super::kit::{
     name_of,
 };
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
+use crate::judge::{Checks as _, Needs, Step, Stop};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -25,8 +23,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "The axis index takes 16 bits, and no place is another's"),
     case("axis-reserved", &[VAR_26], Needs::Malformed, reserved,
         "The reserved offsets of the axis interface are no functions"),
-    case("axis-variables-exchanged", &[VAR_10, VAR_26], Needs::Simulator, exchanged,
-        "Name and handle of a place mean whichever axis is there"),
 ];
 
 fn places(probe: &mut Probe<'_>) -> Step {
@@ -128,92 +124,4 @@ fn reserved(probe: &mut Probe<'_>) -> Step {
         probe.refuses(VAR_26, &what, &bad, &good)?;
     }
     Ok(())
-}
-
-/// A variable of an axis, read in every way.
-#[derive(PartialEq, Eq)]
-struct AxisReadings {
-    by_place: Vec<u8>,
-    by_handle: Vec<u8>,
-}
-
-fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<AxisReadings> {
-    let channel = Channel::new(1)?;
-    let axis = ChannelAxis::new(place)?;
-    let by_place = AxisReadByName::new(channel, axis, NAME)?;
-    let by_handle = ReadByHandle::new(channel, handle, U32List::EMPTY);
-    Ok(AxisReadings {
-        by_place: probe.try_ask(by_place)?.unwrap_or_default(),
-        by_handle: probe.try_ask(by_handle)?.unwrap_or_default(),
-    })
-}
-
-const NAME: &str = "V.A.WCS";
-
-/// In the default model the second place of channel 1 has the axis 2, Y, the third the axis 3, Z.
-fn exchanged(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    let channel = Channel::new(1)?;
-    let mut handles = Vec::new();
-    for place in [2, 3] {
-        let axis = ChannelAxis::new(place)?;
-        let request = AxisHandleByName::new(channel, axis, NAME)?;
-        let handle = probe.try_read::<Handle>(request)?;
-        handles.extend(handle);
-    }
-    let &[second, third] = handles.as_slice() else {
-        return Err(Stop::not_applicable("channel 1 has no third axis"));
-    };
-    let (of_y, of_z) = (seen(probe, 2, second)?, seen(probe, 3, third)?);
-    if cnc.exchange_axis(1, 2, 3).is_err() {
-        return Err(Stop::not_applicable("channel 1 has no axis 3 to be exchanged"));
-    }
-    let one_moved = seen(probe, 2, second);
-    let left = seen(probe, 3, third);
-    let named = of_axis_z(probe, channel);
-    let swapped = cnc.exchange_axis(1, 3, 2);
-    let both = (seen(probe, 2, second), seen(probe, 3, third));
-    // In an order without conflicts.
-    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
-    swapped?;
-    same(probe, &one_moved?, &of_z, "axis 3 at place 2");
-    same(probe, &both.0?, &of_z, "axis 3 at place 2, and axis 2 at place 3");
-    same(probe, &both.1?, &of_y, "axis 2 at place 3, and axis 3 at place 2");
-    // The reply for a place without an axis is assumed; that no axis is at two places is stated.
-    let (left, found) = (left?.by_place, Hex(of_z.by_place.clone()));
-    let gone = left != of_z.by_place;
-    probe.check(VAR_26, gone, "axis 3 no more at place 3", || format!("{found} there still"));
-    let (handle, value) = named?;
-    // That both interfaces have the same handles is assumed.
-    let expected = || format!("{second:?} of place 2 for {NAME}.Z");
-    probe.check(assumed(VAR_10), handle == Some(second), expected, || format!("{handle:?}"));
-    let expected = || format!("{found} of {NAME}.Z");
-    for (rule, value) in [(VAR_26, value.by_place), (VAR_10, value.by_handle)] {
-        probe.check(rule, value == of_z.by_place, expected, || Hex(value));
-    }
-    let back = seen(probe, 3, third)? == of_z && seen(probe, 2, second)? == of_y;
-    probe.require(VAR_26, back, "all axes where they were", "others")
-}
-
-/// By its name on the channel interface, and by its handle there.
-fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, AxisReadings)> {
-    let name = format!("{NAME}.Z");
-    let handle = probe.try_read::<Handle>(HandleByName::new(channel, &name)?)?;
-    let by_name = probe.try_ask(ReadByName::new(channel, &name)?)?;
-    let by_handle = match handle {
-        Some(handle) => probe.try_ask(ReadByHandle::new(channel, handle, U32List::EMPTY))?,
-        None => None,
-    };
-    let (by_place, by_handle) = (by_name.unwrap_or_default(), by_handle.unwrap_or_default());
-    Ok((handle, AxisReadings { by_place, by_handle }))
-}
-
-fn same(probe: &mut Probe<'_>, found: &AxisReadings, expected: &AxisReadings, what: &str) {
-    for (rule, found, expected) in [
-        (VAR_26, &found.by_place, &expected.by_place),
-        (VAR_10, &found.by_handle, &expected.by_handle),
-    ] {
-        let shown = || format!("{} of {what}", Hex(expected.clone()));
-        probe.check(rule, found == expected, shown, || Hex(found.clone()));
-    }
 }

@@ -5,11 +5,10 @@ use std::fmt::Display;
 use ads_cnc::Handle;
 use ads_cnc::address::{Class, Group, IndexGroup};
 use ads_cnc::dynamic::DynamicKind;
-use ads_cnc::operation::{DynamicValueByIndex, DynamicValueByName, HandleByName, ReadByName};
-use ads_cnc_vectors::Hex;
+use ads_cnc::operation::HandleByName;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Counted, Probe, is_permutation, name_of};
+use super::kit::{Counted, Probe, name_of};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Step};
 
@@ -19,8 +18,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "Counts and handles come with their lowest byte first"),
     case("gen-field-order", &[GEN_1], Needs::Queries, field_order,
         "Numbers in descriptors, descriptions and addresses come with their lowest byte first"),
-    case("gen-value-order", &[GEN_1], Needs::Simulator, value_order,
-        "Values of variables and parameters come with their lowest byte first"),
 ];
 
 /// All claimed lists that have a number.
@@ -119,58 +116,4 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
         }
     }
     Ok(())
-}
-
-/// Bytes that differ otherwise are judged by other cases.
-fn order(probe: &mut Probe<'_>, what: &str, size: usize, held: &[u8], read: Option<Vec<u8>>) {
-    let Some(read) = read.filter(|read| read.len() == held.len()) else { return };
-    let mut pairs = held.chunks(size).zip(read.chunks(size));
-    let permuted = pairs.any(|(one, other)| is_permutation(one, other));
-    if held == read || permuted {
-        let expected = || format!("{} of {what}", Hex(held.to_vec()));
-        probe.check(GEN_1, !permuted, expected, || Hex(read));
-    }
-}
-
-fn value_order(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    let claimed = probe.channels()?;
-    let of = |number: u8| claimed.iter().find(|channel| channel.number() == number).copied();
-    for variable in cnc.current_variables() {
-        let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
-        let (Some(channel), Some(size)) = (of(variable.channel), size) else { continue };
-        let what = variable.name.to_string();
-        let request = ReadByName { channel, name: variable.name.as_cnc_str().into() };
-        if size > 1 && request.name.text().len() < ads_cnc::limits::TEXT_MAX {
-            let read = probe.try_ask(request)?;
-            order(probe, &what, size, &variable.value, read);
-        }
-    }
-    let mut index = std::collections::HashMap::new();
-    for parameter in cnc.current_parameters() {
-        let Some(channel) = of(parameter.channel) else { continue };
-        let (kind, name) = (parameter.kind, parameter.name.as_cnc_str().into());
-        let index: &mut u32 = index.entry((parameter.channel, kind)).or_default();
-        *index = index.saturating_add(1);
-        let what = parameter.name.to_string();
-        let held = parameter.value.to_le_bytes();
-        let read = probe.try_ask(DynamicValueByName { channel, kind, name })?;
-        order(probe, &what, held.len(), &held, read);
-        let by_index = DynamicValueByIndex::new(channel, kind, *index)?;
-        let read = probe.try_ask(by_index)?;
-        order(probe, &what, held.len(), &held, read);
-    }
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn another_order_is_told_from_other_bytes() {
-        assert!(is_permutation(&[1, 2, 3, 4], &[3, 4, 1, 2]));
-        assert!(!is_permutation(&[1, 2], &[1, 2]));
-        assert!(!is_permutation(&[1, 2], &[1, 3]));
-    }
 }

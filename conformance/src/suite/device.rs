@@ -8,7 +8,6 @@ use super::kit::Probe;
 use super::row::{CaseRow, case};
 use crate::client::{Inquired, Inquiry, InquiryReply};
 use crate::judge::{Checks as _, Evidence, Needs, Step};
-use crate::simulator;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -17,8 +16,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "Each task says the name and version of its device"),
     case("ads-device-state", &[ADS_9], Needs::Queries, device_state,
         "Each task says the state it is in"),
-    case("ads-device-as-it-is", &[ADS_8, ADS_9], Needs::Simulator, as_it_is,
-        "The simulated CNC reports its own name, version and state"),
 ];
 
 impl Probe<'_> {
@@ -45,26 +42,6 @@ fn device_state(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, state: DeviceStateReply| {
         let valid = state.ads_state != AdsState(0);
         probe.check(DeviceStateReply::CLAUSE, valid, "an ADS state", "0");
-        Ok(())
-    })
-}
-
-/// Only the simulated CNC's information is known.
-fn as_it_is(probe: &mut Probe<'_>) -> Step {
-    probe.cnc()?;
-    each(probe, |probe, info: DeviceInfoReply| {
-        let own = info == simulator::INFO;
-        probe.check(
-            DeviceInfoReply::CLAUSE,
-            own,
-            || format!("{:?}", simulator::INFO),
-            || format!("{info:?}"),
-        );
-        Ok(())
-    })?;
-    each(probe, |probe, state: DeviceStateReply| {
-        let own = (state.ads_state, state.device_state) == (AdsState::RUN, 0);
-        probe.check(DeviceStateReply::CLAUSE, own, "RUN, and 0", || format!("{state:?}"));
         Ok(())
     })
 }

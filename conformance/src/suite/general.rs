@@ -1,18 +1,18 @@
 //! Cases of rules for all streams: tasks and ports, start of numbering, sizes of types, code page
 //! of texts.
 
-use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
+use ads_cnc::address::{ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{
     AxisHandleByName, CountObjects, CountVariables, FindInstance, HandleByName, ReadByHandle,
-    ReadElementName, ReadElementUnit, Request,
+    Request,
 };
-use ads_cnc::sda::{ElementText, ObjectAddress};
-use ads_cnc::{CncString, Description, Kind, U32List, VariableType};
+use ads_cnc::sda::ObjectAddress;
+use ads_cnc::{Description, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
+use super::kit::{Probe, RawCall, name_of, name_on_axes};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed, online};
 
@@ -30,8 +30,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "No channel has the number 0, and none the rank 0; no place of a channel is place 0"),
     case("gen-names-found", &[GEN_3], Needs::Queries, names_found,
         "A name is found by the characters it is described with, those beyond ASCII too"),
-    case("gen-names-within", &[GEN_3], Needs::Simulator, names_within,
-        "Names and units are CP1252, as the CNC has them within"),
 ];
 
 /// A claimed port must exist; other cases judge the replies of its task.
@@ -183,62 +181,6 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
     probe.finish("no name has a character beyond ASCII")
 }
 
-/// Whether the texts differ only in characters beyond ASCII. Other differences are judged by other
-/// cases.
-fn is_miswritten(held: &[u8], read: &[u8]) -> bool {
-    let plain = |text: &[u8]| -> Vec<u8> {
-        text.iter().copied().filter(u8::is_ascii_alphanumeric).collect()
-    };
-    let mut places = held.iter().zip(read);
-    let in_place =
-        held.len() == read.len() && places.all(|(held, read)| held == read || !held.is_ascii());
-    held != read && !read.is_empty() && (in_place || plain(held) == plain(read))
-}
-
-/// Judges a text with such a character against the names it may have.
-fn text<'r>(probe: &mut Probe<'_>, held: &CncString, read: impl Iterator<Item = &'r [u8]>) {
-    let bytes = held.as_bytes();
-    if !is_telling(bytes) {
-        return;
-    }
-    let read: Vec<&[u8]> = read.collect();
-    let wrong = read.iter().find(|read| is_miswritten(bytes, read));
-    let passed = read.contains(&bytes);
-    if passed || wrong.is_some() {
-        let expected = || format!("{held}: {}", Hex(bytes.to_vec()));
-        let found = || Hex(wrong.copied().unwrap_or_default().to_vec());
-        probe.check(GEN_3, passed, expected, found);
-    }
-}
-
-fn names_within(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    let claimed: Vec<u8> = probe.channels()?.iter().map(|channel| channel.number()).collect();
-    let addresses = Addresses::new(probe)?;
-    let objects = addresses.objects();
-    for held in cnc.stored_contents() {
-        let Some(element) = addresses.element(&held)? else {
-            text(probe, &held.name, objects.iter().map(|object| object.name.as_bytes()));
-            continue;
-        };
-        let of_name: Request<'_> = ReadElementName::new(element).into();
-        let of_unit = ReadElementUnit::new(element).into();
-        for (held, request) in [(&held.name, of_name), (&held.unit, of_unit)] {
-            let read = probe.try_read::<ElementText>(request)?;
-            text(probe, held, read.iter().map(|read| read.text.text.as_bytes()));
-        }
-    }
-    for variable in cnc.current_variables() {
-        if !is_telling(variable.name.as_bytes()) || !claimed.contains(&variable.channel) {
-            continue;
-        }
-        let channel = Channel::new(variable.channel.into())?;
-        let Some(described) = probe.variables(channel).if_known()? else { continue };
-        text(probe, &variable.name, described.iter().map(|one| one.name.text.as_bytes()));
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -247,13 +189,6 @@ mod tests {
     fn characters_of_several_bytes_are_seen() {
         assert!(is_utf_8("Länge".as_bytes()));
         assert!(!is_utf_8(b"L\xE4nge") && !is_utf_8(b"Lange") && !is_utf_8(b"\xB0C"));
-        let held = b"L\xE4nge";
-        for read in ["Länge".as_bytes(), b"L?nge", b"Ldnge", b"Lnge"] {
-            assert!(is_miswritten(held, read), "{read:?}");
-        }
-        for read in [&held[..], b"", b"Breite", b"Laenge"] {
-            assert!(!is_miswritten(held, read), "{read:?}");
-        }
         assert!(is_telling(b"L?nge") && is_telling(b"L\xE4nge") && !is_telling(b"Lange"));
     }
 }

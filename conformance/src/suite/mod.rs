@@ -5,11 +5,9 @@ mod ads_services;
 mod arrays;
 mod attributes;
 mod axis;
-mod axis_exchange;
 mod axis_place;
 mod byte_order;
 mod com;
-mod configured;
 mod content;
 mod describe_by_name;
 mod device;
@@ -24,12 +22,10 @@ mod needs;
 mod no_padding;
 mod platform;
 mod printed;
-pub mod replay;
 mod row;
 mod run;
 mod sda;
 mod service_interface;
-mod simulator_state;
 mod stream;
 mod texts;
 mod values;
@@ -65,7 +61,6 @@ const TABLES: &[&[CaseRow]] = &[
     com::CASES,
     content::CASES,
     platform::CASES,
-    simulator_state::CASES,
     sda::CASES,
     elements::CASES,
     dynamic::CASES,
@@ -76,10 +71,8 @@ const TABLES: &[&[CaseRow]] = &[
     names::CASES,
     values::CASES,
     arrays::CASES,
-    configured::CASES,
     axis::CASES,
     axis_place::CASES,
-    axis_exchange::CASES,
     write::CASES,
     write_elements::CASES,
     write_refused::CASES,
@@ -111,7 +104,6 @@ pub fn cases() -> Vec<Case> {
         needs: row.needs,
         body: Body::Probe,
     }));
-    cases.extend(replay::cases());
     cases.extend(printed::cases());
     cases
 }

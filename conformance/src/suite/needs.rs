@@ -5,14 +5,8 @@ use crate::judge::{Needs, Verdict};
 use crate::profile::Profile;
 
 impl Needs {
-    /// The verdict and the reason if a case with this need is not run. `inside`: the CNC is in this
-    /// process and can be changed directly.
-    pub fn unmet(
-        self,
-        gate: &Gate,
-        profile: &Profile,
-        inside: bool,
-    ) -> Option<(Verdict, &'static str)> {
+    /// The verdict and the reason if a case with this need is not run.
+    pub fn unmet(self, gate: &Gate, profile: &Profile) -> Option<(Verdict, &'static str)> {
         let not_run = |why| Some((Verdict::NotRun, why));
         match self {
             Self::Malformed if !gate.lets_malformed_pass() => {
@@ -24,9 +18,6 @@ impl Needs {
             Self::MalformedWrites if gate.simulated().is_none() => {
                 not_run("writes what no client should: to the simulated CNC only")
             }
-            Self::Simulator if !inside => not_run(
-                "takes something that is done to a CNC from within: to the simulated CNC only",
-            ),
             Self::PrintedExamples if !profile.printed_examples => Some((
                 Verdict::NotApplicable,
                 "the target does not claim to answer the printed examples",

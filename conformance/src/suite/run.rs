@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 use super::kit::{Probe, TargetState};
 
 use super::row::Try;
-use super::{printed, replay, rows};
+use super::{printed, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, attribute, caught};
@@ -68,8 +68,7 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
     if let Some(deadline) = late.filter(Deadline::is_over) {
         return CaseOutcome::untried(case, Verdict::Inconclusive, deadline.to_string());
     }
-    let (gate, inside) = (target.client.gate(), target.cnc.is_some());
-    if let Some((verdict, why)) = case.needs.unmet(gate, &target.profile, inside) {
+    if let Some((verdict, why)) = case.needs.unmet(target.client.gate(), &target.profile) {
         return CaseOutcome::untried(case, verdict, why);
     }
     let writes = matches!(case.needs, Needs::Writes | Needs::MalformedWrites);
@@ -83,10 +82,10 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
         (Body::Probe, Some(run)) => run(&mut probe),
         (Body::Probe, None) => Err(Stop::Harness(format!("no function tries {}", case.id))),
         (Body::Printed(vector), _) => printed::ask(&mut probe, vector),
-        (Body::Sequence(sequence), _) => replay::run(&mut probe, sequence),
-        (Body::Vector(_) | Body::Protocol | Body::Client | Body::Traffic, _) => {
-            Err(Stop::Harness("this case needs no target".to_owned()))
-        }
+        (
+            Body::Vector(_) | Body::Sequence(_) | Body::Protocol | Body::Client | Body::Traffic,
+            _,
+        ) => Err(Stop::Harness("this case needs no target".to_owned())),
     });
     let step = match begun {
         Ok(Ok(())) if probe.interrupted => Err(Stop::Interrupted),

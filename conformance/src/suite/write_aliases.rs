@@ -16,8 +16,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "What an object takes by its channel's number it takes by its rank, and has it then"),
     case("write-platform-axes-of-hld", &[SDA_13], Needs::Writes, axes_of_hld,
         "A platform axis of the first channel's HLD is the one without a channel"),
-    case("written-by-name-only", &[VAR_18], Needs::Simulator, by_name_only,
-        "V.CYC that can be written within is written by its name"),
 ];
 
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
@@ -85,18 +83,4 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         })?;
     }
     probe.finish("no axis of the HLD may be written")
-}
-
-/// The interface reads and writes them; the simulated CNC knows which are writable.
-fn by_name_only(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    for channel in probe.channels()? {
-        for name in cnc.written_by_name_only(channel.number()) {
-            let (what, rules) = (name.to_string(), [Rule::from(VAR_18)]);
-            let address = ValueAddress::Name { channel, name };
-            let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&write_check, &address, |_, _, _| Ok(()))?;
-        }
-    }
-    probe.finish("there is no V.CYC that may be written")
 }

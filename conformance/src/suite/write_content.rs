@@ -110,14 +110,10 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
     let number = at.saturating_sub(start);
-    let beside = match probe.target.cnc {
-        Some(_) => SDA_9.into(),
-        None => assumed(SDA_9),
-    };
     let mut others = Vec::new();
     for element in one.instance.elements().filter(|element| *element != one.element) {
         let what = format!("element {} of {}", element.index_offset(), one.instance);
-        others.push((beside, what, element));
+        others.push((assumed(SDA_9), what, element));
     }
     for other in probe.instances()? {
         // The HLD of each channel has the same axes.

@@ -8,10 +8,10 @@ use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceInterfac
 use ads_cnc_conformance::simulator::program::{
     Repeat, Script, ScriptConfig, ScriptState, ServiceOutcome, ServiceRequest, Wait,
 };
-use ads_cnc_conformance::suite::replay::square_root;
 use proptest::prelude::*;
 
 use crate::kept;
+use crate::square_root::square_root;
 
 const ZERO: Duration = Duration::ZERO;
 const SET: [u8; 4] = [1, 0, 0, 0];

@@ -1,7 +1,6 @@
 //! The suite against a device, or against the simulated CNC.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use ads_cnc::operation::Task;
 
@@ -70,13 +69,12 @@ impl Run {
         let settings = Settings { edition: Some(profile.edition), version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let faulty = Faulty::new(Cnc::new(model.map_err(internal)?), defect.as_ref());
-        let cnc = Arc::clone(faulty.cnc());
         let session = session::Session::simulated_to_try(faulty)?;
         let mut session = self.target.recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs until `_running` is dropped.
         let (client, _running) = session.into_parts();
-        let session = TargetState::new(client, profile).with_cnc(cnc);
+        let session = TargetState::new(client, profile);
         let target = TargetReport {
             name: match &defect {
                 None => "simulated CNC".to_owned(),

@@ -7,24 +7,21 @@ use super::variable::Variable;
 
 /// A variable of a channel in its initial state.
 #[derive(Clone, Debug)]
-pub(crate) struct ConfiguredVariable {
-    pub(crate) name: CncString,
-    pub(crate) var_type: VariableType,
-    pub(crate) access: VariableAccess,
+pub struct ConfiguredVariable {
+    pub name: CncString,
+    pub var_type: VariableType,
+    pub access: VariableAccess,
     /// Size of the whole value in bytes.
-    pub(crate) size: usize,
-    pub(crate) dimensions: Vec<u32>,
+    pub size: usize,
+    pub dimensions: Vec<u32>,
     /// V.E only.
-    pub(crate) extended: Option<ExtendedDescription>,
-    pub(crate) value: Vec<u8>,
+    pub extended: Option<ExtendedDescription>,
+    pub value: Vec<u8>,
 }
 
 impl Model {
     /// V.E and V.G of the channel with this logical number, in the order of their indices.
-    pub(crate) fn configured(
-        &self,
-        channel: u32,
-    ) -> (Vec<ConfiguredVariable>, Vec<ConfiguredVariable>) {
+    pub fn configured(&self, channel: u32) -> (Vec<ConfiguredVariable>, Vec<ConfiguredVariable>) {
         let found =
             self.channels.iter().enumerate().find(|(_, one)| u32::from(one.number) == channel);
         let Some((place, channel)) = found else { return (Vec::new(), Vec::new()) };

@@ -19,7 +19,7 @@ use std::path::Path;
 
 use ads_cnc::address::Class;
 
-pub(crate) use configured::ConfiguredVariable;
+pub use configured::ConfiguredVariable;
 pub(super) use data::{AxisModel, ChannelModel, class_place};
 pub use data::{Model, Settings};
 pub use error::ModelError;

@@ -2,7 +2,6 @@
 //! services.
 
 mod lengths;
-mod numbers;
 mod write;
 
 use ads_cnc::address::{Channel, Class};
@@ -35,8 +34,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "A reply has no more bytes than are asked for, and no more than there are"),
     case("ads-in-pieces", &[ADS_5], Needs::Queries, lengths::in_pieces,
         "A request is answered the same in whatever pieces it comes"),
-    case("ads-numbers-of-errors", &[ADS_4, ADS_5], Needs::Simulator, numbers::of_errors,
-        "The simulated CNC sends its errors with the numbers that it gives them"),
     case("ads-write", &[ADS_2], Needs::Writes, write::arrives,
         "What a Write is acknowledged for is there by another service, and nothing else is"),
 ];

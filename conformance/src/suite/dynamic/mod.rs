@@ -1,6 +1,5 @@
 //! Cases of dynamic parameters.
 
-mod change;
 mod list;
 mod malformed;
 mod parameters;
@@ -27,9 +26,6 @@ pub(super) const CASES: &[CaseRow] = &[
         "A parameter is found among those of its own kind only"),
     case("dyn-by-index-of-channel", &[ADR_1, ADR_12], Needs::Queries, value::by_rank,
         "A channel's parameters are the same by its number and by its rank"),
-    case("dyn-come-and-go", &[DYN_1, DYN_2, DYN_3, DYN_4, DYN_5, DYN_6],
-        Needs::Simulator, change::come_and_go,
-        "Parameters that are made and deleted change numbers and indices, and no name"),
     case("dyn-bad-requests", &[ADS_1, DYN_2, DYN_3, DYN_4, DYN_5, DYN_6],
         Needs::Malformed, malformed::bad_requests,
         "Index 0 and requests of another length are answered by an error"),

@@ -1,6 +1,5 @@
 //! The tools of the cases: requests, checks, lists, and writes that are restored.
 
-mod addresses;
 mod axis_interface;
 mod changes;
 mod counted;
@@ -21,7 +20,6 @@ mod try_write;
 mod undo;
 mod writable;
 
-pub(crate) use addresses::{Addresses, JudgedAddress, is_permutation};
 pub(crate) use axis_interface::{
     AxisHandle, PLACES_MAX, answering_places, axis_address, axis_names, axis_variables,
     name_on_axes,
@@ -46,7 +44,7 @@ pub(crate) use probe::{ask_if_claimed, with_reply};
 pub(crate) use raw_call::{IntoRawCall, RawCall};
 pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
-pub(crate) use stream_write::{STREAM_BUFFER_LEN, StreamWrite, send, send_until_taken};
+pub(crate) use stream_write::{StreamWrite, send};
 pub use target_state::TargetState;
 pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};
 pub(crate) use writable::{

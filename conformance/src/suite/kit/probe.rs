@@ -11,7 +11,6 @@ mod handle;
 mod refused;
 
 use std::fmt::Display;
-use std::sync::Arc;
 
 use ads_cnc::Decode;
 use ads_cnc::address::Channel;
@@ -27,7 +26,6 @@ use crate::judge::{
 };
 use crate::process::interrupt;
 use crate::profile::Claim;
-use crate::simulator::Cnc;
 use crate::suite::kit::{RawCall, TargetState};
 
 /// Consecutive requests without a reply after which no more are sent.
@@ -124,11 +122,6 @@ impl<'s> Probe<'s> {
     /// it on. Every check shows that the target has something.
     pub(crate) fn finish(&self, why: &str) -> Step {
         applicable(self.has_subject || self.record.checks > 0, why)
-    }
-
-    /// The simulated CNC, to change it directly.
-    pub(crate) fn cnc(&self) -> Step<Arc<Cnc>> {
-        self.target.cnc.clone().or_not_applicable("the CNC is not in this process")
     }
 
     /// Whether the target claims a function.

@@ -1,7 +1,6 @@
 //! The result of a write to a program stream.
 
 use std::fmt;
-use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
@@ -10,9 +9,6 @@ use ads_cnc::streaming::Ack;
 
 use crate::judge::{Describe, Step};
 use crate::suite::kit::{Probe, RawCall, with_reply};
-
-/// Maximum number of bytes in the buffer of a program stream.
-pub(crate) const STREAM_BUFFER_LEN: usize = 4094;
 
 /// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented: their
 /// meaning is assumed.
@@ -54,27 +50,6 @@ impl fmt::Display for StreamWrite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.shown)
     }
-}
-
-/// How often a rejected write is repeated that must be accepted in the end.
-const TRIES: usize = 8;
-
-/// Like [`send`], repeated while the write is rejected: the manuals do not state when a CNC cannot
-/// accept data, so a free buffer need not be enough. A write without a reply is not repeated.
-pub(crate) fn send_until_taken(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    data: &[u8],
-) -> Step<StreamWrite> {
-    let mut sent = send(probe, channel, data)?;
-    for _ in 1..TRIES {
-        if !sent.is_refused() {
-            break;
-        }
-        probe.target.client.wait(Duration::from_millis(1));
-        sent = send(probe, channel, data)?;
-    }
-    Ok(sent)
 }
 
 /// Sends bytes to the stream, valid or not.

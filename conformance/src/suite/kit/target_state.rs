@@ -1,7 +1,6 @@
 //! The state of a target during a run, which all cases share.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use ads_cnc::Description;
 use ads_cnc::operation::Service;
@@ -11,7 +10,6 @@ use crate::deadline::Deadline;
 use crate::judge::Record;
 use crate::objects::Object;
 use crate::profile::Profile;
-use crate::simulator::Cnc;
 use crate::suite::kit::{Changes, Instance};
 
 /// A connection to a target, and the state that the cases of a run have found so far.
@@ -27,8 +25,6 @@ pub struct TargetState {
     pub(in crate::suite) objects: Option<Vec<Object>>,
     /// Its instances, read when a case first needs them.
     pub(in crate::suite) instances: Option<Vec<Instance>>,
-    /// The simulated CNC, if it is in this process.
-    pub(in crate::suite) cnc: Option<Arc<Cnc>>,
     /// Requests sent.
     pub frames: usize,
     /// Services that were answered.
@@ -65,7 +61,6 @@ impl TargetState {
             variables: BTreeMap::new(),
             objects: None,
             instances: None,
-            cnc: None,
             frames: 0,
             answered: Vec::new(),
             silences: 0,
@@ -92,12 +87,5 @@ impl TargetState {
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
-    }
-
-    /// Sets the simulated CNC of this process: some cases change it directly, as a machine or an NC
-    /// program does.
-    #[must_use]
-    pub fn with_cnc(self, cnc: Arc<Cnc>) -> Self {
-        Self { cnc: Some(cnc), ..self }
     }
 }

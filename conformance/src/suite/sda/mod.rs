@@ -31,6 +31,4 @@ pub(super) const CASES: &[CaseRow] = &[
         "The HLD of the first channel has the axes of the whole platform"),
     case("sda-empty-place", &[SDA_11], Needs::Queries, empty_places::empty_place,
         "A place without an axis reads as blank"),
-    case("sda-axis-number", &[SDA_11], Needs::Simulator, empty_places::axis_number,
-        "The logical axis number of a place is that of its axis, and 0 without one"),
 ];

@@ -1,11 +1,15 @@
-//! The Service Interface of a channel, read and written over ADS and used from within.
+//! The Service Interface of a channel, read, written and restored.
 
+use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByName, WriteByName};
 use ads_cnc::service::ServiceVariable;
+use ads_cnc_vectors::ids::*;
 
-use crate::judge::{Step, Stop};
-use crate::suite::kit::{Probe, service_channels, with_reply};
+use crate::judge::{Checks as _, Step, Stop};
+use crate::objects::ValueAddress;
+use crate::suite::kit::{Probe, WriteCheck, service_channels, with_reply};
+use crate::values::until_nul;
 
 pub(super) fn read_variable(
     probe: &mut Probe<'_>,
@@ -36,33 +40,76 @@ pub(super) const NONE: [u8; 4] = [0; 4];
 /// All bytes differ.
 pub(super) const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
-/// Uses the first interface from both sides, and restores its initial state.
-pub(super) fn within(
+/// The texts that a request and its response have.
+const TEXTS: [ServiceVariable; 2] = [ServiceVariable::Request, ServiceVariable::Response];
+
+/// Calls a function in each channel in which all these variables may be written, and restores them,
+/// the last one first.
+pub(super) fn in_each_channel(
     probe: &mut Probe<'_>,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
+    variables: &[ServiceVariable],
+    mut then: impl FnMut(&mut Probe<'_>, Channel) -> Step,
 ) -> Step {
-    let lacks = || Stop::not_applicable("no channel has the Service Interface");
-    let channel = service_channels(probe)?.into_iter().next().ok_or_else(lacks)?;
-    within_at(probe, channel, then)
+    for channel in service_channels(probe)? {
+        let mut may = true;
+        for variable in variables {
+            may &= probe.may(WriteByName::new(channel, variable.name(), &b"\0"[..])?)?;
+        }
+        if !may {
+            continue;
+        }
+        if read_variable(probe, channel, ServiceVariable::RequestState)? != NONE {
+            return Err(Stop::inconclusive("a program is asking a service: it is left alone"));
+        }
+        restoring(probe, channel, variables, &mut |probe| then(probe, channel))?;
+    }
+    probe.finish("no variable of the Service Interface may be written")
 }
 
-/// Like [`within`], for any channel.
-pub(super) fn within_at(
+/// Like [`in_each_channel`], for each text alone.
+pub(super) fn for_each_text(
+    probe: &mut Probe<'_>,
+    mut then: impl FnMut(&mut Probe<'_>, Channel, ServiceVariable) -> Step,
+) -> Step {
+    for variable in TEXTS {
+        match in_each_channel(probe, &[variable], |probe, channel| then(probe, channel, variable)) {
+            Err(Stop::NotApplicable(_)) => {}
+            done => done?,
+        }
+    }
+    probe.finish("no text of the Service Interface may be written")
+}
+
+fn restoring(
     probe: &mut Probe<'_>,
     channel: Channel,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
+    variables: &[ServiceVariable],
+    then: &mut dyn FnMut(&mut Probe<'_>) -> Step,
 ) -> Step {
-    let cnc = probe.cnc()?;
-    let number = channel.number();
-    // The model's own script is stopped meanwhile.
-    let script = cnc.with_script(number, |script| script.cloned())?;
-    let empty = || -> Step {
-        cnc.set_script(number, None)?;
-        Ok(cnc.with_service(number, |service| service.reset())?)
-    };
-    empty()?;
-    let done = then(probe, channel, &cnc);
-    empty()?;
-    cnc.set_script(number, script)?;
-    done
+    let Some((&variable, others)) = variables.split_first() else { return then(probe) };
+    let mut was = read_variable(probe, channel, variable)?;
+    if was.is_empty() {
+        let name = variable.name();
+        return Err(Stop::Inconclusive(format!("{name} could not be read to be restored")));
+    }
+    let address = ValueAddress::Name { channel, name: variable.name().parse()? };
+    let is_text = variable.var_type() == VariableType::STRING;
+    if is_text {
+        // Without its padding: a device may reject more bytes than the text has.
+        was = [until_nul(&was), b"\0"].concat();
+    }
+    let write_check = WriteCheck { what: variable.name(), rules: &[], is_text, name: None };
+    probe.changing(
+        &write_check,
+        &address,
+        &was,
+        |probe| restoring(probe, channel, others, then),
+        |probe| {
+            write_variable(probe, channel, variable, &was)?;
+            let same = probe.is_as_before(&address, &was, is_text)?;
+            let found = || format!("another value of {}", variable.name());
+            probe.check(SVC_1, same, "the value before, written back", found);
+            Ok(same)
+        },
+    )
 }

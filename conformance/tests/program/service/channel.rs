@@ -6,7 +6,6 @@ use ads_cnc::CncStr;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Uuid};
 use ads_cnc::service::*;
 use ads_cnc_conformance::simulator::program::service::*;
-pub(crate) use ads_cnc_conformance::suite::replay::square_root;
 
 pub(crate) const ROOT: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 pub(crate) const COMMAND: &str = "19719079-BA06-4740-BC02-DE5215211751";

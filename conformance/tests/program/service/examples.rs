@@ -9,6 +9,7 @@ use ads_cnc_conformance::simulator::program::service::*;
 
 use super::channel::*;
 use super::{Fault, fault};
+use crate::square_root::square_root;
 
 /// SVC-9: the square root of 3, and of a negative number, whenever the interface clears
 /// REQUEST_STATE; and the order of what is written (SVC-4, SVC-5).

@@ -5,6 +5,7 @@ use ads_cnc::service::*;
 use ads_cnc_conformance::simulator::program::service::*;
 
 use super::channel::*;
+use crate::square_root::square_root;
 
 /// A write that failed may have arrived: the host looks, and writes what is missing, no more.
 #[test]

@@ -4,108 +4,69 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
-use ads_cnc::{CncStr, CncString, ErrorKind};
-use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
-
-use super::outcome::{Fault, StepResult, differs, lacks};
-use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
-use crate::simulator::program::{
+use ads_cnc::{CncStr, CncString, ErrorKind, VariableType};
+use ads_cnc_conformance::simulator::program::service::{CallError, CallStep, ServiceInterface};
+use ads_cnc_conformance::simulator::program::{
     Repeat, Script, ScriptConfig, ServiceOutcome, ServiceRequest, Wait,
 };
+use ads_cnc_vectors::{ServiceAction, ServiceSequence, ServiceStep};
 
-/// The interfaces of a CNC's channels, by number, and the NC program.
-pub trait ServiceActor {
-    type Program: RequestingProgram;
+use super::{Fault, bytes, differs, lacks};
+use crate::services::{read_variable, write_variable};
+use crate::square_root::square_root;
+use crate::target::{Check, Target};
 
-    /// An NC program with one request.
-    fn ask(&self, request: ServiceRequest) -> Result<Self::Program, CallError>;
-
-    /// The value of a variable; a text without its padding.
-    fn read(&mut self, channel: u32, variable: ServiceVariable) -> StepResult<Vec<u8>>;
-
-    /// Writes a value. Returns the class of the fault if it is rejected.
-    fn write(
-        &mut self,
-        channel: u32,
-        variable: ServiceVariable,
-        value: &[u8],
-    ) -> StepResult<Option<&'static str>>;
-
-    /// Changes an interface directly.
-    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> StepResult<()>;
-}
-
-/// An NC program that sends a request.
-pub trait RequestingProgram {
-    /// Executes one step.
-    fn step(&mut self, now: Duration, interface: &mut ServiceInterface);
-
-    /// The next step.
-    fn next_step(&self) -> Option<CallStep<'_>>;
-
-    /// The outcome of its request.
-    fn outcome(&self) -> Option<ServiceOutcome>;
-}
-
-impl RequestingProgram for Script {
-    fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
-        Script::step(self, now, interface);
+/// Plays the steps up to the first fault, on channels whose interfaces are empty.
+pub(super) fn play<'c>(target: &Target, given: &'c ServiceSequence) -> Check<Fault<'c>> {
+    let channels = target.channels();
+    for &channel in &channels {
+        target.cnc().set_script(channel, None)?;
+        target.cnc().with_service(channel, |service| service.reset())?;
     }
-
-    fn next_step(&self) -> Option<CallStep<'_>> {
-        Script::next_step(self)
-    }
-
-    fn outcome(&self) -> Option<ServiceOutcome> {
-        self.answers().next().map(|answer| answer.outcome.clone())
-    }
-}
-
-/// Plays the steps up to the first fault.
-pub fn play<'c>(
-    actor: &mut impl ServiceActor,
-    given: &'c ServiceSequence,
-) -> StepResult<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
         ids.insert(name, [ServiceId::new(&service.uuid)?]);
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
-    let mut replay = ServiceReplay { actor, given, hosts, program: None, now: Duration::ZERO };
+    let now = Duration::ZERO;
+    let mut player = Player { target, channels, given, hosts, program: None, now };
     for step in &given.steps {
         if let Some(at) = step.at {
-            replay.now = Duration::from_millis(at);
+            player.now = Duration::from_millis(at);
         }
-        if let Some(fault) = replay.step(step)? {
+        if let Some(fault) = player.step(step)? {
             return Ok(Some((fault, &step.id)));
         }
     }
     Ok(None)
 }
 
-struct ServiceReplay<'s, 'c, A: ServiceActor> {
-    actor: &'s mut A,
+struct Player<'s, 'c> {
+    target: &'s Target,
+    /// Channel 1 of a sequence is the first one, and so on.
+    channels: Vec<u8>,
     given: &'c ServiceSequence,
     hosts: BTreeMap<&'c str, Host<'s>>,
-    program: Option<A::Program>,
+    /// The NC program, with one request.
+    program: Option<Script>,
     now: Duration,
 }
 
-impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
-    fn step(&mut self, step: &ServiceStep) -> StepResult<Option<&'static str>> {
+impl Player<'_, '_> {
+    fn step(&mut self, step: &ServiceStep) -> Check<Option<&'static str>> {
         match step.action {
             ServiceAction::Read => {
-                let value = bytes(step)?;
-                let read = self.actor.read(channel(step), variable(step)?)?;
+                let value = bytes(step.bytes.as_ref(), "bytes")?;
+                let read = self.read(step, variable(step)?)?;
                 if step.actor == "program" {
                     self.program_step(step)?;
                 }
                 Ok((read != value).then_some("outcome"))
             }
             ServiceAction::Write => self.write(step),
-            ServiceAction::Ask => match request(step)?.and_then(|one| self.actor.ask(one)) {
-                Ok(program) => {
-                    self.program = Some(program);
+            ServiceAction::Ask => match request(step)?.and_then(script) {
+                Ok(script) => {
+                    self.program = Some(self.target.cnc().as_run(script));
                     Ok(None)
                 }
                 Err(error) => Ok(Some(fault_class(error.kind()))),
@@ -121,19 +82,18 @@ impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
             },
             ServiceAction::Done => match self.outcome(step)? {
                 None => Ok(Some("too-early")),
-                Some(ServiceOutcome::Response { state, text: response }) => {
-                    let stated = (text(&step.response)?, number(&step.response_state)?);
-                    let same = (response.as_bytes().to_vec(), state) == stated;
-                    Ok((!same).then_some("outcome"))
+                Some(ServiceOutcome::Response { state, text }) => {
+                    let stated = response(step)?;
+                    Ok(((text.as_bytes().to_vec(), state) != stated).then_some("outcome"))
                 }
                 Some(other) => differs("an answer", format!("{other:?}")),
             },
             ServiceAction::Serve => match self.next_action(step)? {
                 HostAction::Nothing => Ok(Some("not-asked")),
                 HostAction::Serve(request, state) => {
-                    let stated = (text(&step.request)?, number(&step.request_state)?);
-                    let same = (request.as_bytes().to_vec(), state) == stated;
-                    Ok((!same).then_some("outcome"))
+                    let text = bytes(step.request.as_ref(), "request")?;
+                    let stated = (text, number(step.request_state.as_ref())?);
+                    Ok(((request.as_bytes().to_vec(), state) != stated).then_some("outcome"))
                 }
                 other => differs("a request", format!("{other:?}")),
             },
@@ -145,28 +105,47 @@ impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
         }
     }
 
+    fn channel(&self, step: &ServiceStep) -> Check<u8> {
+        let place = usize::try_from(step.channel.unwrap_or(1))?;
+        let channel = place.checked_sub(1).and_then(|place| self.channels.get(place));
+        channel.copied().ok_or_else(|| lacks("channel"))
+    }
+
+    /// The value of a variable; a text without its padding.
+    fn read(&self, step: &ServiceStep, variable: ServiceVariable) -> Check<Vec<u8>> {
+        let mut value = read_variable(self.target, self.channel(step)?, variable)?;
+        if variable.var_type() == VariableType::STRING {
+            let filled = value.iter().rposition(|&byte| byte != 0);
+            value.truncate(filled.map_or(1, |last| last + 2));
+        }
+        Ok(value)
+    }
+
     /// Executes one step of the program.
-    fn program_step(&mut self, step: &ServiceStep) -> StepResult<&A::Program> {
+    fn program_step(&mut self, step: &ServiceStep) -> Check<&Script> {
+        let channel = self.channel(step)?;
         let program = self.program.as_mut().ok_or_else(|| lacks("program"))?;
         let now = self.now;
-        self.actor.with(channel(step), |interface| program.step(now, interface))?;
+        self.target.cnc().with_service(channel, |interface| program.step(now, interface))?;
         Ok(program)
     }
 
     /// The outcome of the request, after the program has polled.
-    fn outcome(&mut self, step: &ServiceStep) -> StepResult<Option<ServiceOutcome>> {
+    fn outcome(&mut self, step: &ServiceStep) -> Check<Option<ServiceOutcome>> {
         self.program_step(step)?;
-        Ok(self.program_step(step)?.outcome())
+        let answers = self.program_step(step)?.answers().next();
+        Ok(answers.map(|answer| answer.outcome.clone()))
     }
 
     /// The next action of the service, after it has read all variables it needs.
-    fn next_action(&mut self, step: &ServiceStep) -> StepResult<HostAction> {
+    fn next_action(&mut self, step: &ServiceStep) -> Check<HostAction> {
+        let channel = self.channel(step)?;
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
         host.poll();
         loop {
             match host.step() {
                 HostStep::Read(variable) => {
-                    let value = self.actor.read(channel(step), variable)?;
+                    let value = read_variable(self.target, channel, variable)?;
                     if let Err(error) = host.read(&value) {
                         return differs(format!("a value of {}", variable.name()), error);
                     }
@@ -182,17 +161,25 @@ impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
         }
     }
 
-    fn write(&mut self, step: &ServiceStep) -> StepResult<Option<&'static str>> {
-        let (variable, value) = (variable(step)?, bytes(step)?);
+    fn write(&mut self, step: &ServiceStep) -> Check<Option<&'static str>> {
+        let (variable, value) = (variable(step)?, bytes(step.bytes.as_ref(), "bytes")?);
+        let channel = self.channel(step)?;
         match step.actor.as_str() {
-            "other" => self.actor.write(channel(step), variable, &value),
+            "other" => {
+                let is_taken = write_variable(self.target, channel, variable, &value)?;
+                // The error number does not show the class of the fault, so it is derived from the
+                // bytes.
+                let error = ServiceInterface::new().write(variable, &value).err();
+                let fault = error.map_or("outcome", |error| fault_class(error.kind()));
+                Ok((!is_taken).then_some(fault))
+            }
             "program" => {
                 let program = self.program.as_ref().ok_or_else(|| lacks("program"))?;
                 if program.next_step() != Some(CallStep::Write(variable, &value)) {
                     return Ok(Some("order"));
                 }
                 self.program_step(step)?;
-                let read = self.actor.read(channel(step), variable)?;
+                let read = self.read(step, variable)?;
                 if read != value {
                     return differs(format!("{value:02x?} in {}", step.id), format!("{read:02x?}"));
                 }
@@ -202,7 +189,7 @@ impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
                 if self.next_action(step)? != HostAction::Write(variable, value.clone()) {
                     return Ok(Some("order"));
                 }
-                if self.actor.write(channel(step), variable, &value)?.is_some() {
+                if !write_variable(self.target, channel, variable, &value)? {
                     return differs(format!("{} takes {value:02x?}", variable.name()), "an error");
                 }
                 let host = self.hosts.get_mut(service).ok_or_else(|| lacks("service"))?;
@@ -212,19 +199,18 @@ impl<A: ServiceActor> ServiceReplay<'_, '_, A> {
         }
     }
 
-    fn answer(&mut self, step: &ServiceStep) -> StepResult<Option<&'static str>> {
-        let (response, state) = (text(&step.response)?, number(&step.response_state)?);
+    fn answer(&mut self, step: &ServiceStep) -> Check<Option<&'static str>> {
+        let (text, state) = response(step)?;
         let HostAction::Serve(request, _) = self.next_action(step)? else {
             return differs("a request to answer", "none");
         };
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
-        let answer = CncStr::from_bytes(&response)?;
-        if let Err(error) = host.answer(answer, state) {
+        if let Err(error) = host.answer(CncStr::from_bytes(&text)?, state) {
             return Ok(Some(fault_class(error.kind())));
         }
         let service = self.given.services.get(&step.actor);
         let does = service.and_then(|service| service.does.as_deref());
-        let stated = (String::from_utf8_lossy(&response).into_owned(), state);
+        let stated = (String::from_utf8_lossy(&text).into_owned(), state);
         let wrong = does == Some("square-root") && square_root(&request.to_string()) != stated;
         Ok(wrong.then_some("outcome"))
     }
@@ -238,12 +224,9 @@ enum HostAction {
     Serve(CncString, u32),
 }
 
-fn channel(step: &ServiceStep) -> u32 {
-    step.channel.unwrap_or(1)
-}
-
-fn request(step: &ServiceStep) -> StepResult<Result<ServiceRequest, CallError>> {
-    let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value)).transpose();
+fn request(step: &ServiceStep) -> Check<Result<ServiceRequest, CallError>> {
+    let parameter =
+        |value: &Option<String>| value.as_ref().map(|_| number(value.as_ref())).transpose();
     let wait = match &step.wait {
         None => Wait::Loop,
         Some(wait) => Wait::Cycle {
@@ -253,7 +236,7 @@ fn request(step: &ServiceStep) -> StepResult<Result<ServiceRequest, CallError>> 
         },
     };
     let state = parameter(&step.request_state)?.unwrap_or(1);
-    let asked = text(&step.request)?;
+    let asked = bytes(step.request.as_ref(), "request")?;
     let asked = CncStr::from_bytes(&asked).map(CncString::from);
     let uuid = ServiceId::new(step.uuid.as_deref().ok_or_else(|| lacks("UUID"))?);
     Ok(match (uuid, asked) {
@@ -262,8 +245,13 @@ fn request(step: &ServiceStep) -> StepResult<Result<ServiceRequest, CallError>> 
     })
 }
 
-/// A script with one request.
-pub fn script(request: ServiceRequest) -> Result<Script, CallError> {
+/// Response and response state.
+fn response(step: &ServiceStep) -> Check<(Vec<u8>, u32)> {
+    Ok((bytes(step.response.as_ref(), "response")?, number(step.response_state.as_ref())?))
+}
+
+/// An NC program with one request.
+fn script(request: ServiceRequest) -> Result<Script, CallError> {
     let config = ScriptConfig {
         requests: vec![request],
         repeat: Repeat::Times(1),
@@ -273,37 +261,18 @@ pub fn script(request: ServiceRequest) -> Result<Script, CallError> {
     Script::new(config).map_err(|error| error.error)
 }
 
-/// The service of the manual's example, there in C: `atof`, `sqrt` and `%f`.
-pub fn square_root(request: &str) -> (String, u32) {
-    let digits = request.trim_start();
-    let x = (0..=digits.len()).rev().find_map(|len| digits.get(..len)?.parse().ok());
-    let x: f64 = x.unwrap_or(0.0);
-    if x >= 0.0 {
-        return (format!("{:.6}", x.sqrt()), 1);
-    }
-    (format!("ERROR: cannot calc square root of negative number {x:.6}"), 99)
-}
-
-fn variable(step: &ServiceStep) -> StepResult<ServiceVariable> {
+fn variable(step: &ServiceStep) -> Check<ServiceVariable> {
     let name = step.variable.as_deref().and_then(ServiceVariable::by_name);
     name.ok_or_else(|| lacks("variable"))
 }
 
-fn bytes(step: &ServiceStep) -> StepResult<Vec<u8>> {
-    Ok(step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes())
-}
-
-fn text(pieces: &Option<Pieces>) -> StepResult<Vec<u8>> {
-    Ok(pieces.as_ref().ok_or_else(|| lacks("text"))?.bytes())
-}
-
-fn number(value: &Option<String>) -> StepResult<u32> {
-    let number = value.as_deref().and_then(|value| value.parse().ok());
+fn number(value: Option<&String>) -> Check<u32> {
+    let number = value.and_then(|value| value.parse().ok());
     number.ok_or_else(|| lacks("number"))
 }
 
 /// The class of an error in sequences.
-pub fn fault_class(kind: ErrorKind) -> &'static str {
+fn fault_class(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::Truncated => "truncated",
         ErrorKind::Trailing => "trailing",

@@ -2,41 +2,27 @@
 
 use std::time::Duration;
 
+use ads_cnc::address::Channel;
 use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
+use ads_cnc_conformance::simulator::program::{
+    Message, Pace, ProgramConfig, Start, State, StreamingProgram,
+};
 use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
-use super::outcome::{Fault, StepResult, differs, lacks};
-use crate::simulator::program::{Message, Pace, State, StreamingProgram};
+use super::{Fault, bytes, differs, lacks};
+use crate::streams::{BUFFER_LEN, send, send_until_taken};
+use crate::target::{Check, Target};
 
-/// A CNC with a streaming program.
-pub trait StreamActor {
-    /// Starts the streaming program.
-    fn start(&mut self, now: Duration) -> StepResult<()>;
+/// The channel that streams.
+const CHANNEL: u8 = 1;
 
-    /// Resets the channel.
-    fn reset(&mut self, now: Duration) -> StepResult<()>;
-
-    /// Number of bytes in the buffer.
-    fn held(&mut self) -> StepResult<usize>;
-
-    /// Writes the packet of a step.
-    ///
-    /// # Errors
-    /// A reply that is neither the stated one nor that of a full buffer.
-    fn write(
-        &mut self,
-        data: &[u8],
-        stated: StreamAck,
-        step: &StreamStep,
-        now: Duration,
-    ) -> StepResult<Ack>;
-
-    /// Lets the decoder read the buffer; returns the class of a fault.
-    fn take(&mut self, step: &StreamStep, now: Duration) -> StepResult<Option<&'static str>>;
-}
-
-/// Plays the steps up to the first fault.
-pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> StepResult<Fault<'c>> {
+/// Plays the steps up to the first fault, on a channel whose program is started by the sequence.
+pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>> {
+    let config =
+        ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..ProgramConfig::default() };
+    target.cnc().set_program(CHANNEL, config)?;
+    let with =
+        |then: &mut dyn FnMut(&mut StreamingProgram)| target.cnc().with_program(CHANNEL, then);
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
     let mut sender = sender.transpose()?;
@@ -44,13 +30,21 @@ pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> StepResul
     for step in &given.steps {
         now = step.at.map_or(now, Duration::from_millis);
         let fault = match step.action {
-            StreamAction::Start => actor.start(now).map(|()| None)?,
-            StreamAction::Reset => actor.reset(now).map(|()| None)?,
-            StreamAction::Write => write(actor, &mut sender, step, now)?,
-            StreamAction::Take => actor.take(step, now)?,
+            StreamAction::Start => {
+                target.cnc().with_program(CHANNEL, |program| program.start(now))??;
+                None
+            }
+            StreamAction::Reset => {
+                with(&mut |program| program.reset(now))?;
+                None
+            }
+            StreamAction::Write => write(target, &mut sender, step)?,
+            StreamAction::Take => {
+                target.cnc().with_program(CHANNEL, |one| take(one, step, now))??
+            }
         };
         if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
-            let held = actor.held()?;
+            let held = held(target)?;
             if held != step.held {
                 return differs(format!("{} bytes held after {}", step.held, step.id), held);
             }
@@ -65,25 +59,25 @@ pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> StepResul
     }
 }
 
+/// Number of bytes in the buffer.
+fn held(target: &Target) -> Check<usize> {
+    Ok(target.cnc().with_program(CHANNEL, |program| program.buffered())?)
+}
+
 fn write(
-    actor: &mut impl StreamActor,
+    target: &Target,
     sender: &mut Option<Sender<'_>>,
     step: &StreamStep,
-    now: Duration,
-) -> StepResult<Option<&'static str>> {
-    let data = step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes();
+) -> Check<Option<&'static str>> {
+    let data = bytes(step.bytes.as_ref(), "bytes")?;
     let stated = step.ack.ok_or_else(|| lacks("answer"))?;
     let own = match sender {
         Some(sender) => sender.packet() == Some(&data),
         None => true,
     };
-    let ack = actor.write(&data, stated, step, now)?;
-    match (stated, ack) {
-        (StreamAck::Accepted, Ack::Busy) => return Ok(Some("overfull")),
-        (StreamAck::Accepted, Ack::Accepted)
-        | (StreamAck::Later, Ack::Busy)
-        | (StreamAck::Refused, Ack::Rejected) => {}
-        _ => return differs(format!("{stated:?} in {}", step.id), format!("{ack:?}")),
+    let ack = acknowledged(target, &data, stated, step)?;
+    if (stated, ack) == (StreamAck::Accepted, Ack::Busy) {
+        return Ok(Some("overfull"));
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
         sender.acknowledge(ack)?;
@@ -95,16 +89,34 @@ fn write(
     })
 }
 
+/// Whether a rejection means "busy" or "rejected" is taken from the sequence: the meaning of the error
+/// numbers is assumed.
+fn acknowledged(target: &Target, data: &[u8], stated: StreamAck, step: &StreamStep) -> Check<Ack> {
+    let channel = Channel::new(CHANNEL.into())?;
+    let held = held(target)?;
+    let sent = match stated {
+        StreamAck::Accepted => send_until_taken(target, channel, data)?,
+        StreamAck::Later | StreamAck::Refused => send(target, channel, data)?,
+    };
+    match (stated, sent) {
+        (StreamAck::Accepted, Ok(())) => Ok(Ack::Accepted),
+        (StreamAck::Accepted, Err(_)) if held + data.len() > BUFFER_LEN => Ok(Ack::Busy),
+        (StreamAck::Later, Err(_)) => Ok(Ack::Busy),
+        (StreamAck::Refused, Err(_)) => Ok(Ack::Rejected),
+        _ => differs(format!("{stated:?} in {}", step.id), format!("{sent:?}")),
+    }
+}
+
 /// Lets the decoder read the buffer and execute the lines in zero time.
-pub fn take(
+fn take(
     program: &mut StreamingProgram,
     step: &StreamStep,
     now: Duration,
-) -> StepResult<Option<&'static str>> {
+) -> Check<Option<&'static str>> {
     if !matches!(program.state(), State::Running | State::Dry) {
         return Ok(Some("not-started"));
     }
-    let stated = step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes();
+    let stated = bytes(step.bytes.as_ref(), "bytes")?;
     program.forget_executed();
     program.set_pace(Pace::Fast, now);
     program.set_pace(Pace::Hold, now);

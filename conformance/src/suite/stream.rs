@@ -1,0 +1,193 @@
+//! Cases of data streaming. Only comments are sent, which do not move a device.
+
+use std::time::{Duration, Instant};
+
+use ads_cnc::address::Channel;
+use ads_cnc::limits::STREAM_PACKET_MAX;
+use ads_cnc::operation::WriteProgramStream;
+use ads_cnc::streaming::{Ack, RETRY_AFTER};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
+
+use super::kit::{Probe, StreamWrite, send};
+use super::row::{CaseRow, case};
+use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
+use crate::objects::List;
+
+#[rustfmt::skip]
+pub(super) const CASES: &[CaseRow] = &[
+    case("stream-object", &[STM_1], Needs::Queries, object,
+        "The object of the stream is listed by its name and at its address, and takes writes"),
+    case("stream-whole-lines", &[STM_1, STM_4, STM_7], Needs::Writes, whole_lines,
+        "A packet of whole lines is taken, by the number of the channel and by its rank"),
+    case("stream-longest", &[STM_2, STM_20], Needs::Writes, longest,
+        "A packet of 992 bytes is taken, and a line of 990 characters in it"),
+    case("stream-lengths", &[STM_2, STM_4], Needs::Writes, lengths,
+        "Packets of any length up to 992 bytes are taken"),
+    case("stream-refused-for-now", &[STM_6], Needs::Writes, refused_for_now,
+        "What is refused for now is taken later, the same bytes again"),
+    case("stream-too-long", &[STM_2], Needs::Malformed, too_long,
+        "A packet of 993 bytes is refused"),
+];
+
+/// Index offset of the stream object in the group of a channel.
+const OFFSET: u32 = 0x90;
+
+/// The name of the object.
+const NAME: &str = "mc_program_stream_w";
+
+/// Looks for the object in the lists of channels by name and address. That it is listed is not
+/// required.
+fn object(probe: &mut Probe<'_>) -> Step {
+    for object in probe.objects()? {
+        let List::Channel(number) = object.list else { continue };
+        let Some((group, offset)) = object.address.content() else { continue };
+        let groups = [0x12_0100, 0x02_0100].map(|base| base | u32::from(number));
+        let here = groups.contains(&group.get()) && offset.get() == OFFSET;
+        let named = object.name.as_cnc_str() == NAME;
+        if !here && !named {
+            continue;
+        }
+        let found = || format!("{} at {group}, {offset}", object.name);
+        let expected =
+            || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
+        probe.check(STM_1, here && named, expected, found);
+        probe.check(STM_1, object.is_writable(), "write access", "none");
+    }
+    probe.finish(&format!("no list names {NAME}"))
+}
+
+/// How long a device may take to empty its buffer.
+const BUSY_TIMEOUT: Duration = Duration::from_secs(30);
+
+/// The first channel whose stream may be written.
+fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
+    for channel in probe.channels()? {
+        if probe.may(WriteProgramStream::new(channel, b"\r\n"))? {
+            return Ok(channel);
+        }
+    }
+    Err(Stop::not_applicable("no stream may be written"))
+}
+
+/// Writes until the packet is accepted; returns the last rejection if it never is, and how often it
+/// was rejected before.
+fn repeat(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    data: &[u8],
+) -> Step<(Option<StreamWrite>, u32)> {
+    let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
+    loop {
+        let sent = send(probe, channel, data)?;
+        if sent.is_taken() {
+            return Ok((None, refused));
+        }
+        if begun.elapsed().max(waited) > BUSY_TIMEOUT {
+            return Ok((Some(sent), refused));
+        }
+        refused = refused.saturating_add(1);
+        probe.target.client.wait(RETRY_AFTER);
+        waited = waited.saturating_add(RETRY_AFTER);
+    }
+}
+
+/// Writes a packet that must be accepted; returns how often it was rejected before, or `None` if it
+/// never is.
+///
+/// An error number does not show whether a rejection is temporary, nor whether the buffer of a device
+/// is emptied at all. But if as many bytes are accepted in two packets, by the number of the same
+/// channel, there is room for the one.
+fn write(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    by_number: Channel,
+    data: &[u8],
+) -> Step<Option<u32>> {
+    let half = comment(data.len().div_ceil(2).max(4));
+    // Twice: the device may have read its buffer meanwhile.
+    for _ in 0..2 {
+        let (rejection, refused) = repeat(probe, channel, data)?;
+        let Some(rejection) = rejection else { return Ok(Some(refused)) };
+        for _ in 0..2 {
+            if !send(probe, by_number, &half)?.is_taken() {
+                let seconds = BUSY_TIMEOUT.as_secs();
+                let why = format!("still refused after {seconds} s: {rejection}");
+                return Err(Stop::Inconclusive(why));
+            }
+        }
+    }
+    Ok(None)
+}
+
+fn write_accepted(probe: &mut Probe<'_>, rules: &[ClauseId], at: Channel, data: &[u8]) -> Step {
+    let taken = write(probe, at, at, data)?;
+    let expected = || format!("{} bytes of whole lines taken", data.len());
+    probe.check(rules, taken.is_some(), expected, "refused while there is room");
+    Ok(())
+}
+
+fn whole_lines(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    let lines = b"; comment\r\n(a second line)\r\n\r\n";
+    write_accepted(probe, &[STM_1, STM_4, STM_7], channel, lines)?;
+    let rank = probe.ranks()?.into_iter().find(|(_, one)| *one == channel);
+    let Some((by_index, _)) = rank else { return Ok(()) };
+    if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
+        let taken = write(probe, by_index, channel, lines)?.is_some();
+        probe.check(STM_1, taken, "lines taken by the rank of the channel", "refused");
+    }
+    Ok(())
+}
+
+fn longest(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    write_accepted(probe, &[STM_2, STM_20], channel, &comment(STREAM_PACKET_MAX))?;
+    let many = comment(STREAM_PACKET_MAX / 8).repeat(8);
+    write_accepted(probe, &[STM_2], channel, &many)
+}
+
+/// Lengths around multiples of 256.
+fn lengths(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    for len in [4_usize, 127, 128, 255, 256, 257, 511, 512, 513, 767, 768, 769, 991, 992] {
+        write_accepted(probe, &[STM_2, STM_4], channel, &comment(len))?;
+    }
+    Ok(())
+}
+
+fn refused_for_now(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    let packet = comment(STREAM_PACKET_MAX);
+    for _ in 0..8 {
+        let taken = write(probe, channel, channel, &packet)?;
+        let found = "refused while there is room";
+        probe.check(STM_6, taken.is_some(), "taken, or refused for now", found);
+        if taken != Some(0) {
+            return Ok(());
+        }
+    }
+    // Without a rejection the repetition could not be tested.
+    Ok(())
+}
+
+fn too_long(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    // A target that rejects every packet says nothing of the length.
+    write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
+    for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
+        let sent = send(probe, channel, &comment(len))?;
+        probe.check(STM_2, sent.is_refused(), || format!("{len} bytes refused"), &sent);
+        let good = sent.assumed() == Ack::Rejected;
+        probe.check(assumed(STM_2), good, "refused for good", &sent);
+    }
+    Ok(())
+}
+
+/// A comment with this number of bytes, including its line end.
+fn comment(len: usize) -> Vec<u8> {
+    let mut line = vec![b'('];
+    line.resize(len.saturating_sub(3), b'-');
+    line.extend(b")\r\n");
+    line
+}

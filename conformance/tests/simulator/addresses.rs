@@ -1,0 +1,81 @@
+//! The addresses of the contents, according to the manuals.
+
+use ads_cnc::address::{
+    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable,
+    ElementAddress, IndexOffset,
+};
+use ads_cnc::operation::FindInstance;
+use ads_cnc::sda::ObjectAddress;
+use ads_cnc_conformance::objects::ValueAddress;
+use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
+
+use crate::target::{Check, Target};
+
+/// Each address of a content: by the number of its channel first, then by its rank.
+pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<ValueAddress>> {
+    use Addressing::{Index, Logical};
+    let length = u32::try_from(held.value.len())?;
+    let at = |stride, axis: u8| IndexOffset::for_axis(stride, axis.into(), held.element);
+    let object = |addressing, table, instance, offset| {
+        let group = ComGroup { addressing, access: Access::Element, table, instance };
+        ValueAddress::Object { group: group.index_group(), offset, size: length }
+    };
+    let element = |addressing, class, instance, offset| {
+        let group = ClassGroup { addressing, class, attribute: Attribute::Content, instance };
+        ValueAddress::of_element(ElementAddress::new(group, offset), length)
+    };
+    let both = |channel, of: &dyn Fn(Addressing, u8) -> ValueAddress| {
+        let mut ranks = (1_u8..).zip(target.channels());
+        match ranks.find(|(_, number)| *number == channel) {
+            Some((rank, _)) => vec![of(Logical, channel), of(Index, rank)],
+            None => Vec::new(),
+        }
+    };
+    // The target says where the elements of an instance begin.
+    let of_first = |class, channel: u8, axis: u8| -> Check<IndexOffset> {
+        let find = FindInstance::new(class, channel.into(), axis.into());
+        let first = target.read::<ObjectAddress>(find)?.first_element()?;
+        let first = first.map_or(0, |first| first.index_offset().get());
+        Ok(IndexOffset::new(first.saturating_add(held.element)))
+    };
+    let own = at(AxisStride::X10000, 0)?;
+    Ok(match held.holder {
+        // Channel 1 has the objects of the platform.
+        ContentOwner::Platform => [(Logical, 0), (Index, 0), (Logical, 1)]
+            .map(|(by, instance)| object(by, ComTable::Channel, instance, own))
+            .to_vec(),
+        ContentOwner::Channel(channel) => {
+            both(channel, &|by, instance| object(by, ComTable::Channel, instance, own))
+        }
+        ContentOwner::PlatformAxis(axis) => {
+            [Logical, Index].map(|by| object(by, ComTable::Axis, axis, own)).to_vec()
+        }
+        ContentOwner::ChannelAxis { channel, place } => {
+            let offset = at(AxisStride::X10000, place)?;
+            both(channel, &|by, instance| object(by, ComTable::Channel, instance, offset))
+        }
+        ContentOwner::OfChannel { class, channel } => {
+            both(channel, &|by, instance| element(by, class, instance, own))
+        }
+        ContentOwner::OfAxis { class, axis } => {
+            vec![element(Logical, class, 0, of_first(class, 0, axis)?)]
+        }
+        ContentOwner::OfPlace { class: Class::Decoder, channel, place } => {
+            let offset = at(AxisStride::X10000, place)?;
+            both(channel, &|by, instance| element(by, Class::Decoder, instance, offset))
+        }
+        ContentOwner::OfPlace { class, channel, place } => {
+            let offset = of_first(class, channel, place)?;
+            both(channel, &|by, instance| element(by, class, instance, offset))
+        }
+        ContentOwner::Spindle(index) => vec![element(Index, Class::Spindle, index, own)],
+    })
+}
+
+/// The address of a content that is an element.
+pub(crate) fn element(target: &Target, held: &StoredContent) -> Check<Option<ElementAddress>> {
+    Ok(addresses(target, held)?.into_iter().find_map(|address| match address {
+        ValueAddress::Element { element, .. } => Some(element),
+        _ => None,
+    }))
+}

@@ -1,0 +1,38 @@
+//! Checks that are tests, and that defects fail.
+
+use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
+use ads_cnc_vectors::ClauseId;
+
+use crate::target::{Check, Target};
+
+/// A check of a CNC in its initial state.
+pub(crate) struct SimulatorCheck {
+    pub(crate) name: &'static str,
+    pub(crate) run: fn(&Target) -> Check,
+}
+
+impl SimulatorCheck {
+    /// The requirements that it checks.
+    pub(crate) fn clauses(&self) -> &'static [ClauseId] {
+        let mut listed = SIMULATOR_CHECKS.iter().filter(|(name, _)| *name == self.name);
+        listed.next().unwrap_or_else(|| panic!("{} is not in src/matrix/simulated.rs", self.name)).1
+    }
+}
+
+/// Lists functions as checks, and makes a test of each for the CNC without a defect.
+macro_rules! checks {
+    ($($name:ident,)+) => {
+        pub(crate) const CHECKS: &[$crate::checks::SimulatorCheck] = &[
+            $($crate::checks::SimulatorCheck { name: stringify!($name), run: $name },)+
+        ];
+
+        mod tests {
+            $(#[test]
+            fn $name() {
+                super::$name(&$crate::target::Target::new(None)).unwrap();
+            })+
+        }
+    };
+}
+
+pub(crate) use checks;

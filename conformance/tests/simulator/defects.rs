@@ -1,0 +1,85 @@
+//! Defects that the checks and the golden sequences find.
+
+use std::collections::BTreeSet;
+
+use ads_cnc_conformance::faults::{self, Seed, SeedKind};
+use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
+use ads_cnc_conformance::selftest::UNSEEN;
+
+use crate::checks::SimulatorCheck;
+use crate::player::play;
+use crate::sequences::with_steps;
+use crate::target::Target;
+use crate::{changes, contents, device, services, streams, variables};
+
+/// All checks.
+fn checks() -> impl Iterator<Item = &'static SimulatorCheck> {
+    let all = [
+        changes::CHECKS,
+        contents::CHECKS,
+        device::CHECKS,
+        services::CHECKS,
+        streams::CHECKS,
+        variables::CHECKS,
+    ];
+    all.into_iter().flatten()
+}
+
+/// The checks and sequences that a CNC with this seed fails, of those with one of these requirements;
+/// of all without any.
+fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
+    let wanted = |id: &str| requirements.is_empty() || requirements.contains(&id);
+    let fails = |failed: crate::target::Check, name: &str| {
+        failed.err().map(|why| format!("{name}: {why:?}"))
+    };
+    let checks = checks().filter(|one| one.clauses().iter().any(|id| wanted(id.as_str())));
+    let checks = checks.filter_map(|one| fails((one.run)(&Target::new(Some(seed))), one.name));
+    let sequences = with_steps().filter(|one| one.cited().iter().any(|one| wanted(&one.id)));
+    let sequences = sequences.filter_map(|one| fails(play(&Target::new(Some(seed)), one), &one.id));
+    checks.chain(sequences).collect()
+}
+
+/// The matrix of requirements lists these checks.
+#[test]
+fn the_matrix_has_every_check() {
+    let names: BTreeSet<&str> = checks().map(|one| one.name).collect();
+    let listed: BTreeSet<&str> = SIMULATOR_CHECKS.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, listed);
+}
+
+/// Each fails by a requirement that it breaks.
+#[test]
+fn defects_that_no_case_shows_are_found() {
+    for id in UNSEEN {
+        let seed = faults::by_id(id).expect("a defect");
+        assert!(!failing(seed, &seed.requirements).is_empty(), "{id} is not found");
+    }
+}
+
+/// Variants that differ in what the checks compare: another model, or what a CNC is free to do.
+const OTHERWISE: [&str; 14] = [
+    "different.axes-move",
+    "different.axis-handles",
+    "different.blank-real",
+    "different.come-and-go",
+    "different.device-silent-of-itself",
+    "different.error-numbers",
+    "different.error-one",
+    "different.extended-external-only",
+    "different.model",
+    "different.model-bare",
+    "different.model-many",
+    "different.model-numbers",
+    "different.path-preparation-without-axes",
+    "different.request-over-early",
+];
+
+#[test]
+fn correct_variants_fail_nothing() {
+    let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
+    let failing: BTreeSet<&str> = variants
+        .filter(|seed| !failing(seed, &[]).is_empty())
+        .map(|seed| seed.id.as_str())
+        .collect();
+    assert_eq!(failing, BTreeSet::from(OTHERWISE));
+}

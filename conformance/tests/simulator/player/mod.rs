@@ -1,0 +1,41 @@
+//! Plays golden sequences of data streaming and of the Service Interface: acts as the client, the
+//! service and the NC program, and compares each step.
+
+mod service;
+mod streaming;
+
+use ads_cnc_vectors::{Given, Pieces, Sequence, SequenceExpect};
+
+use crate::target::{Check, Failed, Target};
+
+/// The class of a fault, and its step.
+type Fault<'c> = Option<(&'static str, &'c str)>;
+
+/// Plays a sequence up to the fault that it states, or to its end.
+pub(crate) fn play(target: &Target, sequence: &Sequence) -> Check {
+    let found = match &sequence.given {
+        Given::Streaming(given) => streaming::play(target, given)?,
+        Given::Service(given) => service::play(target, given)?,
+        _ => return Err(Failed("a text has no steps".to_owned())),
+    };
+    let stated = match &sequence.expect {
+        SequenceExpect::Accept(_) => None,
+        SequenceExpect::Reject(reject) => {
+            Some((reject.class.as_str(), reject.step.as_deref().unwrap_or_default()))
+        }
+    };
+    crate::target::same("the fault", found, stated)
+}
+
+fn differs<T>(expected: impl ToString, found: impl ToString) -> Check<T> {
+    Err(Failed(format!("expected {}, found {}", expected.to_string(), found.to_string())))
+}
+
+/// The error of a sequence without a required part.
+fn lacks(what: &str) -> Failed {
+    Failed(format!("a step lacks its {what}"))
+}
+
+fn bytes(pieces: Option<&Pieces>, what: &str) -> Check<Vec<u8>> {
+    Ok(pieces.ok_or_else(|| lacks(what))?.bytes())
+}
