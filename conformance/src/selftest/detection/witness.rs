@@ -30,6 +30,7 @@ const FREE: &[(&str, &str, &[FieldChange], &str)] = &[
     ("object-descriptor", "id", ONE_TO_ONE, "the number is unique, and nothing more is documented"),
     ("object-descriptor", "not_assigned", ONE_TO_ONE, "nothing is assigned to these bytes"),
     ("object-descriptor", "write_access", &[FieldChange::SwapBytes], "every number but 0 is TRUE"),
+    ("ams-header", "error", &[FieldChange::SwapBytes], "no error number is documented"),
     ("read-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
     ("write-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
     ("read-write-reply", "result", &[FieldChange::SwapBytes], "no error number is documented"),
