@@ -44,6 +44,11 @@ fn content(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
         };
+        if !probe.may(read)? {
+            let found = || format!("{} at {}, where no query goes", object.name, at(&object));
+            probe.check(rules, false, "a content that can be read", found);
+            continue;
+        }
         let content = probe.ask(rules, read)?;
         let found = || format!("{} bytes of {}", content.len(), object.name);
         let sized = u32::try_from(content.len()) == Ok(size);
@@ -68,6 +73,9 @@ fn room(probe: &mut Probe<'_>) -> Step {
         for more in [1, 7, 64] {
             let size = object.size().saturating_add(more);
             let Ok(read) = ReadObject::new(group, offset, size) else { continue };
+            if !probe.may(read)? {
+                continue;
+            }
             let Some(content) = probe.try_ask(read)? else { continue };
             let expected = || format!("the {} bytes of {}", object.size(), object.name);
             let found = || format!("{} bytes in a room of {size}", content.len());
