@@ -181,12 +181,18 @@ fn each(
 }
 
 fn attributes(probe: &mut Probe<'_>) -> Step {
+    let (mut types, mut known) = (0_usize, 0_usize);
     for instance in probe.instances()? {
         let of_instance = probe.try_read::<ElementText>(ReadElementName::new(instance.first))?;
         for element in instance.elements() {
-            attributes_of(probe, &instance, of_instance.as_ref(), element)?;
+            let is_known = attributes_of(probe, &instance, of_instance.as_ref(), element)?;
+            types = types.saturating_add(1);
+            known = known.saturating_add(usize::from(is_known));
         }
     }
+    // If no type at all is known, the texts are wrong rather than the types.
+    let found = || format!("{types} types, none of the manual");
+    probe.check(SDA_6, types == 0 || known > 0, "texts", found);
     Ok(())
 }
 
@@ -195,7 +201,7 @@ fn attributes_of(
     instance: &Instance,
     of_instance: Option<&ElementText>,
     element: ElementAddress,
-) -> Step {
+) -> Step<bool> {
     let text = |text: &ElementText| text.text.text.to_string();
     let name: ElementText = attribute(probe, SDA_6, ReadElementName::new(element))?;
     let at = format!("element {} of {instance}", element.index_offset());
@@ -214,10 +220,10 @@ fn attributes_of(
         let found = || format!("{:?} of {at}", text(one));
         probe.check(assumed(GEN_3), readable, "CP1252 characters", found);
     }
-    type_and_length(probe, &text(&ty), length.get(), &at);
+    let is_known = type_and_length(probe, &text(&ty), length.get(), &at);
     let found = || format!("{} of {at}", flag.0);
     probe.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", found);
-    Ok(())
+    Ok(is_known)
 }
 
 fn content(probe: &mut Probe<'_>) -> Step {

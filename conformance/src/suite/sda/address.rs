@@ -72,6 +72,9 @@ fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress)
     };
     let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
     let found = || format!("offset {offset} of the {}, axis {axis}", class);
+    let swapped = Some(IndexOffset::new(offset.get().swap_bytes()));
+    let is_swapped = axis > 0 && expected.contains(&swapped);
+    probe.check(SDA_1, !is_swapped, "the lowest byte of the offset first", found);
     probe.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 
