@@ -28,6 +28,10 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     };
     let is_address = first.is_some() || address.is_none_or(|one| one == ObjectAddress::NONE);
     probe.check(SDA_1, is_address, "an address, or (0, 0)", found);
+    if class == Class::Decoder {
+        let expected = || format!("an address of the {class} ({channel}, {axis})");
+        probe.check(SDA_1, data.is_some(), expected, found);
+    }
     probe.check(rules, first.is_some(), expected, found);
     if let Some(first) = first {
         let group = first.class_group();
