@@ -67,7 +67,7 @@ fn the_report_is_written_as_json() {
     let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
     let output = ads_cnc(&["run", "--json", file.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(0));
-    let report: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    let report: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
     std::fs::remove_file(&file).unwrap();
     assert_eq!(report["format"], 1);
     assert_eq!(report["exit_code"], 0);
