@@ -61,6 +61,9 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// of their own; the others are counted.
 const STRAYS_MAX: u64 = 3;
 
+/// The longest time to wait for the reply after a frame that is not it.
+const AFTER_STRAY: Duration = Duration::from_millis(250);
+
 /// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte
 /// in a response's ID is noticed.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
@@ -321,13 +324,19 @@ impl Client {
         if let Some(capture) = &mut self.capture {
             capture.sent(permit.frame());
         }
-        let asked = Instant::now();
+        let (asked, mut timeout) = (Instant::now(), self.target.timeout);
         let mut chunk = [0; 4096];
         loop {
             let split = FrameRef::split(received, u32::MAX).map_err(ExchangeError::Malformed)?;
             if let Some((frame, len)) = split {
                 let header = frame.header();
-                if header.invoke_id == sent.invoke_id {
+                let (id, asked_id) = (header.invoke_id, sent.invoke_id);
+                let is_other = id != asked_id;
+                // Its source port is not that of the requests before: another invoke ID is wrong.
+                if !is_other || is_reply(&sent, &header) {
+                    if is_other {
+                        violations.push(Violation::of_invoke_id(id, asked_id));
+                    }
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
                         let what =
                             format!("{more} bytes after the answer that no request asked for");
@@ -339,19 +348,18 @@ impl Client {
                 }
                 *strays = strays.saturating_add(1);
                 if *strays <= STRAYS_MAX {
-                    let (id, asked) = (header.invoke_id, sent.invoke_id);
-                    let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
-                    violations.push(Violation { requirement: ADS_5, what });
+                    violations.push(Violation::of_invoke_id(id, asked_id));
                 }
                 received.drain(..len);
-                if asked.elapsed() >= self.target.timeout {
-                    return Err(ExchangeError::Silence(self.target.timeout));
+                timeout = timeout.min(asked.elapsed().saturating_add(AFTER_STRAY));
+                if asked.elapsed() >= timeout {
+                    return Err(ExchangeError::Silence(timeout));
                 }
                 continue;
             }
-            let left = self.target.timeout.saturating_sub(asked.elapsed());
+            let left = timeout.saturating_sub(asked.elapsed());
             if left.is_zero() {
-                return Err(ExchangeError::Silence(self.target.timeout));
+                return Err(ExchangeError::Silence(timeout));
             }
             match wire.receive(&mut chunk, left) {
                 Ok(0) => return Err(ExchangeError::Closed),
@@ -368,13 +376,19 @@ impl Client {
                         io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut
                     ) =>
                 {
-                    return Err(ExchangeError::Silence(self.target.timeout));
+                    return Err(ExchangeError::Silence(timeout));
                 }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(ExchangeError::io(error)),
             }
         }
     }
+}
+
+/// Whether source, target and command of a header are those of the reply to a request.
+fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
+    let addresses = (got.target, got.source) == (sent.source, sent.target);
+    addresses && got.command == sent.command
 }
 
 pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, ExchangeError> {

@@ -4,10 +4,11 @@ use std::fmt;
 use std::io;
 use std::time::Duration;
 
-use ads_cnc::Error;
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, StateFlags};
+use ads_cnc::limits::AMS_TCP_HEADER_LEN;
 use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::{Decode as _, Error};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
@@ -123,6 +124,13 @@ pub struct Violation {
     pub what: String,
 }
 
+impl Violation {
+    pub(crate) fn of_invoke_id(id: u32, asked: u32) -> Self {
+        let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
+        Self { requirement: ADS_5, what }
+    }
+}
+
 impl Exchange {
     pub(crate) fn new(call: &Call<'_>) -> Self {
         Self {
@@ -152,6 +160,13 @@ impl Exchange {
     /// Whether the reply is an error.
     pub fn is_error(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none())
+    }
+
+    /// Whether the AMS header has an error and the data after it is a reply of success.
+    pub(crate) fn contradicts_itself(&self) -> bool {
+        let has_data = self.received.len() > FrameRef::HEADERS_LEN;
+        let of_both = |answer: &AdsReply| !answer.ams_error.is_ok() && answer.result.is_ok();
+        has_data && self.answer().is_some_and(of_both)
     }
 
     /// Whether the reply is an error, or a success without data.
@@ -210,6 +225,25 @@ impl From<&Exchange> for Evidence {
         };
         evidence.cut(&exchange.sent, &exchange.received)
     }
+}
+
+/// The AMS header of a frame, whatever its lengths.
+fn header(frame: &[u8]) -> Option<AmsHeader> {
+    let header = frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?;
+    AmsHeader::decode(header).ok()
+}
+
+/// Whether the received bytes begin with an AMS header from the target, or to the source, of the
+/// request sent.
+pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
+    let headers = header(sent).zip(header(received));
+    headers.is_some_and(|(sent, got)| got.source == sent.target || got.target == sent.source)
+}
+
+/// Why the frame received is not the reply to the one sent: its invoke ID is another.
+pub(crate) fn other_invoke_id(sent: &[u8], received: &[u8]) -> Option<Violation> {
+    let (id, asked) = (header(received)?.invoke_id, header(sent)?.invoke_id);
+    (id != asked).then(|| Violation::of_invoke_id(id, asked))
 }
 
 /// The rules of ADS-5 that the response's header breaks.

@@ -9,6 +9,8 @@ use std::thread;
 
 use ads_cnc_conformance::net;
 use common::Serve;
+use common::file::TestFile;
+use serde_json::Value;
 
 fn ads_cnc(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
@@ -65,7 +67,7 @@ fn the_report_is_written_as_json() {
     let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
     let output = ads_cnc(&["run", "--json", file.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(0));
-    let report: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    let report: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
     std::fs::remove_file(&file).unwrap();
     assert_eq!(report["format"], 1);
     assert_eq!(report["exit_code"], 0);
@@ -208,6 +210,44 @@ fn who_is_no_cnc_is_not_judged() {
     web.join().unwrap();
     assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
     assert!(text(&output.stderr).contains("does not speak AMS/TCP"), "{}", text(&output.stderr));
+}
+
+/// A device whose frames are wrong from the first one on is judged: the rule of the frame fails, with
+/// its bytes, and no other.
+#[test]
+fn broken_frames_fail_the_rule_of_the_frame() {
+    for (defect, clauses) in [
+        ("ams-tcp-header.reserved.flip", &["ADS-5"][..]),
+        ("ams-tcp-header.length.invert", &["ADS-5"]),
+        ("ams-header.data_length.zero", &["ADS-5"]),
+        ("ams-header.error.flip", &["ADS-5"]),
+        ("ams-header.invoke_id.swap", &["ADS-5"]),
+        ("cnc.ads.header-big-endian", &["ADS-5"]),
+        ("cnc.ads.refused-invoke-id-0", &["ADS-5"]),
+        ("read-reply.length.zero", &["ADS-1", "ADS-4"]),
+        ("cnc.ads.result-missing", &["ADS-1", "ADS-3", "ADS-4"]),
+    ] {
+        let serve = Serve::start(&["--defect", defect]);
+        let file = TestFile::new(".json", b"");
+        let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+        // A timeout for each wrong frame would take longer than the test may.
+        let args = ["run", "--timeout", "60000", "--json", file.path()];
+        let output = ads_cnc(&[&args[..], &target].concat());
+        assert_eq!(output.status.code(), Some(1), "{defect}: {}", text(&output.stderr));
+        let report: Value = serde_json::from_slice(&std::fs::read(&file.0).unwrap()).unwrap();
+        let cases = report["cases"].as_array().unwrap();
+        let mut failed = Vec::new();
+        for failure in
+            cases.iter().flat_map(|case| case["failures"].as_array().into_iter().flatten())
+        {
+            if failure["verdict"] == "fail" {
+                failed.push(failure["requirement"].as_str().unwrap());
+                assert_ne!(failure["evidence"]["frame_received"], "", "{defect}");
+            }
+        }
+        failed.dedup();
+        assert_eq!(failed, clauses, "{defect}");
+    }
 }
 
 /// Exit code for a report that cannot be written.

@@ -25,8 +25,7 @@ impl Client {
                         format!("{given} bytes of data for a read length of {read}"),
                     );
                 }
-                let payload = exchange.received.len() > FrameRef::HEADERS_LEN;
-                if payload && !answer.ams_error.is_ok() && answer.result.is_ok() {
+                if exchange.contradicts_itself() {
                     let error = answer.ams_error;
                     add(ADS_5, format!("AMS error {error:#x} before a reply of success"));
                 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use ads_cnc::layout::Stream;
 use ads_cnc_vectors::ids::*;
 
 use super::cnc::{CncFault, CncSeed};
@@ -54,6 +55,10 @@ impl From<FieldDefect> for Seed {
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
+        // The content of an element is the same stream.
+        if defect.stream == Stream::Content {
+            requirements.push(SDA_4.as_str());
+        }
         requirements.dedup();
         // Zero turns an error into a success, which ADS-7 forbids; other error numbers are not
         // specified.

@@ -69,6 +69,23 @@ pub enum Reason {
     NoMalformed(AmsNetId),
 }
 
+impl Reason {
+    /// Whether a file of --allow-write would have to permit the request, or to be another one.
+    pub(crate) const fn is_of_file(&self) -> bool {
+        matches!(
+            self,
+            Self::NoFile(..)
+                | Self::NoEntry(_)
+                | Self::OtherTarget { .. }
+                | Self::OtherAddress { .. }
+                | Self::LocalNetId(_)
+                | Self::Expired(_)
+                | Self::Ambiguous(..)
+                | Self::NoMalformed(_)
+        )
+    }
+}
+
 /// Why a handle or an address may belong to a name that is not in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ambiguity {

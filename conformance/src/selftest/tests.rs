@@ -118,6 +118,13 @@ fn every_reason_is_of_something_that_is_tried() {
     assert_eq!(ids.len(), candidates.len(), "an ID is there twice");
 }
 
+#[test]
+fn every_reason_is_of_a_defect_that_can_be_missed() {
+    for start in reasons::missed() {
+        assert!(faults::all().iter().any(|seed| seed.id.starts_with(start)), "{start}");
+    }
+}
+
 /// The committed files were written together, and every defect has a row.
 #[test]
 fn the_table_is_whole() {

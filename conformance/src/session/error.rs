@@ -54,6 +54,8 @@ pub enum ToolError {
     },
     /// The reply cannot be decoded.
     Reply(Error),
+    /// The frame of the reply breaks a rule of AMS/TCP.
+    Frame(String),
 }
 
 impl ToolError {
@@ -61,9 +63,11 @@ impl ToolError {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::NotSent => Exit::Success,
-            Self::Ads { .. } | Self::Device { .. } | Self::Reply(_) | Self::Unable(_) => {
-                Exit::Failure
-            }
+            Self::Ads { .. }
+            | Self::Device { .. }
+            | Self::Reply(_)
+            | Self::Frame(_)
+            | Self::Unable(_) => Exit::Failure,
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
             Self::NoAnswer(_) | Self::Ams { .. } | Self::Enough(_) => Exit::Nothing,
             Self::Refused(_) | Self::Unsafe(_) => Exit::Refused,
@@ -106,7 +110,7 @@ impl ToolError {
     }
 
     pub(super) fn fault(client: &Client, fault: ExchangeError, answered: bool) -> Self {
-        let Target { addr, net_id, timeout, .. } = client.target();
+        let Target { addr, net_id, .. } = client.target();
         let source = client.source();
         let route = format!(
             "a route on the device to the AMS NetId {source} (--source-net-id), at the address of \
@@ -130,12 +134,12 @@ impl ToolError {
                  route: add {route}. If there is one, end other ADS connections of this machine to \
                  it: some devices keep one for an address."
             ),
-            ExchangeError::Silence(_) if answered => format!(
+            ExchangeError::Silence(timeout) if answered => format!(
                 "{addr} has stopped answering: nothing within {} ms. If it is busy, give it more \
                  with --timeout.",
                 timeout.as_millis()
             ),
-            ExchangeError::Silence(_) => format!(
+            ExchangeError::Silence(timeout) => format!(
                 "{addr} takes the connection and does not answer within {} ms. Is {net_id} its AMS \
                  NetId, and is there {route}?",
                 timeout.as_millis()
@@ -191,12 +195,14 @@ impl fmt::Display for ToolError {
             Self::Device { command, error } => {
                 write!(f, "the device refuses {command} with {error:#x}")
             }
-            Self::Reply(error) => write!(
-                f,
-                "the reply does not match the manuals: {error}. ads-cnc run judges the device"
-            ),
+            Self::Reply(error) => does_not_match(f, error),
+            Self::Frame(what) => does_not_match(f, what),
         }
     }
+}
+
+fn does_not_match(f: &mut fmt::Formatter<'_>, what: &dyn fmt::Display) -> fmt::Result {
+    write!(f, "the reply does not match the manuals: {what}. ads-cnc run judges the device")
 }
 
 impl std::error::Error for ToolError {}

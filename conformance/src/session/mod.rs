@@ -17,7 +17,7 @@ use ads_cnc::{Kind, address::Channel};
 
 use crate::client::{Client, Inquiry, InquiryReply, Tap, Target};
 use crate::deadline::Deadline;
-use crate::exchange::{Exchange, ExchangeError};
+use crate::exchange::{Exchange, ExchangeError, is_of_ads, other_invoke_id};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
@@ -199,6 +199,11 @@ impl Session {
     }
 
     fn exchange(&mut self, function: Function, call: &Call<'_>) -> Result<Vec<u8>, ToolError> {
+        let exchange = self.send(call)?;
+        self.reply(function, exchange)
+    }
+
+    fn send(&mut self, call: &Call<'_>) -> Result<Exchange, ToolError> {
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
             return Err(ToolError::Enough(deadline.to_string()));
         }
@@ -206,11 +211,23 @@ impl Session {
         if self.client.is_dry() {
             show(&exchange);
         }
+        Ok(exchange)
+    }
+
+    fn reply(&mut self, function: Function, exchange: Exchange) -> Result<Vec<u8>, ToolError> {
+        self.answered |= is_of_ads(&exchange.sent, &exchange.received);
         match exchange.outcome {
             Ok((answer, _)) => {
                 self.answered = true;
+                if let Some(other) = other_invoke_id(&exchange.sent, &exchange.received) {
+                    return Err(ToolError::Frame(other.what));
+                }
                 if !answer.ams_error.is_ok() {
-                    return Err(ToolError::ams(self.client.target(), call.port, answer.ams_error));
+                    return Err(ToolError::ams(
+                        self.client.target(),
+                        exchange.port,
+                        answer.ams_error,
+                    ));
                 }
                 if !answer.result.is_ok() {
                     return Err(ToolError::Ads { function, error: answer.result });
@@ -226,20 +243,26 @@ impl Session {
     /// Sends a query that the profile claims, because a device must answer at all to be judged.
     ///
     /// # Errors
-    /// If there is no reply. An ADS error is a reply.
+    /// If there is no reply. An ADS error is a reply, and so is a frame of ADS that breaks a rule.
     pub(crate) fn check_reachable(&mut self, profile: &Profile) -> Result<(), ToolError> {
-        let greeted = match profile.claims(Function::CountObjects) {
+        let request: Request<'_> = match profile.claims(Function::CountObjects) {
             Claim::No => {
                 let first = profile.channels.first().copied().unwrap_or(1);
                 let channel =
                     Channel::new(first).map_err(|error| ToolError::Internal(error.to_string()))?;
-                self.call(&CountVariables::new(channel, Kind::V_E)).map(drop)
+                CountVariables::new(channel, Kind::V_E).into()
             }
-            _ => self.call(&CountObjects::new(ObjectList::PLATFORM)).map(drop),
+            _ => CountObjects::new(ObjectList::PLATFORM).into(),
         };
-        match greeted {
-            Err(ToolError::Ads { .. } | ToolError::Reply(_)) => Ok(()),
-            greeted => greeted,
+        let mut data = vec![0; request.encoded_len()];
+        let call = request.encode(&mut data).map_err(ToolError::Unsendable)?;
+        let exchange = self.send(&call)?;
+        let is_broken =
+            !exchange.violations.is_empty() && is_of_ads(&exchange.sent, &exchange.received);
+        match self.reply(request.function(), exchange) {
+            Err(ToolError::Ads { .. }) => Ok(()),
+            Err(_) if is_broken => Ok(()),
+            reply => reply.map(drop),
         }
     }
 
@@ -288,9 +311,13 @@ impl Session {
             // A closed stdout is not an error.
             let _unread = writeln!(io::stdout(), "would be sent\n  {} ({})", inquired, R::CLAUSE);
         }
+        self.answered |= is_of_ads(&inquired.sent, &inquired.received);
         match inquired.outcome {
             Ok(reply) => {
                 self.answered = true;
+                if let Some(other) = other_invoke_id(&inquired.sent, &inquired.received) {
+                    return Err(ToolError::Frame(other.what));
+                }
                 match reply {
                     InquiryReply::Reply(reply) => Ok(reply),
                     InquiryReply::Refused(error) => {

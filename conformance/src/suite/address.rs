@@ -12,7 +12,9 @@ use ads_cnc_vectors::{ClauseId, Hex};
 use super::kit::{Probe, RawCall};
 use super::row::{CaseRow, case};
 use crate::exchange::Exchange;
-use crate::judge::{Checks as _, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online};
+use crate::judge::{
+    Checks as _, Evidence, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online,
+};
 use crate::objects::KINDS;
 use crate::text::hex::spaced;
 
@@ -159,6 +161,11 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     if answered.is_empty() && broken.checks == 0 {
         return Err(Stop::inconclusive("no frame was answered"));
     }
+    if let Some(last) = only_errors_with_data(probe) {
+        probe.set_evidence(Some(last));
+        let found = "errors with the data of a success, and no success";
+        probe.check(ADS_4, false, "the result 0 for a success", found);
+    }
     let mut judged = Record::default();
     for (requirement, services) in [
         (ADS_1, &[Service::Read][..]),
@@ -177,6 +184,12 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     }
     probe.take_over(judged);
     Ok(())
+}
+
+/// An error with data, if there is one and no reply was a success.
+fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
+    let last = probe.target.error_with_data.take();
+    last.filter(|_| !probe.target.any_success)
 }
 
 /// An error number must not be 0; the manuals require no more.

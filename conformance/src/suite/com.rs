@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use ads_cnc::address::{Access, ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
+use ads_cnc::value::DataType;
 use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 use ads_cnc_vectors::ids::*;
 
@@ -100,15 +101,18 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
 /// Checks a descriptor by itself.
 pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: DescriptorRef<'_>) {
     let name = object.name().to_string();
-    let rule = assumed(COM_2);
-    probe.check(rule, !name.is_empty(), "an object with a name", "an empty name");
+    probe.check(assumed(COM_2), !name.is_empty(), "an object with a name", "an empty name");
     let type_name = object.type_name().to_string();
-    probe.check(rule, !type_name.is_empty(), "the name of a type", "an empty type");
+    let listed = DataType::ALL.into_iter().any(|one| one.object_name() == type_name);
+    let found = || format!("{type_name:?} of {name}");
+    probe.check(COM_2, listed, "one of the types of the manual", found);
     if let Some(size) = object.type_size() {
         let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
         let expected = || format!("a multiple of the {size} bytes of {type_name}");
         let found = || format!("size {} of {name}", object.size());
-        probe.check(online(GEN_5), whole, expected, found);
+        let is_printed = ["BOOL", "WORD", "DWORD"].contains(&type_name.as_str());
+        let rule = if is_printed { GEN_5.into() } else { online(GEN_5) };
+        probe.check(rule, whole, expected, found);
     }
     let group = object.index_group();
     let content =

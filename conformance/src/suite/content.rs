@@ -19,7 +19,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Every object is read where its descriptor says, in the size it says"),
     case("com-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
         "By number and by rank of the channel, an object has the same content"),
-    case("com-content-room", &[COM_2, COM_5], Needs::Queries, room,
+    case("com-content-room", &[COM_2, COM_5, ADS_1], Needs::Queries, room,
         "With more room than it needs a content has no more bytes than its descriptor says"),
     case("com-places", &[COM_2, COM_5], Needs::Queries, places,
         "No two objects of a list are at one place"),
@@ -45,6 +45,11 @@ fn content(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
         };
+        if !probe.may(read)? {
+            let found = || format!("{} at {}, where no query goes", object.name, at(&object));
+            probe.check(rules, false, "a content that can be read", found);
+            continue;
+        }
         let content = probe.ask(rules, read)?;
         let found = || format!("{} bytes of {}", content.len(), object.name);
         let sized = u32::try_from(content.len()) == Ok(size);
@@ -70,11 +75,16 @@ fn room(probe: &mut Probe<'_>) -> Step {
         for more in [1, 7, 64] {
             let size = object.size().saturating_add(more);
             let Ok(read) = ReadObject::new(group, offset, size) else { continue };
+            if !probe.may(read)? {
+                continue;
+            }
             let Some(content) = probe.try_ask(read)? else { continue };
             let expected = || format!("the {} bytes of {}", object.size(), object.name);
             let found = || format!("{} bytes in a room of {size}", content.len());
             let sized = u32::try_from(content.len()) == Ok(object.size());
             probe.check([COM_2, COM_5], sized, expected, found);
+            let is_padded = !sized && u32::try_from(content.len()) == Ok(size);
+            probe.check(ADS_1, !is_padded, "no more bytes than there are", found);
         }
     }
     probe.finish("no content is read with more room")

@@ -16,7 +16,7 @@ use crate::profile::Claim;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("var-extended-descriptions", &[VAR_15, VAR_16], Needs::Queries, extended,
+    case("var-extended-descriptions", &[VAR_15, VAR_16, ADS_3], Needs::Queries, extended,
         "Every V.E has an extended description; V.G and V.A are answered by nothing"),
     case("var-extended-beyond-last", &[VAR_3], Needs::Queries, extended_beyond,
         "The index behind the last has no extended description"),
@@ -67,7 +67,11 @@ fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
 fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
     let exchange = probe.send(request)?;
     let data = exchange.answer().and_then(|answer| answer.data.clone());
-    let empty = data.is_none_or(|data| data.is_empty());
+    let empty = data.as_ref().is_none_or(Vec::is_empty);
+    let whole = usize::try_from(exchange.read_length).unwrap_or(usize::MAX);
+    let padded = |data: &Vec<u8>| data.len() == whole && data.iter().all(|&byte| byte == 0);
+    let is_padded = data.as_ref().is_some_and(padded);
+    probe.check(ADS_3, !is_padded, "no more bytes than there are", &exchange);
     let expected = || format!("no data for {at}");
     probe.check(VAR_16, empty && exchange.answer().is_some(), expected, &exchange);
     let success = exchange.success().is_some();

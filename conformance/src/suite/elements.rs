@@ -181,12 +181,27 @@ fn each(
 }
 
 fn attributes(probe: &mut Probe<'_>) -> Step {
+    let (mut types, mut known) = (0_usize, 0_usize);
     for instance in probe.instances()? {
         let of_instance = probe.try_read::<ElementText>(ReadElementName::new(instance.first))?;
+        let mut units = Vec::new();
         for element in instance.elements() {
-            attributes_of(probe, &instance, of_instance.as_ref(), element)?;
+            let (is_known, unit) = attributes_of(probe, &instance, of_instance.as_ref(), element)?;
+            types = types.saturating_add(1);
+            known = known.saturating_add(usize::from(is_known));
+            units.push((element, unit));
+        }
+        // What was read before does not change a text.
+        for (element, unit) in units.iter().rev() {
+            let again = probe.try_read::<ElementText>(ReadElementUnit::new(*element))?;
+            let same = again.is_none_or(|again| again.text.text == unit.text.text);
+            let found = || format!("another at element {} of {instance}", element.index_offset());
+            probe.check(SDA_6, same, "the unit as before", found);
         }
     }
+    // If no type at all is known, the texts are wrong rather than the types.
+    let found = || format!("{types} types, none of the manual");
+    probe.check(SDA_6, types == 0 || known > 0, "texts", found);
     Ok(())
 }
 
@@ -195,7 +210,7 @@ fn attributes_of(
     instance: &Instance,
     of_instance: Option<&ElementText>,
     element: ElementAddress,
-) -> Step {
+) -> Step<(bool, ElementText)> {
     let text = |text: &ElementText| text.text.text.to_string();
     let name: ElementText = attribute(probe, SDA_6, ReadElementName::new(element))?;
     let at = format!("element {} of {instance}", element.index_offset());
@@ -210,14 +225,17 @@ fn attributes_of(
     probe.check(ADR_6, flag.is_some(), || format!("a write flag of {at}"), "an error");
     let flag: ElementWriteFlag = attribute(probe, SDA_9, ReadElementWriteFlag::new(element))?;
     for one in [&name, &unit, &ty] {
+        let found = || format!("{:?} of {at}", text(one));
+        let is_string = !text(one).chars().any(|char| char.is_ascii_control());
+        probe.check(SDA_6, is_string, "a string", found);
         let readable = !text(one).chars().any(char::is_control);
         let found = || format!("{:?} of {at}", text(one));
         probe.check(assumed(GEN_3), readable, "CP1252 characters", found);
     }
-    type_and_length(probe, &text(&ty), length.get(), &at);
+    let is_known = type_and_length(probe, &text(&ty), length.get(), &at);
     let found = || format!("{} of {at}", flag.0);
     probe.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", found);
-    Ok(())
+    Ok((is_known, unit))
 }
 
 fn content(probe: &mut Probe<'_>) -> Step {

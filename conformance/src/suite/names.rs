@@ -2,9 +2,10 @@
 
 use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
+use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
+use super::kit::{Compared, Probe, Steady, compare, dynamic_among_variables, name_of};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 use crate::values::until_nul;
@@ -15,7 +16,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Each name is one of structures, indices and the variable in them"),
     case("var-by-name-only", &[VAR_18], Needs::Queries, by_name_only,
         "A variable that is by name only is read by its name and has no handle"),
-    case("var-dynamic-by-name", &[VAR_18, VAR_19], Needs::Queries, dynamic_by_name,
+    case("var-dynamic-by-name", &[VAR_18, VAR_19, DYN_3, VAR_14, GEN_1], Needs::Queries, dynamic_by_name,
         "V.P, V.L and V.S read the same among the variables as among the parameters"),
     case("var-texts", &[VAR_22], Needs::Queries, texts,
         "A text ends at its first NUL, or with what there is of it"),
@@ -74,7 +75,24 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         let name = TextRef::from(name.as_cnc_str());
         let by_name = ReadByName { channel, name };
         let one = DynamicValueByName { channel, kind: *kind, name };
-        steady.same(probe, VAR_19, name.text(), one, by_name)?;
+        let compared = compare(
+            probe,
+            |probe| probe.try_ask(one),
+            |probe, _| probe.try_ask(by_name),
+            |before, read| before == read,
+        )?;
+        if matches!(compared, Compared::Same) {
+            probe.pass([DYN_3, VAR_14, GEN_1]);
+        }
+        steady.judge(probe, VAR_19, &name.text(), compared, |probe, rules, (before, read, _)| {
+            let (expected, found) = (|| Hex(before.clone()), || Hex(read.clone()));
+            probe.check(rules, false, expected, found);
+            // Either value may be the wrong one.
+            probe.check([DYN_3, VAR_14], false, expected, found);
+            let (low, high) = before.split_at(before.len() / 2);
+            let is_reversed = before.iter().rev().eq(&read) || [high, low].concat() == read;
+            probe.check(GEN_1, !is_reversed, expected, found);
+        });
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
         probe.refuses(VAR_18, &what, HandleByName { channel, name }, good)?;

@@ -16,7 +16,7 @@ use crate::objects::List;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("stream-object", &[STM_1], Needs::Queries, object,
+    case("stream-object", &[STM_1, COM_2], Needs::Queries, object,
         "The object of the stream is listed by its name and at its address, and takes writes"),
     case("stream-whole-lines", &[STM_1, STM_4, STM_7], Needs::Writes, whole_lines,
         "A packet of whole lines is taken, by the number of the channel and by its rank"),
@@ -51,8 +51,10 @@ fn object(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{} at {group}, {offset}", object.name);
         let expected =
             || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
-        probe.check(STM_1, here && named, expected, found);
-        probe.check(STM_1, object.is_writable(), "write access", "none");
+        // The object or its descriptor is wrong.
+        let rules = [STM_1, COM_2];
+        probe.check(rules, here && named, expected, found);
+        probe.check(rules, object.is_writable(), "write access", "none");
     }
     probe.finish(&format!("no list names {NAME}"))
 }

@@ -147,7 +147,8 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
         let found = || format!("{} bytes of {name}", variable.size);
-        probe.check(VAR_7, one, "one element where there is no dimension", found);
+        // The dimensions may be missing.
+        probe.check([VAR_7, VAR_4], one, "one element where there is no dimension", found);
     }
     let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
     let expected =

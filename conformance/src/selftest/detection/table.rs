@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use super::found::{Detection, DetectionResult, Mode};
 use crate::faults::{self, Seed, SeedKind};
+use crate::selftest::reasons;
 use crate::simulator::DEFAULT_MODEL;
 use crate::simulator::program::digest;
 use crate::suite;
@@ -199,12 +200,14 @@ impl DetectionTable {
                 mode.name()
             );
         }
-        text += "\n## Missed\n\nEach with the first request that would have shown it.\n";
+        text += "\n## Missed\n\nEach with the first request that would have shown it, and the reason if there is one.\n";
         for mode in Mode::ALL {
             let _ = write!(text, "\n### {}\n\n", mode.name());
             for (row, request) in self.missed(mode) {
                 let what = faults::by_id(&row.id).map_or("", |seed| seed.what.as_str());
-                let _ = writeln!(text, "- `{}`: {what}. {request}", row.id);
+                let reason = reasons::of_missed(&row.id).map(|reason| format!(". {reason}"));
+                let reason = reason.unwrap_or_default();
+                let _ = writeln!(text, "- `{}`: {what}. {request}{reason}", row.id);
             }
         }
         text

@@ -29,8 +29,13 @@ fn rule_of(type_name: &str) -> Rule {
     if is_alike || type_name == "STRING" { assumed(SDA_7) } else { SDA_7.into() }
 }
 
-/// Checks that type and length of an element match.
-pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u32, at: &str) {
+/// Checks that type and length of an element match; returns whether the type is one of the manual.
+pub(crate) fn type_and_length(
+    probe: &mut Probe<'_>,
+    type_name: &str,
+    length: u32,
+    at: &str,
+) -> bool {
     let known = size_of(type_name);
     let found = || format!("{type_name:?} of {at}");
     let is_known = known.is_some() || type_name == "STRING";
@@ -38,7 +43,7 @@ pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u3
     let found = || format!("{length} bytes of {at}, {type_name}");
     let Some((size, is_printed)) = known else {
         probe.check(assumed(SDA_8), length > 0, "a number of bytes", found);
-        return;
+        return is_known;
     };
     let expected = || format!("the {size} bytes of {type_name}");
     // Either the type or the length is wrong.
@@ -47,6 +52,7 @@ pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u3
     let of_type = if type_name == "BOOLEAN" { GEN_5.into() } else { online(GEN_5) };
     probe.check([of_name, of_length, of_type], length == size, expected, found);
     probe.check(SDA_8, length > 0, "a number of bytes", found);
+    is_known
 }
 
 #[cfg(test)]

@@ -199,6 +199,17 @@ impl<'s> Probe<'s> {
         let exchange = self.target.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
         self.record_exchange(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
+        if exchange.contradicts_itself() {
+            return Err(Stop::Inconclusive(format!("{exchange}: an error before a success")));
+        }
+        if let Some(answer) = exchange.answer() {
+            let has_data = answer.data.as_ref().is_some_and(|data| !data.is_empty());
+            match answer.success() {
+                Some(_) => self.target.any_success = true,
+                None if has_data => self.target.error_with_data.clone_from(&self.last),
+                None => {}
+            }
+        }
         if fault.is_none() && !self.target.answered.contains(&call.service) {
             self.target.answered.push(call.service);
         }
@@ -233,15 +244,18 @@ impl<'s> Probe<'s> {
     ) -> Step {
         let state = &mut *self.target;
         match fault {
-            Some(ExchangeError::Refused(why)) => {
-                return Err(Stop::Refused(format!("{what}: {why}")));
+            Some(ExchangeError::Refused(refusal)) => {
+                let why = format!("{what}: {refusal}");
+                // The address of a query was given by the target, and not by the user.
+                let is_of_user = refusal.reason.is_of_file();
+                return Err(if is_of_user { Stop::Refused(why) } else { Stop::Inconclusive(why) });
             }
             Some(ExchangeError::Disconnected(why)) => {
                 state.gone = Some(why.clone());
                 return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
             }
+            Some(ExchangeError::Malformed(_)) | None => state.silences = 0,
             Some(_) => state.silences = state.silences.saturating_add(1),
-            None => state.silences = 0,
         }
         state.frames = state.frames.saturating_add(1);
         if state.silences >= SILENCES_MAX {
@@ -253,7 +267,13 @@ impl<'s> Probe<'s> {
             state.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
         }
         self.last = Some(Evidence { subject: self.subject.clone(), ..evidence });
-        Ok(())
+        match fault {
+            // What the reply was to say is unknown.
+            Some(fault @ ExchangeError::Malformed(_)) => {
+                Err(Stop::Inconclusive(format!("{what}: {fault}")))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Sends an operation.

@@ -7,7 +7,7 @@ use ads_cnc::operation::Service;
 
 use crate::client::Client;
 use crate::deadline::Deadline;
-use crate::judge::Record;
+use crate::judge::{Evidence, Record};
 use crate::objects::Object;
 use crate::profile::Profile;
 use crate::suite::kit::{Changes, Instance};
@@ -29,6 +29,10 @@ pub struct TargetState {
     pub frames: usize,
     /// Services that were answered.
     pub(in crate::suite) answered: Vec<Service>,
+    /// Whether a reply was a success.
+    pub(in crate::suite) any_success: bool,
+    /// An error that came with data.
+    pub(in crate::suite) error_with_data: Option<Evidence>,
     /// Consecutive requests without a reply.
     pub(in crate::suite) silences: usize,
     /// Why no more requests are sent.
@@ -63,6 +67,8 @@ impl TargetState {
             instances: None,
             frames: 0,
             answered: Vec::new(),
+            any_success: false,
+            error_with_data: None,
             silences: 0,
             gone: None,
             broken: Record::default(),

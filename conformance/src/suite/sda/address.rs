@@ -31,8 +31,11 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         } else {
             let logical = addressing == Addressing::Logical;
             probe.check(ADR_5, logical, "a group with the logical bit, as asked", found);
+            if matches!(one.class, Class::Decoder | Class::Hld) {
+                probe.check(SDA_3, logical, "a group as printed", found);
+            }
         }
-        offset(probe, one.class, one.axis, one.first);
+        offset(probe, one.class, (one.channel, one.axis), one.first);
         let own = seen.insert((group, one.first.index_offset()));
         let found = || format!("{}, which another instance has too", found());
         probe.check(SDA_1, own, "a place of its own", found);
@@ -62,16 +65,20 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
 }
 
 /// The offset of an instance: printed for the decoder and for one axis of the HLD.
-fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress) {
+fn offset(probe: &mut Probe<'_>, class: Class, (channel, axis): (u32, u32), first: ElementAddress) {
     let offset = first.index_offset();
     let of = |stride| IndexOffset::for_axis(stride, axis, 0).ok();
     let (rule, expected) = match (class, axis) {
         (_, 0) => (Rule::from(SDA_1), vec![Some(IndexOffset::new(0))]),
+        (Class::Hld, 1) if channel == 0 => (Rule::from(SDA_3), vec![of(AxisStride::X1000)]),
         (Class::Decoder, _) => (Rule::from(ADR_7), vec![of(AxisStride::X10000)]),
         _ => (assumed(ADR_7), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
     };
     let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
     let found = || format!("offset {offset} of the {}, axis {axis}", class);
+    let swapped = Some(IndexOffset::new(offset.get().swap_bytes()));
+    let is_swapped = axis > 0 && expected.contains(&swapped);
+    probe.check(SDA_1, !is_swapped, "the lowest byte of the offset first", found);
     probe.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 

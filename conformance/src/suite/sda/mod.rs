@@ -12,7 +12,7 @@ use crate::judge::Needs;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("sda-object-address", &[SDA_1, ADR_2, ADR_5, ADR_7, GEN_6],
+    case("sda-object-address", &[SDA_1, SDA_3, ADR_2, ADR_5, ADR_7, GEN_6],
         Needs::Queries, address::object_address,
         "The address of an instance is in its class's group, and no other's"),
     case("sda-configured-instances", &[SDA_1, SDA_2, SDA_5, ADR_5], Needs::Queries, range::configured,

@@ -26,6 +26,12 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         Some(address) => format!("{}, {}", address.index_group, address.index_offset),
         None => exchange.result(),
     };
+    let is_address = first.is_some() || address.is_none_or(|one| one == ObjectAddress::NONE);
+    probe.check(SDA_1, is_address, "an address, or (0, 0)", found);
+    if class == Class::Decoder {
+        let expected = || format!("an address of the {class} ({channel}, {axis})");
+        probe.check(SDA_1, data.is_some(), expected, found);
+    }
     probe.check(rules, first.is_some(), expected, found);
     if let Some(first) = first {
         let group = first.class_group();
@@ -84,6 +90,10 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
     for &channel in &numbers {
         for class in OF_PLACES.into_iter().chain([Class::Hld]) {
             is_there(probe, &rules, class, channel, 0)?;
+            let axis = probe.address_of(class, channel, 1)?;
+            let is_address = axis.is_none_or(|axis| axis.first_element().is_ok());
+            let found = || format!("{axis:?}");
+            probe.check(SDA_1, is_address, "an address of the first axis, or (0, 0)", found);
         }
     }
     // A place exists with or without an axis.
