@@ -8,7 +8,7 @@ use ads_cnc::{
 };
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, VARIABLES_MAX, name_of};
+use super::kit::{Probe, name_of};
 use super::row::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
@@ -35,7 +35,8 @@ fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
 fn extended(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
-            for index in 0..count(probe, channel, kind)?.min(VARIABLES_MAX) {
+            let count = count(probe, channel, kind)?;
+            for index in probe.indices_of(channel, name, count) {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
                 if kind == Kind::V_E {

@@ -46,7 +46,7 @@ mod write_sizes;
 mod write_texts;
 
 pub(crate) use com::descriptor_holds_together;
-pub use kit::{Changes, Probe, TargetState};
+pub use kit::{Changes, ListRead, Probe, Sample, TargetState};
 pub use run::run;
 pub(crate) use variable::holds_together;
 

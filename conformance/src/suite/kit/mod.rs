@@ -13,6 +13,7 @@ mod layout;
 mod object_list;
 mod probe;
 mod raw_call;
+mod sample;
 mod service_channels;
 mod steady;
 mod stream_write;
@@ -33,7 +34,8 @@ pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use element_type::type_and_length;
 pub(crate) use instance::Instance;
 pub(crate) use inventory::{
-    INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads, element_by_rank, name_of,
+    DescribedList, INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads,
+    element_by_rank, name_of,
 };
 pub(crate) use layout::{
     brackets, element_count, element_name, element_size, order, part, places_tried,
@@ -44,6 +46,7 @@ pub(crate) use object_list::{
 pub use probe::Probe;
 pub(crate) use probe::{ask_if_claimed, with_reply};
 pub(crate) use raw_call::{IntoRawCall, RawCall};
+pub use sample::{ListRead, Sample};
 pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{STREAM_BUFFER_LEN, StreamWrite, send, send_until_taken};

@@ -177,7 +177,7 @@ fn elements_with(
         if !OF_PLACES.contains(&one.class) || (one.channel, one.axis) != (channel, place) {
             continue;
         }
-        for (number, element) in (1..).zip(one.elements()) {
+        for (number, element) in one.numbered() {
             if content(probe, element)?.is_some_and(|bytes| is_such(&bytes)) {
                 all.push((one.class, number));
             }
