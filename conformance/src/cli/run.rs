@@ -91,6 +91,11 @@ pub(super) struct Run {
     #[arg(long, help_heading = SELECTION, value_name = "N")]
     seed: Option<u32>,
 
+    /// Read every item of every list, up to 10000. Of a list of more than 256 a device is asked for the
+    /// first 64, the last 64 and 128 in between that the seed gives, unless something may be written
+    #[arg(long, help_heading = SELECTION, requires = "target")]
+    all: bool,
+
     /// List what would be run and run nothing; with --json as data
     #[arg(long, help_heading = SELECTION)]
     list: bool,
@@ -388,6 +393,7 @@ impl Run {
             only: self.only.clone(),
             target,
             profile: None,
+            found: None,
             waivers,
             frames: 0,
             left_changed: Vec::new(),

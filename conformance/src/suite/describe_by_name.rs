@@ -36,7 +36,7 @@ fn extended(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
             let count = count(probe, channel, kind)?;
-            for index in probe.indices_of(channel, name, count) {
+            for index in probe.sample(0..count) {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
                 if kind == Kind::V_E {

@@ -13,6 +13,7 @@ mod configured;
 mod content;
 mod describe_by_name;
 mod device;
+mod discovery;
 mod dynamic;
 mod elements;
 mod general;
@@ -46,7 +47,8 @@ mod write_sizes;
 mod write_texts;
 
 pub(crate) use com::descriptor_holds_together;
-pub use kit::{Changes, ListRead, Probe, Sample, TargetState};
+pub use discovery::{ClaimsBy, Discovery, discover};
+pub use kit::{Changes, Probe, Sample, TargetState};
 pub use run::run;
 pub(crate) use variable::holds_together;
 

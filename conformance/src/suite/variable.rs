@@ -75,7 +75,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
             let number = number(probe, channel, kind)?;
-            let chosen = probe.indices_of(channel, name, number);
+            let chosen = probe.sample(0..number);
             let mut names = HashSet::new();
             let mut all = Vec::new();
             // Names are unique among all variables, not only among those chosen.

@@ -15,7 +15,7 @@ use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Changes, TargetState};
+use crate::suite::{self, Changes, ClaimsBy, Sample, TargetState};
 use crate::text::Moment;
 
 impl Run {
@@ -46,7 +46,12 @@ impl Run {
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
         let session = TargetState::new(client, profile);
+        let sample =
+            if self.all || self.target.has_file() { Sample::All } else { Sample::BySeed(seed) };
         let session = session.with_changes(changes.clone()).with_deadline(deadline);
+        let mut session = session.with_sample(sample);
+        let by = if self.profile.is_some() { ClaimsBy::Profile } else { ClaimsBy::Queries };
+        let discovery = suite::discover(&mut session, by);
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
@@ -54,7 +59,9 @@ impl Run {
             device,
             ..TargetReport::default()
         };
-        self.judge(plan, session, None, self.about(target, seed, waivers))
+        let about = self.about(target, seed, waivers);
+        let about = About { found: Some(discovery.found), ..about };
+        self.judge(plan, session, None, about)
     }
 
     /// Starts the simulated CNC, runs everything against it and stops it.

@@ -111,13 +111,13 @@ impl Probe<'_> {
     }
 
     /// The items of a list that the cases read, in order.
-    pub(crate) fn sample(&mut self, list: List, items: Range<u32>) -> Vec<u32> {
-        self.target.sample(list.to_string(), items)
+    pub(crate) fn sample(&self, items: Range<u32>) -> Vec<u32> {
+        self.target.sample.of(items)
     }
 
-    /// The numbers of the objects of a list that the cases read.
-    pub(crate) fn sample_of(&mut self, list: ObjectList, count: u32) -> Vec<u32> {
-        self.sample(list.into(), 1..count.saturating_add(1))
+    /// The numbers from 1 on of the items of a list that the cases read.
+    pub(crate) fn numbers(&self, count: u32) -> Vec<u32> {
+        self.sample(1..count.saturating_add(1))
     }
 
     /// The objects of all lists that the cases read. Other cases judge a descriptor that cannot be read.
@@ -126,7 +126,7 @@ impl Probe<'_> {
             let mut all = Vec::new();
             for list in self.lists()? {
                 let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
-                let numbers = self.sample_of(list, count.map_or(0, |count| count.0));
+                let numbers = self.numbers(count.map_or(0, |count| count.0));
                 self.each(numbers, |probe, number| {
                     let Ok(read) = ReadDescriptors::new(list, number, 1) else { return Ok(false) };
                     let one: Option<Descriptors> = probe.try_read(read)?;
@@ -186,8 +186,7 @@ impl Probe<'_> {
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
         let count = if is_itself { reached } else { reported };
-        let list = List::of_instance(class, channel, axis);
-        let chosen = self.sample(list, 1..reached.saturating_add(1));
+        let chosen = self.numbers(reached);
         all.push(Instance { class, channel, axis, first, reported, count, reached, chosen });
         Ok(true)
     }

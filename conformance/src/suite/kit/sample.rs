@@ -58,15 +58,6 @@ impl Sample {
     }
 }
 
-/// The part of a list that the cases read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ListRead {
-    /// Number of items that the cases read.
-    pub read: usize,
-    /// Number of items that the target reports.
-    pub reported: u32,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

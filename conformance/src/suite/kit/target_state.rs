@@ -1,7 +1,6 @@
 //! The state of a target during a run, which all cases share.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::sync::Arc;
 
 use ads_cnc::operation::Service;
@@ -12,7 +11,7 @@ use crate::judge::Record;
 use crate::objects::Object;
 use crate::profile::Profile;
 use crate::simulator::Cnc;
-use crate::suite::kit::{Changes, DescribedList, Instance, ListRead, Sample};
+use crate::suite::kit::{Changes, DescribedList, Instance, Sample};
 
 /// A connection to a target, and the state that the cases of a run have found so far.
 #[derive(Debug)]
@@ -22,9 +21,7 @@ pub struct TargetState {
     /// The claims of the target.
     pub profile: Profile,
     /// Which items of a long list the cases read.
-    sample: Sample,
-    /// The lists of which items were chosen, by name.
-    lists: BTreeMap<String, ListRead>,
+    pub(in crate::suite) sample: Sample,
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
     /// Its objects, read when a case first needs them.
@@ -67,7 +64,6 @@ impl TargetState {
             client,
             profile,
             sample: Sample::All,
-            lists: BTreeMap::new(),
             variables: BTreeMap::new(),
             objects: None,
             instances: None,
@@ -87,19 +83,6 @@ impl TargetState {
     #[must_use]
     pub fn with_sample(self, sample: Sample) -> Self {
         Self { sample, ..self }
-    }
-
-    /// The items of a list that the cases read, in order.
-    pub(in crate::suite) fn sample(&mut self, list: String, items: Range<u32>) -> Vec<u32> {
-        let reported = items.end.saturating_sub(items.start);
-        let chosen = self.sample.of(items);
-        self.lists.insert(list, ListRead { read: chosen.len(), reported });
-        chosen
-    }
-
-    /// The lists that the cases read, by name.
-    pub const fn lists(&self) -> &BTreeMap<String, ListRead> {
-        &self.lists
     }
 
     /// Shares the list of changed values with other threads.

@@ -9,7 +9,7 @@ use ads_cnc::{Decode, Description, Kind, TextRef, VariableCount};
 use ads_cnc_vectors::ClauseId;
 
 use crate::judge::{Step, Stop, applicable};
-use crate::objects::{KINDS, List};
+use crate::objects::KINDS;
 use crate::suite::kit::Probe;
 
 /// Maximum number of variables of a kind that are read.
@@ -48,24 +48,13 @@ impl Probe<'_> {
         KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
     }
 
-    /// The indices of the variables of a kind that the cases read.
-    pub(crate) fn indices_of(
-        &mut self,
-        channel: Channel,
-        kind: &'static str,
-        count: u32,
-    ) -> Vec<u32> {
-        let list = List::Variables { kind, channel: channel.number(), axis: None };
-        self.sample(list, 0..count)
-    }
-
     /// The descriptions of a channel that the cases read. Cases that judge descriptions read them
     /// again.
     pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
             let count = self.count_described(channel, name, kind)?;
-            let indices = self.indices_of(channel, name, count);
+            let indices = self.sample(0..count);
             all.extend(self.described(channel, (name, kind), indices)?);
         }
         applicable(!all.is_empty(), "the target has no variable")?;

@@ -1,0 +1,72 @@
+//! What the queries before the cases found.
+
+use serde::{Deserialize, Serialize};
+
+/// What the queries before the cases found.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoundReport {
+    /// Number of requests that this took.
+    pub requests: usize,
+    /// The AMS ports that answer, and the numbers of the active channels; none with `--profile`,
+    /// which says so itself.
+    pub ports: Vec<u16>,
+    pub channels: Vec<u32>,
+    /// Number of axes of the platform.
+    pub platform_axes: u32,
+    /// Number of spindles.
+    pub spindles: u32,
+    /// The lists that have a number of items.
+    pub lists: Vec<FoundList>,
+}
+
+/// A list of objects, elements, variables or parameters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoundList {
+    /// Its name, as `browse` has it.
+    pub name: String,
+    /// Number of its items.
+    pub items: u32,
+    /// Number of items that the cases read: fewer than `items` in a sample by the seed.
+    pub read: u32,
+}
+
+/// Maximum number of sampled lists that a text names.
+const NAMED_MAX: usize = 6;
+
+fn joined<T: ToString>(numbers: &[T]) -> String {
+    numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+impl FoundReport {
+    /// What was found, in one line.
+    pub fn summary(&self) -> String {
+        let mut parts = Vec::new();
+        if !self.ports.is_empty() {
+            parts.push(format!("ports {}", joined(&self.ports)));
+            parts.push(format!("channels {}", joined(&self.channels)));
+        }
+        let items: u64 = self.lists.iter().map(|list| u64::from(list.items)).sum();
+        parts.push(format!("{} platform axes", self.platform_axes));
+        parts.push(format!("{} spindles", self.spindles));
+        parts.push(format!("{items} items in {} lists", self.lists.len()));
+        format!("{}; {} requests", parts.join(", "), self.requests)
+    }
+
+    /// The lists that are not read whole, in one line; `None` if all are.
+    pub fn sampled(&self) -> Option<String> {
+        let sampled: Vec<String> = self
+            .lists
+            .iter()
+            .filter(|list| list.read < list.items)
+            .map(|list| format!("{}: {} of {}", list.name, list.read, list.items))
+            .collect();
+        let named = sampled.iter().take(NAMED_MAX).cloned().collect::<Vec<_>>().join(", ");
+        match sampled.len().saturating_sub(NAMED_MAX) {
+            _ if sampled.is_empty() => None,
+            0 => Some(format!("{named}; by the seed")),
+            more => Some(format!("{named} and {more} more lists; by the seed")),
+        }
+    }
+}
