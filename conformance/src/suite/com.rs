@@ -77,7 +77,7 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
         let list = ObjectList::from(channel);
         let mut ids = HashSet::new();
         let number = known_object_count(probe, list)?;
-        for first in probe.numbers(number) {
+        for first in probe.object_numbers(number) {
             let one = read_descriptors(probe, COM_2, list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
             let id = object.id();
@@ -129,7 +129,7 @@ fn in_sequence(probe: &mut Probe<'_>) -> Step {
 }
 
 fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
-    let chosen = probe.numbers(number);
+    let chosen = probe.object_numbers(number);
     let half = number.div_ceil(2);
     let mut reads = vec![(1, number), (half, 3), (2, number.saturating_sub(1)), (number, 1)];
     reads.extend(chosen.iter().map(|&first| (first, 2)));

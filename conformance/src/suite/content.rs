@@ -134,7 +134,7 @@ fn everything(probe: &mut Probe<'_>) -> Step {
         };
         let ObjectCount(count) = probe.read(rule, CountObjects::new(list))?;
         let mut ids = HashSet::new();
-        for first in probe.numbers(count) {
+        for first in probe.object_numbers(count) {
             let one = ReadDescriptors::new(list, first, 1)?;
             let one: Descriptors = probe.read(rule, one)?;
             let id = one.as_ref().get(0).map(|object| object.id());

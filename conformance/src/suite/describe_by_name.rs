@@ -8,7 +8,7 @@ use ads_cnc::{
 };
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, name_of};
+use super::kit::{ItemKind, Probe, name_of};
 use super::row::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
@@ -36,7 +36,7 @@ fn extended(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
             let count = count(probe, channel, kind)?;
-            for index in probe.sample(0..count) {
+            for index in probe.sample(ItemKind::Variable, 0..count) {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
                 if kind == Kind::V_E {

@@ -7,7 +7,7 @@ use ads_cnc::ads::{AmsPort, DeviceInfoReply};
 use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
 use ads_cnc::{Kind, VariableCount};
 
-use super::kit::{Counted, Probe, RawCall, TargetState, ask_if_claimed};
+use super::kit::{Counted, Probe, RawCall, SampleSizes, TargetState, ask_if_claimed};
 use crate::client::InquiryReply;
 use crate::judge::{IfPresent as _, Step, Stop};
 use crate::objects::{Walker, active_channels, decoder_of};
@@ -58,9 +58,16 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let spindles = instances.iter().filter(|one| one.class == Class::Spindle).count();
     found.spindles = u32::try_from(spindles).unwrap_or(u32::MAX);
     found.platform_axes = probe.target.profile.platform_axes;
-    for (counted, items) in Counted::all(probe)? {
-        let read = u32::try_from(probe.numbers(items).len()).unwrap_or(u32::MAX);
-        found.lists.push(FoundList { name: counted.list().to_string(), items, read });
+    let lists = Counted::all(probe)?;
+    let kinds = lists.iter().filter_map(|(list, items)| Some((list.kind()?, *items)));
+    probe.target.sample_sizes = SampleSizes::new(&kinds.collect::<Vec<_>>());
+    probe.choose_elements();
+    for (list, items) in lists {
+        let read = match list.kind() {
+            Some(kind) => u32::try_from(probe.sample(kind, 0..items).len()).unwrap_or(items),
+            None => items,
+        };
+        found.lists.push(FoundList { name: list.list().to_string(), items, read });
     }
     Ok(())
 }

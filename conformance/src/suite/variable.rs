@@ -14,7 +14,7 @@ use ads_cnc::{
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, VARIABLES_MAX, name_of};
+use super::kit::{ItemKind, Probe, VARIABLES_MAX, name_of};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, assumed};
 use crate::objects::KINDS;
@@ -75,7 +75,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
             let number = number(probe, channel, kind)?;
-            let chosen = probe.sample(0..number);
+            let chosen = probe.sample(ItemKind::Variable, 0..number);
             let mut names = HashSet::new();
             let mut all = Vec::new();
             // Names are unique among all variables, not only among those chosen.

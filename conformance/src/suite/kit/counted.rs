@@ -11,7 +11,7 @@ use ads_cnc::{Kind, ObjectCount, VariableCount};
 
 use crate::judge::{IfPresent as _, Step};
 use crate::objects::List;
-use crate::suite::kit::{Instance, Probe};
+use crate::suite::kit::{Instance, ItemKind, Probe};
 
 /// A list whose items are requested by their number from 1.
 #[derive(Clone, Debug)]
@@ -45,6 +45,16 @@ impl Counted {
             counted.extend(number.map(|number| (one, number)));
         }
         Ok(counted)
+    }
+
+    /// What the list has; `None` for parameters, which come and go.
+    pub(crate) const fn kind(&self) -> Option<ItemKind> {
+        match self {
+            Self::Objects(_) => Some(ItemKind::Object),
+            Self::Variables(..) => Some(ItemKind::Variable),
+            Self::Elements(_) => Some(ItemKind::Element),
+            Self::Parameters(..) => None,
+        }
     }
 
     /// The name of the list.

@@ -19,7 +19,7 @@ pub(crate) use variables::{DescribedList, VARIABLES_MAX, name_of};
 use crate::judge::{OrStop as _, Step, Stop};
 use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
 use crate::profile::Claim;
-use crate::suite::kit::{Instance, Probe};
+use crate::suite::kit::{Instance, ItemKind, Probe};
 
 /// Maximum number of objects of a list, and of elements of an instance, that are read.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
@@ -111,13 +111,13 @@ impl Probe<'_> {
     }
 
     /// The items of a list that the cases read, in order.
-    pub(crate) fn sample(&self, items: Range<u32>) -> Vec<u32> {
-        self.target.sample.of(items)
+    pub(crate) fn sample(&self, kind: ItemKind, items: Range<u32>) -> Vec<u32> {
+        self.target.sample.of(items, self.target.sample_sizes.of(kind))
     }
 
-    /// The numbers from 1 on of the items of a list that the cases read.
-    pub(crate) fn numbers(&self, count: u32) -> Vec<u32> {
-        self.sample(1..count.saturating_add(1))
+    /// The numbers from 1 on of the objects of a list that the cases read.
+    pub(crate) fn object_numbers(&self, count: u32) -> Vec<u32> {
+        self.sample(ItemKind::Object, 1..count.saturating_add(1))
     }
 
     /// The objects of all lists that the cases read. Other cases judge a descriptor that cannot be read.
@@ -126,7 +126,7 @@ impl Probe<'_> {
             let mut all = Vec::new();
             for list in self.lists()? {
                 let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
-                let numbers = self.numbers(count.map_or(0, |count| count.0));
+                let numbers = self.object_numbers(count.map_or(0, |count| count.0));
                 self.each(numbers, |probe, number| {
                     let Ok(read) = ReadDescriptors::new(list, number, 1) else { return Ok(false) };
                     let one: Option<Descriptors> = probe.try_read(read)?;
@@ -186,9 +186,18 @@ impl Probe<'_> {
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
         let count = if is_itself { reached } else { reported };
-        let chosen = self.numbers(reached);
+        let chosen = self.sample(ItemKind::Element, 1..reached.saturating_add(1));
         all.push(Instance { class, channel, axis, first, reported, count, reached, chosen });
         Ok(true)
+    }
+
+    /// Chooses the elements that the cases read again, after the sizes of samples changed.
+    pub(crate) fn choose_elements(&mut self) {
+        let (sample, sizes) = (self.target.sample, self.target.sample_sizes);
+        for one in self.target.instances.iter_mut().flatten() {
+            let numbers = 1..one.reached.saturating_add(1);
+            one.chosen = sample.of(numbers, sizes.of(ItemKind::Element));
+        }
     }
 
     /// The number of elements up to the last that has a name, of `count` that the target reports.

@@ -47,6 +47,7 @@ pub use probe::Probe;
 pub(crate) use probe::{ask_if_claimed, with_reply};
 pub(crate) use raw_call::{IntoRawCall, RawCall};
 pub use sample::Sample;
+pub(crate) use sample::{ItemKind, SampleSizes};
 pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{STREAM_BUFFER_LEN, StreamWrite, send, send_until_taken};

@@ -11,7 +11,7 @@ use crate::judge::Record;
 use crate::objects::Object;
 use crate::profile::Profile;
 use crate::simulator::Cnc;
-use crate::suite::kit::{Changes, DescribedList, Instance, Sample};
+use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
 
 /// A connection to a target, and the state that the cases of a run have found so far.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub struct TargetState {
     pub profile: Profile,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
+    /// How many of them.
+    pub(in crate::suite) sample_sizes: SampleSizes,
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
     /// Its objects, read when a case first needs them.
@@ -64,6 +66,7 @@ impl TargetState {
             client,
             profile,
             sample: Sample::All,
+            sample_sizes: SampleSizes::DEFAULT,
             variables: BTreeMap::new(),
             objects: None,
             instances: None,

@@ -10,7 +10,7 @@ use ads_cnc_vectors::ClauseId;
 
 use crate::judge::{Step, Stop, applicable};
 use crate::objects::KINDS;
-use crate::suite::kit::Probe;
+use crate::suite::kit::{ItemKind, Probe};
 
 /// Maximum number of variables of a kind that are read.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
@@ -54,7 +54,7 @@ impl Probe<'_> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
             let count = self.count_described(channel, name, kind)?;
-            let indices = self.sample(0..count);
+            let indices = self.sample(ItemKind::Variable, 0..count);
             all.extend(self.described(channel, (name, kind), indices)?);
         }
         applicable(!all.is_empty(), "the target has no variable")?;
