@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct FoundReport {
     /// Number of requests that this took.
     pub requests: usize,
+    /// About as many requests the cases were expected to send, those of `--allow-write` not counted.
+    pub expected: u64,
     /// The AMS ports that answer, and the numbers of the active channels; none with `--profile`,
     /// which says so itself.
     pub ports: Vec<u16>,

@@ -7,7 +7,9 @@ use ads_cnc::ads::{AmsPort, DeviceInfoReply};
 use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
 use ads_cnc::{Kind, VariableCount};
 
-use super::kit::{Counted, Probe, RawCall, SampleSizes, TargetState, ask_if_claimed};
+use super::kit::{
+    Counted, ItemKind, Probe, RawCall, SampleSizes, TargetState, VARIABLES_MAX, ask_if_claimed,
+};
 use crate::client::InquiryReply;
 use crate::judge::{IfPresent as _, Step, Stop};
 use crate::objects::{Walker, active_channels, decoder_of};
@@ -27,6 +29,15 @@ pub enum ClaimsBy {
 pub struct Discovery {
     pub found: FoundReport,
     pub time: Duration,
+}
+
+impl Discovery {
+    /// How long this many requests take, if each takes as long as those of the discovery did.
+    pub fn time_for(&self, requests: u64) -> Duration {
+        let each = self.time.checked_div(u32::try_from(self.found.requests).unwrap_or(u32::MAX));
+        let nanoseconds = each.unwrap_or_default().as_nanos().saturating_mul(requests.into());
+        Duration::from_nanos(u64::try_from(nanoseconds).unwrap_or(u64::MAX))
+    }
 }
 
 /// Finds the channels, axes, lists and ports of a target. Without a file for `--profile` its answers
@@ -58,6 +69,8 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let spindles = instances.iter().filter(|one| one.class == Class::Spindle).count();
     found.spindles = u32::try_from(spindles).unwrap_or(u32::MAX);
     found.platform_axes = probe.target.profile.platform_axes;
+    let channels = u64::try_from(probe.channels()?.len()).unwrap_or_default();
+    found.expected = channels.saturating_mul(PER_CHANNEL);
     let lists = Counted::all(probe)?;
     let kinds = lists.iter().filter_map(|(list, items)| Some((list.kind()?, *items)));
     probe.target.sample_sizes = SampleSizes::new(&kinds.collect::<Vec<_>>());
@@ -67,9 +80,30 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
             Some(kind) => u32::try_from(probe.sample(kind, 0..items).len()).unwrap_or(items),
             None => items,
         };
+        found.expected = found.expected.saturating_add(requests_for(list.kind(), items, read));
         found.lists.push(FoundList { name: list.list().to_string(), items, read });
     }
     Ok(())
+}
+
+/// About as many requests the cases send for a channel, whatever is in its lists.
+const PER_CHANNEL: u64 = 2_000;
+
+/// About as many requests the cases send for a list; `tests/large.rs` compares the sum with those that
+/// are sent.
+fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
+    let (list, item) = match kind {
+        Some(ItemKind::Object) => (0, 13),
+        Some(ItemKind::Variable) => (0, 29),
+        Some(ItemKind::Element) => (35, 35),
+        None => (0, 30),
+    };
+    // Of every variable the name is read.
+    let names = match kind {
+        Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
+        _ => 0,
+    };
+    u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
 }
 
 /// Claims the ports that answer; all if none does, which the cases judge.

@@ -10,12 +10,12 @@ use crate::cli::message::print_error;
 use crate::cli::report_output::show;
 use crate::cli::run_dry;
 use crate::faults::{Faulty, Seed};
-use crate::judge::{CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
+use crate::judge::{Case, CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Changes, ClaimsBy, Sample, TargetState};
+use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState};
 use crate::text::Moment;
 
 impl Run {
@@ -52,6 +52,7 @@ impl Run {
         let mut session = session.with_sample(sample);
         let by = if self.profile.is_some() { ClaimsBy::Profile } else { ClaimsBy::Queries };
         let discovery = suite::discover(&mut session, by);
+        print_forecast(&discovery, &plan);
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
@@ -128,6 +129,27 @@ impl Run {
         let file = self.target.capture().unwrap_or(Path::new("the capture"));
         ToolError::Internal(format!("{}: {error}", file.display()))
     }
+}
+
+/// Says what was found, and what the selected cases will take.
+fn print_forecast(discovery: &Discovery, plan: &Plan) {
+    let found = &discovery.found;
+    print_error(format_args!("found {}", found.summary()));
+    if let Some(sampled) = found.sampled() {
+        print_error(format_args!("sampled (--all reads all): {sampled}"));
+    }
+    let of_queries =
+        |cases: &[Case]| cases.iter().filter(|one| one.needs == Needs::Queries).count();
+    let [selected, all] = [&plan.cases, &suite::cases()].map(|cases| of_queries(cases));
+    let share = |number: u64| number.saturating_mul(selected as u64).checked_div(all as u64);
+    let requests = share(found.expected).unwrap_or_default();
+    let seconds = discovery.time_for(requests).as_secs();
+    let each = discovery.time_for(1).as_secs_f64() * 1000.0;
+    print_error(format_args!(
+        "the queries of the cases: about {requests} requests, {each:.1} ms each: {} min {} s",
+        seconds / 60,
+        seconds % 60
+    ));
 }
 
 /// Whether the case writes and has been executed.

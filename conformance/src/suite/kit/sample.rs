@@ -55,6 +55,15 @@ impl Sample {
         });
         (start..first).chain(between).chain(last..end).collect()
     }
+
+    /// The chosen items of a list that is known.
+    pub(crate) fn among<T>(self, items: Vec<T>, most: u32) -> Vec<T> {
+        let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
+        let chosen = self.of(0..count, most);
+        let numbered = (0..).zip(items);
+        let kept = numbered.filter(|(number, _)| chosen.binary_search(number).is_ok());
+        kept.map(|(_, item)| item).collect()
+    }
 }
 
 /// What a list has.
