@@ -20,7 +20,7 @@ pub(crate) fn each_variable(
 }
 
 /// Maximum number of arrays of all channels in a sample: each is read element by element.
-const ARRAYS_MAX: u32 = 32;
+const ARRAYS_MAX: u32 = 64;
 
 /// Calls a function for every array that the cases read.
 pub(crate) fn each_array(
