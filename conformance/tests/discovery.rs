@@ -32,7 +32,8 @@ fn outcomes(target: &mut TargetState) -> Vec<CaseOutcome> {
 fn the_default_model_is_found_without_a_profile() {
     let (target, Discovery { found, .. }) = discovered(None);
     assert_eq!(found.ports, [551, 552, 553]);
-    assert_eq!(found.channels, [1, 2, 6]);
+    let channels: Vec<_> = found.channels.iter().map(|one| (one.number, one.axes)).collect();
+    assert_eq!(channels, [(1, 3), (2, 3), (6, 3)]);
     assert_eq!((found.platform_axes, found.spindles), (5, 2));
     assert_eq!(target.profile.channels[..], [1, 2, 6]);
     assert_eq!(target.profile.absent_channel, Some(3));

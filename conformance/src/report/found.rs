@@ -10,16 +10,24 @@ pub struct FoundReport {
     pub requests: usize,
     /// About as many requests the cases were expected to send, those of `--allow-write` not counted.
     pub expected: u64,
-    /// The AMS ports that answer, and the numbers of the active channels; none with `--profile`,
-    /// which says so itself.
+    /// The AMS ports that answer; none with `--profile`, which names them.
     pub ports: Vec<u16>,
-    pub channels: Vec<u32>,
+    /// The channels that are judged.
+    pub channels: Vec<FoundChannel>,
     /// Number of axes of the platform.
     pub platform_axes: u32,
     /// Number of spindles.
     pub spindles: u32,
     /// The lists that have a number of items.
     pub lists: Vec<FoundList>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoundChannel {
+    pub number: u32,
+    /// Number of its places for axes, with an axis or without.
+    pub axes: u32,
 }
 
 /// A list of objects, elements, variables or parameters.
@@ -37,8 +45,8 @@ pub struct FoundList {
 /// Maximum number of sampled lists that a text names.
 const NAMED_MAX: usize = 6;
 
-fn joined<T: ToString>(numbers: &[T]) -> String {
-    numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+fn joined(texts: impl Iterator<Item = String>) -> String {
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 impl FoundReport {
@@ -46,14 +54,16 @@ impl FoundReport {
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
         if !self.ports.is_empty() {
-            parts.push(format!("ports {}", joined(&self.ports)));
-            parts.push(format!("channels {}", joined(&self.channels)));
+            parts.push(format!("ports {}", joined(self.ports.iter().map(ToString::to_string))));
         }
+        let channels = self.channels.iter();
+        let channels = channels.map(|one| format!("{} with {} axes", one.number, one.axes));
+        parts.push(format!("channel {}", joined(channels)));
+        let (axes, spindles) = (self.platform_axes, self.spindles);
+        parts.push(format!("{axes} axes of the platform, {spindles} spindles"));
         let items: u64 = self.lists.iter().map(|list| u64::from(list.items)).sum();
-        parts.push(format!("{} platform axes", self.platform_axes));
-        parts.push(format!("{} spindles", self.spindles));
         parts.push(format!("{items} items in {} lists", self.lists.len()));
-        format!("{}; {} requests", parts.join(", "), self.requests)
+        format!("{}, by {} requests", parts.join("; "), self.requests)
     }
 
     /// The lists that are not read whole, in one line; `None` if all are.
@@ -64,7 +74,7 @@ impl FoundReport {
             .filter(|list| list.read < list.items)
             .map(|list| format!("{}: {} of {}", list.name, list.read, list.items))
             .collect();
-        let named = sampled.iter().take(NAMED_MAX).cloned().collect::<Vec<_>>().join(", ");
+        let named = joined(sampled.iter().take(NAMED_MAX).cloned());
         match sampled.len().saturating_sub(NAMED_MAX) {
             _ if sampled.is_empty() => None,
             0 => Some(format!("{named}; by the seed")),

@@ -22,7 +22,7 @@ pub use build::About;
 pub use bytes::{BytesReport, FieldReport};
 pub use console::print;
 pub use device::DeviceReport;
-pub use found::{FoundList, FoundReport};
+pub use found::{FoundChannel, FoundList, FoundReport};
 pub use html::to_html;
 pub use junit::to_junit;
 pub use markdown::to_markdown;

@@ -8,12 +8,13 @@ use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task
 use ads_cnc::{Kind, VariableCount};
 
 use super::kit::{
-    Counted, ItemKind, Probe, RawCall, SampleSizes, TargetState, VARIABLES_MAX, ask_if_claimed,
+    Counted, ItemKind, OF_PLACES, Probe, RawCall, SampleSizes, TargetState, VARIABLES_MAX,
+    ask_if_claimed,
 };
 use crate::client::InquiryReply;
 use crate::judge::{IfPresent as _, Step, Stop};
 use crate::objects::{Walker, active_channels, decoder_of};
-use crate::report::{FoundList, FoundReport};
+use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// Who says which parts of the target are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,15 +62,18 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
         claim_ports(probe)?;
         claim_channels(probe)?;
         claim_axes(probe)?;
-        let profile = &probe.target.profile;
-        found.ports = profile.ports.to_vec();
-        found.channels = profile.channels.to_vec();
+        found.ports = probe.target.profile.ports.to_vec();
     }
     let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    for number in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
+        let places = instances.iter().filter(|one| OF_PLACES.contains(&one.class));
+        let places = places.filter(|one| one.channel == number).map(|one| one.axis);
+        found.channels.push(FoundChannel { number, axes: places.max().unwrap_or_default() });
+    }
     let spindles = instances.iter().filter(|one| one.class == Class::Spindle).count();
     found.spindles = u32::try_from(spindles).unwrap_or(u32::MAX);
     found.platform_axes = probe.target.profile.platform_axes;
-    let channels = u64::try_from(probe.channels()?.len()).unwrap_or_default();
+    let channels = u64::try_from(found.channels.len()).unwrap_or_default();
     found.expected = channels.saturating_mul(PER_CHANNEL);
     let lists = Counted::all(probe)?;
     let kinds = lists.iter().filter_map(|(list, items)| Some((list.kind()?, *items)));
