@@ -138,11 +138,11 @@ fn print_forecast(discovery: &Discovery, plan: &Plan) {
     if let Some(sampled) = found.sampled() {
         print_error(format_args!("sampled (--all reads all): {sampled}"));
     }
-    let of_queries =
-        |cases: &[Case]| cases.iter().filter(|one| one.needs == Needs::Queries).count();
-    let [selected, all] = [&plan.cases, &suite::cases()].map(|cases| of_queries(cases));
-    let share = |number: u64| number.saturating_mul(selected as u64).checked_div(all as u64);
-    let requests = share(found.expected).unwrap_or_default();
+    let queries = |cases: &[Case]| -> u64 {
+        cases.iter().filter(|one| one.needs == Needs::Queries).map(|_| 1_u64).sum()
+    };
+    let (selected, all) = (queries(&plan.cases), queries(&suite::cases()));
+    let requests = found.expected.saturating_mul(selected).checked_div(all).unwrap_or_default();
     let seconds = discovery.time_for(requests).as_secs();
     let each = discovery.time_for(1).as_secs_f64() * 1000.0;
     print_error(format_args!(
