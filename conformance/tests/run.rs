@@ -361,6 +361,6 @@ fn a_file_that_lets_nothing_be_written_is_said() {
     let found = said(own, later, "V.E.nothere");
     assert!(found.contains("nothing was written: "), "{found}");
     let found = said(own, later, "V.E.Testvar");
-    assert_eq!(found, "ads-cnc: ends after 14400 s at the latest (--deadline)\n");
+    assert!(found.contains("\nads-cnc: found ") && !found.contains("nothing "), "{found}");
     std::fs::remove_dir_all(&folder).unwrap();
 }

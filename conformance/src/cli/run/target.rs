@@ -143,6 +143,9 @@ fn print_forecast(discovery: &Discovery, plan: &Plan) {
     };
     let (selected, all) = (queries(&plan.cases), queries(&suite::cases()));
     let requests = found.expected.saturating_mul(selected).checked_div(all).unwrap_or_default();
+    if requests == 0 {
+        return;
+    }
     let seconds = discovery.time_for(requests).as_secs();
     let each = discovery.time_for(1).as_secs_f64() * 1000.0;
     print_error(format_args!(

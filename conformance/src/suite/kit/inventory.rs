@@ -14,7 +14,7 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ObjectAddress};
 use ads_cnc::{Descriptors, ObjectCount};
 
-pub(crate) use variables::{DescribedList, VARIABLES_MAX, name_of};
+pub(crate) use variables::{VARIABLES_MAX, name_of};
 
 use crate::judge::{OrStop as _, Step, Stop};
 use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};

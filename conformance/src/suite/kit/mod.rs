@@ -4,6 +4,7 @@ mod addresses;
 mod axis_interface;
 mod changes;
 mod counted;
+mod described_list;
 mod dynamic_variables;
 mod each_variable;
 mod element_type;
@@ -29,13 +30,13 @@ pub(crate) use axis_interface::{
 };
 pub use changes::Changes;
 pub(crate) use counted::Counted;
+pub(crate) use described_list::DescribedList;
 pub(crate) use dynamic_variables::dynamic_among_variables;
 pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use element_type::type_and_length;
 pub(crate) use instance::Instance;
 pub(crate) use inventory::{
-    DescribedList, INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads,
-    element_by_rank, name_of,
+    INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads, element_by_rank, name_of,
 };
 pub(crate) use layout::{
     brackets, element_count, element_name, element_size, order, part, places_tried,

@@ -1,7 +1,5 @@
 //! The descriptions of a channel's variables, each read once.
 
-use std::collections::BTreeMap;
-
 use ads_cnc::address::Channel;
 use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
@@ -10,7 +8,7 @@ use ads_cnc_vectors::ClauseId;
 
 use crate::judge::{Step, Stop, applicable};
 use crate::objects::KINDS;
-use crate::suite::kit::{ItemKind, Probe};
+use crate::suite::kit::{DescribedList, ItemKind, Probe};
 
 /// Maximum number of variables of a kind that are read.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
@@ -23,22 +21,6 @@ pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
 /// The variable, if its name has room for its NUL: otherwise it cannot be requested.
 fn requestable(variable: Description) -> Option<Description> {
     Some(variable).filter(|variable| variable.name.text.as_bytes().len() < TEXT_MAX)
-}
-
-/// The variables of a kind in a channel.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct DescribedList {
-    /// The number of variables according to the target.
-    count: u32,
-    /// The descriptions that were read, by index; `None` for a name that cannot be requested.
-    read: BTreeMap<u32, Option<Description>>,
-}
-
-impl DescribedList {
-    /// The descriptions that were read.
-    pub(crate) fn descriptions(&self) -> impl Iterator<Item = &Description> {
-        self.read.values().flatten()
-    }
 }
 
 impl Probe<'_> {
@@ -95,7 +77,7 @@ impl Probe<'_> {
             return Ok(known.count);
         }
         let count: VariableCount = self.read_unjudged(CountVariables::new(channel, kind))?;
-        let list = DescribedList { count: count.0, read: BTreeMap::new() };
+        let list = DescribedList { count: count.0, ..DescribedList::default() };
         self.target.variables.insert(key, list);
         Ok(count.0)
     }
