@@ -130,6 +130,7 @@ impl CheckArguments {
                 ..TargetReport::default()
             },
             profile: None,
+            found: None,
             waivers,
             frames: usize::try_from(checked.tally.frames).unwrap_or(usize::MAX),
             left_changed: Vec::new(),

@@ -40,6 +40,9 @@ const SELECTION: &str = "Selection";
 /// Without --target a simulated CNC is started on this machine and judged together with the codec.
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
 /// documented for. Some ask for what is not there, by one beyond the last, to see it refused.
+///
+/// Without --profile the run first asks which ports, channels and axes the device has, and judges all
+/// of them. Before the cases it says what it found, and how long they will take.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Exit codes: 0 passed, 1 failed, 2 wrong usage, 3 nothing judged, inconclusive or \
@@ -87,9 +90,14 @@ pub(super) struct Run {
     #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
-    /// The order of the cases [default: a new one each time, which the report names]
+    /// The order of the cases, and which items of long lists are read [default: a new one each time, which the report names]
     #[arg(long, help_heading = SELECTION, value_name = "N")]
     seed: Option<u32>,
+
+    /// Read every item of every list of a device, up to 10000. Otherwise, and unless something may be
+    /// written, a sample by the seed is read of a list of more than 256 items
+    #[arg(long, help_heading = SELECTION, requires = "target")]
+    all: bool,
 
     /// List what would be run and run nothing; with --json as data
     #[arg(long, help_heading = SELECTION)]
@@ -388,6 +396,7 @@ impl Run {
             only: self.only.clone(),
             target,
             profile: None,
+            found: None,
             waivers,
             frames: 0,
             left_changed: Vec::new(),

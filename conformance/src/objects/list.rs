@@ -42,6 +42,16 @@ pub enum List {
     Parameters { kind: DynamicKind, channel: u8 },
 }
 
+impl List {
+    /// The elements of an instance, by the channel and the axis of its request.
+    pub(crate) fn of_instance(class: Class, channel: u32, axis: u32) -> Self {
+        let is_of_channel = class == Class::Spindle || channel > 0;
+        let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);
+        let axis = u8::try_from(axis).ok().filter(|&axis| axis > 0);
+        Self::Class { class, channel, axis }
+    }
+}
+
 impl From<ObjectList> for List {
     fn from(list: ObjectList) -> Self {
         let parts = list.parts();

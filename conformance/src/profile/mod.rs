@@ -115,7 +115,7 @@ const LISTED: &[Cow<'static, str>] =
 const PORTS: &[u16] = &[AmsPort::GEO.0, AmsPort::SDA.0, AmsPort::COM.0];
 
 impl Profile {
-    /// The profile of an unknown device that has at least a first channel.
+    /// The profile of an unknown device that has at least a first channel, before it is asked.
     pub const DEVICE: Self = Self {
         name: Cow::Borrowed("device"),
         edition: Edition::English,

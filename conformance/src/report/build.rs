@@ -2,11 +2,11 @@
 
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
-use super::BytesReport;
 use super::model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals,
 };
+use super::{BytesReport, FoundReport};
 
 use crate::edition::Edition;
 use crate::explain;
@@ -30,6 +30,8 @@ pub struct About {
     pub only: Vec<String>,
     pub target: TargetReport,
     pub profile: Option<Profile>,
+    /// What the queries before the cases found.
+    pub found: Option<FoundReport>,
     /// Known failures.
     pub waivers: Waivers,
     pub frames: usize,
@@ -40,8 +42,18 @@ pub struct About {
 impl Report {
     /// Builds the report of a run.
     pub fn new(about: About, outcomes: &[CaseOutcome], left_out: &[LeftOut]) -> Self {
-        let About { time, edition, seed, only, target, profile, waivers, frames, left_changed } =
-            about;
+        let About {
+            time,
+            edition,
+            seed,
+            only,
+            target,
+            profile,
+            found,
+            waivers,
+            frames,
+            left_changed,
+        } = about;
         let waivers = waivers.apply(outcomes, left_out, time);
         let cases: Vec<CaseReport> =
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
@@ -76,6 +88,7 @@ impl Report {
             only,
             target,
             profile: profile.as_ref().map(ProfileReport::from),
+            found,
             waivers,
             exit_code: tally.exit().code(),
             checks: outcomes.iter().map(|outcome| outcome.checks).sum(),
@@ -285,6 +298,7 @@ mod tests {
                 only: Vec::new(),
                 target: TargetReport::default(),
                 profile: None,
+                found: None,
                 waivers: Waivers::default(),
                 frames: 0,
                 left_changed: Vec::new(),

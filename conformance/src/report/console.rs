@@ -24,7 +24,7 @@ pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<
 }
 
 fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let Report { suite, vectors, editions, seed, only, target, profile, .. } = report;
+    let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
     writeln!(out, "ads-cnc {suite}, vectors {vectors}, by {editions}, seed {seed}")?;
     writeln!(out, "target   {}", describe(target))?;
@@ -40,6 +40,10 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         } else {
             writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?
         }
+    }
+    if let Some(found) = found {
+        writeln!(out, "found    {}", found.summary())?;
+        found.sampled().iter().try_for_each(|sampled| writeln!(out, "sampled  {sampled}"))?;
     }
     if !only.is_empty() {
         writeln!(out, "only     {}", only.join(", "))?;

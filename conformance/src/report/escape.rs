@@ -25,6 +25,7 @@ impl Report {
             only,
             target,
             profile,
+            found,
             waivers,
             exit_code: _,
             checks: _,
@@ -42,6 +43,8 @@ impl Report {
             let escaped = std::mem::take(claims).into_iter();
             *claims = escaped.map(|(key, claim)| (escape(&key), escape_value(claim))).collect();
         }
+        let lists = found.iter_mut().flat_map(|found| &mut found.lists);
+        all(lists.map(|list| &mut list.name));
         for WaiverReport { test, requirement, verdict: _, reason, expires, state: _, found: _ } in
             waivers
         {

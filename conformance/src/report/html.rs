@@ -8,6 +8,7 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
+use super::FoundReport;
 use super::console::describe;
 use super::model::{ProfileReport, Report};
 use crate::judge::{Exit, Verdict};
@@ -79,6 +80,8 @@ struct ReportView<'r> {
     target: String,
     device: Option<String>,
     claims: Option<Vec<(String, String)>>,
+    found: Option<String>,
+    sampled: Option<String>,
     left_changed: Vec<String>,
     verdicts: Vec<Verdict>,
     areas: BTreeSet<&'r str>,
@@ -102,6 +105,8 @@ impl<'r> ReportView<'r> {
             target: describe(&report.target),
             device: report.target.device.as_ref().map(ToString::to_string),
             claims: report.profile.as_ref().map(claims),
+            found: report.found.as_ref().map(FoundReport::summary),
+            sampled: report.found.as_ref().and_then(FoundReport::sampled),
             left_changed: report.left_changed.iter().map(ToString::to_string).collect(),
             verdicts: Verdict::ALL.into_iter().filter(occurs).collect(),
             areas: cases.iter().flat_map(areas).collect(),

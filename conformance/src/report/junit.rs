@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
+use super::FoundReport;
 use super::console::{describe, finding};
 use super::model::{CaseReport, Report};
 use crate::judge::{Verdict, WaiverReport};
@@ -124,7 +125,8 @@ fn begin_suite(xml: &mut Xml<'_>, report: &Report, name: &str, tests: Tests) -> 
 }
 
 fn properties(report: &Report) -> Vec<(&'static str, String)> {
-    let Report { suite, vectors, editions, seed, only, target, profile, waivers, .. } = report;
+    let Report { suite, vectors, editions, seed, only, target, profile, found, waivers, .. } =
+        report;
     let mut all = vec![
         ("suite", suite.clone()),
         ("vectors", vectors.clone()),
@@ -134,6 +136,9 @@ fn properties(report: &Report) -> Vec<(&'static str, String)> {
     ];
     all.extend(target.device.iter().map(|device| ("device", device.to_string())));
     all.extend(profile.iter().map(|profile| ("profile", profile.name.clone())));
+    all.extend(found.iter().map(|found| ("found", found.summary())));
+    let sampled = found.iter().filter_map(FoundReport::sampled);
+    all.extend(sampled.map(|sampled| ("sampled", sampled)));
     all.extend((!only.is_empty()).then(|| ("only", only.join(" "))));
     all.extend(waivers.iter().map(|waiver| ("waiver", in_words(waiver))));
     all.push(("exit_code", report.exit_code.to_string()));

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use super::FoundReport;
 use super::console::{counts, describe, finding, worded};
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
@@ -10,7 +11,7 @@ use crate::judge::{Exit, Verdict, WaiverReport};
 const FAILURES_MAX: usize = 48_000;
 
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let Report { suite, vectors, time, editions, seed, only, target, profile, .. } = report;
+    let Report { suite, vectors, time, editions, seed, only, target, profile, found, .. } = report;
     let verdict = if report.exit() == Exit::Success { "passed" } else { "not passed" };
     for left in &report.left_changed {
         writeln!(out, "**{}**\n", plain(&left.to_string()))?;
@@ -24,6 +25,8 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         ("target", Some(describe(target))),
         ("device", target.device.as_ref().map(ToString::to_string)),
         ("profile", profile),
+        ("found", found.as_ref().map(FoundReport::summary)),
+        ("sampled", found.as_ref().and_then(FoundReport::sampled)),
         ("only", Some(only.join(", "))),
         ("run", Some(format!("{time}, seed {seed}, exit code {}", report.exit_code))),
     ] {

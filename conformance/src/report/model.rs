@@ -6,7 +6,7 @@ use ads_cnc_vectors::Level;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{BytesReport, DeviceReport};
+use super::{BytesReport, DeviceReport, FoundReport};
 use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
 
 /// Version of this structure.
@@ -37,6 +37,9 @@ pub struct Report {
     pub target: TargetReport,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileReport>,
+    /// What the queries before the cases found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub found: Option<FoundReport>,
     /// Waivers and their states.
     pub waivers: Vec<WaiverReport>,
     /// The exit code this run ends with.

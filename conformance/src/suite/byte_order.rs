@@ -4,7 +4,6 @@ use std::fmt::Display;
 
 use ads_cnc::Handle;
 use ads_cnc::address::{Class, Group, IndexGroup};
-use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::HandleByName;
 use ads_cnc_vectors::ids::*;
 
@@ -20,36 +19,16 @@ pub(super) const CASES: &[CaseRow] = &[
         "Numbers in descriptors, descriptions and addresses come with their lowest byte first"),
 ];
 
-/// All claimed lists that have a number.
-fn counted(probe: &mut Probe<'_>) -> Step<Vec<Counted>> {
-    let mut all: Vec<Counted> = probe.lists()?.into_iter().map(Counted::Objects).collect();
-    for channel in probe.channels()? {
-        let listed = probe.kinds().into_iter();
-        all.extend(listed.map(|(name, kind)| Counted::Variables(channel, name, kind)));
-        all.extend(DynamicKind::ALL.map(|kind| Counted::Parameters(channel, kind)));
-    }
-    let instances = probe.instances().if_applicable()?.unwrap_or_default();
-    all.extend(instances.into_iter().map(Counted::Elements));
-    let mut claimed = Vec::new();
-    for one in all {
-        if one.number(probe).if_applicable()?.is_some() {
-            claimed.push(one);
-        }
-    }
-    Ok(claimed)
-}
-
 /// A number that is wrong, but right with reversed bytes, breaks the byte order.
 fn number_order(probe: &mut Probe<'_>) -> Step {
-    for one in counted(probe)? {
-        let Some(number) = one.number(probe)? else { continue };
+    for (one, number) in Counted::all(probe)? {
         let from_behind = number.swap_bytes();
         if number == from_behind {
             continue;
         }
         let swapped = !one.has(probe, number)? && one.has(probe, from_behind)?;
         let found = || format!("{number:#x}, where the last is number {from_behind:#x}");
-        probe.check(GEN_1, !swapped, || format!("the number of {one}"), found);
+        probe.check(GEN_1, !swapped, || format!("the number of items of {one}"), found);
     }
     for channel in probe.channels()? {
         for variable in probe.variables(channel).if_known()?.unwrap_or_default() {

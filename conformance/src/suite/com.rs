@@ -1,8 +1,9 @@
 //! Cases of the COM task.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use ads_cnc::address::{Access, ComGroup, ComTable, Group};
+use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::value::DataType;
 use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
@@ -76,7 +77,8 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let list = ObjectList::from(channel);
         let mut ids = HashSet::new();
-        for first in 1..=known_object_count(probe, list)? {
+        let number = known_object_count(probe, list)?;
+        for first in probe.object_numbers(number) {
             probe.end_subject();
             let one = read_descriptors(probe, COM_2, list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
@@ -133,23 +135,33 @@ fn in_sequence(probe: &mut Probe<'_>) -> Step {
 }
 
 fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
-    let mut singles = Vec::new();
-    for first in 1..=number {
-        let request = ReadDescriptors::new(list, first, 1)?;
-        singles.push(probe.ask(COM_3, request)?);
-    }
+    let chosen = probe.object_numbers(number);
     let half = number.div_ceil(2);
     let mut reads = vec![(1, number), (half, 3), (2, number.saturating_sub(1)), (number, 1)];
-    reads.extend((1..number).map(|first| (first, 2)));
+    reads.extend(chosen.iter().map(|&first| (first, 2)));
+    let in_list = |&(first, count): &(u32, u32)| {
+        count > 0 && first.saturating_sub(1).saturating_add(count) <= number
+    };
+    reads.retain(in_list);
+    let short = reads.iter().filter(|(_, count)| *count <= 3);
+    let mut numbers: BTreeSet<u32> =
+        short.flat_map(|&(first, count)| (first..=number).take(usize_of(count))).collect();
+    numbers.extend(chosen);
+    let mut singles = BTreeMap::new();
+    for &first in &numbers {
+        let request = ReadDescriptors::new(list, first, 1)?;
+        singles.insert(first, probe.ask(COM_3, request)?);
+    }
     for (first, count) in reads {
-        let skip = first.saturating_sub(1);
-        if count == 0 || skip.saturating_add(count) > number {
-            continue;
-        }
         // The maximum that fits into a frame.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask(COM_3, request)?;
-        let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));
+        // What was not read by itself is as it is there.
+        let mut parts = together.chunks(DESCRIPTOR_LEN);
+        let alone = (first..=number).take(usize_of(count)).map(|number| {
+            let part = parts.next().unwrap_or_default();
+            singles.get(&number).map_or(part, Vec::as_slice)
+        });
         let alone: Vec<u8> = alone.flatten().copied().collect();
         let expected = || format!("{count} descriptors from {first} on, as they read one by one");
         let found = if together.len() == alone.len() {
@@ -191,7 +203,7 @@ fn odd_length(probe: &mut Probe<'_>) -> Step {
     for read_length in [85, 100, 167, 169] {
         let exchange = probe.call(&one.with(|call| call.read_length = read_length))?;
         let data = exchange.success();
-        let passed = data.is_some_and(|data| data.len() == ads_cnc::limits::DESCRIPTOR_LEN);
+        let passed = data.is_some_and(|data| data.len() == DESCRIPTOR_LEN);
         let expected = || format!("one descriptor for a read length of {read_length}");
         probe.check(assumed(COM_3), passed, expected, &exchange);
     }

@@ -8,7 +8,7 @@ use ads_cnc::{
 };
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, VARIABLES_MAX, name_of};
+use super::kit::{ItemKind, Probe, name_of};
 use super::row::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
@@ -29,13 +29,14 @@ pub(super) const CASES: &[CaseRow] = &[
 /// The number of variables of a kind; other cases judge it.
 fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
     let count = probe.try_read::<VariableCount>(CountVariables::new(channel, kind))?;
-    Ok(count.map_or(0, |count| count.0.min(VARIABLES_MAX)))
+    Ok(count.map_or(0, |count| count.0))
 }
 
 fn extended(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
-            for index in 0..count(probe, channel, kind)? {
+            let count = count(probe, channel, kind)?;
+            for index in probe.sample(ItemKind::Variable, 0..count) {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
                 if kind == Kind::V_E {

@@ -1,7 +1,7 @@
 //! Cases of rules for all streams: tasks and ports, start of numbering, sizes of types, code page
 //! of texts.
 
-use ads_cnc::address::{ChannelAxis, Class, IndexGroup};
+use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{
     AxisHandleByName, CountObjects, CountVariables, FindInstance, HandleByName, ReadByHandle,

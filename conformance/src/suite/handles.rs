@@ -138,7 +138,10 @@ fn stays(probe: &mut Probe<'_>) -> Step {
 fn unknown(probe: &mut Probe<'_>) -> Step {
     let mut taken = HashSet::new();
     for channel in probe.channels()? {
-        taken.extend(probe.variables(channel)?.into_iter().map(|variable| variable.handle.0));
+        let Some(all) = probe.all_variables(channel)? else {
+            return Err(Stop::not_applicable("not all handles are known: there are too many"));
+        };
+        taken.extend(all.into_iter().map(|variable| variable.handle.0));
     }
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;

@@ -11,6 +11,7 @@ mod com;
 mod content;
 mod describe_by_name;
 mod device;
+mod discovery;
 mod dynamic;
 mod elements;
 mod general;
@@ -42,7 +43,8 @@ mod write_sizes;
 mod write_texts;
 
 pub(crate) use com::descriptor_holds_together;
-pub use kit::{Changes, Probe, TargetState};
+pub use discovery::{ClaimsBy, Discovery, discover};
+pub use kit::{Changes, Probe, Sample, TargetState};
 pub use run::run;
 pub(crate) use variable::holds_together;
 

@@ -4,7 +4,7 @@ use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
+use super::kit::{Counted, ItemKind, Probe};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 
@@ -39,7 +39,7 @@ const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
 fn packed(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         let Ok(Some(number)) = Counted::Objects(list).number(probe) else { continue };
-        for first in 1..=number.min(OBJECTS_MAX) {
+        for first in probe.object_numbers(number) {
             let one = ReadDescriptors::new(list, first, 1)?;
             let Some(bytes) = probe.try_ask(one)? else { break };
             descriptor_is_packed(probe, &bytes);
@@ -49,7 +49,7 @@ fn packed(probe: &mut Probe<'_>) -> Step {
         for (name, kind) in probe.kinds() {
             let counted = Counted::Variables(channel, name, kind);
             let Ok(Some(number)) = counted.number(probe) else { continue };
-            for index in 0..number.min(VARIABLES_MAX) {
+            for index in probe.sample(ItemKind::Variable, 0..number) {
                 let describe = DescribeByIndex::new(channel, index, kind);
                 let Some(bytes) = probe.try_ask(describe)? else { break };
                 description_is_packed(probe, &bytes, name);

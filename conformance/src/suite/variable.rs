@@ -14,7 +14,7 @@ use ads_cnc::{
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, VARIABLES_MAX, name_of};
+use super::kit::{ItemKind, Probe, VARIABLES_MAX, name_of};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, assumed};
 use crate::objects::KINDS;
@@ -74,18 +74,25 @@ fn count(probe: &mut Probe<'_>) -> Step {
 fn descriptions(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in probe.kinds() {
-            let number = number(probe, channel, kind)?.min(VARIABLES_MAX);
+            let number = number(probe, channel, kind)?;
+            let chosen = probe.sample(ItemKind::Variable, 0..number);
             let mut names = HashSet::new();
             let mut all = Vec::new();
-            for index in 0..number {
-                let request = DescribeByIndex::new(channel, index, kind);
-                let variable: Description = probe.read(VAR_4, request)?;
+            // Names are unique among all variables, not only among those chosen.
+            let last = chosen.iter().copied().filter(|index| *index >= VARIABLES_MAX);
+            for index in (0..number.min(VARIABLES_MAX)).chain(last) {
+                let is_chosen = chosen.binary_search(&index).is_ok();
+                let variable: Description = if is_chosen {
+                    probe.read(VAR_4, DescribeByIndex::new(channel, index, kind))?
+                } else {
+                    probe.judged_description(VAR_4, channel, (name, kind), index)?
+                };
                 probe.set_subject(&variable.name.text);
                 holds_together(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
                 let found = || format!("{} again at index {index}", variable.name.text);
                 probe.check(VAR_3, unique, "another variable at each index", found);
-                all.push(variable);
+                all.extend(is_chosen.then_some((index, variable)));
             }
             probe.end_subject();
             descriptions_backwards(probe, channel, kind, &all)?;
@@ -100,10 +107,9 @@ fn descriptions_backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: Kind<'_>,
-    all: &[Description],
+    all: &[(u32, Description)],
 ) -> Step {
-    let indexed: Vec<(u32, &Description)> = (0..).zip(all).collect();
-    for (index, first) in indexed.into_iter().rev() {
+    for &(index, ref first) in all.iter().rev() {
         let mut is_first = || -> Step<bool> {
             let read = probe.try_read(DescribeByIndex::new(channel, index, kind))?;
             Ok(read.as_ref() == Some(first))
@@ -227,9 +233,10 @@ fn structures(name: &str) -> Vec<&str> {
 
 fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let variables = probe.variables(channel)?;
+        let Some(all) = probe.all_variables(channel)? else { continue };
         let names: HashSet<String> =
-            variables.iter().map(|variable| variable.name.text.to_string()).collect();
+            all.iter().map(|variable| variable.name.text.to_string()).collect();
+        let variables = probe.variables(channel)?;
         let mut tried = HashSet::new();
         for leaf in &variables {
             let name = leaf.name.text.to_string();

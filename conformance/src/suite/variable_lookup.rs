@@ -4,7 +4,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{HandleByName, ReadByName};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{CncStr, CncString, Description, TextRef};
+use ads_cnc::{CncStr, CncString, TextRef};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
@@ -84,15 +84,15 @@ fn other_structures(name: &str) -> Vec<String> {
 
 fn similar_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
+        let Some(all) = probe.all_variables(channel)? else { continue };
         let mut variables = probe.variables(channel)?;
         // Whether names are case-sensitive is not stated.
-        let is_there = |name: &[u8], variables: &[Description]| {
-            variables.iter().any(|one| one.name.text.as_bytes().eq_ignore_ascii_case(name))
-        };
+        let is_there =
+            |name: &[u8]| all.iter().any(|one| one.name.text.as_bytes().eq_ignore_ascii_case(name));
         variables.sort_by_key(|one| std::cmp::Reverse(one.name.text.as_bytes().len()));
         for known in variables.iter().take(NAMES_MAX) {
             let others = similar_names(known.name.text.as_bytes()).into_iter();
-            let fits = |name: &Vec<u8>| name.len() < TEXT_MAX && !is_there(name, &variables);
+            let fits = |name: &Vec<u8>| name.len() < TEXT_MAX && !is_there(name);
             let name = known.name.text.to_string();
             for other in other_structures(&name) {
                 let Ok(other) = other.parse::<CncString>() else { continue };
@@ -106,7 +106,7 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    Ok(())
+    probe.finish("not all names are known: there are too many variables")
 }
 
 fn apart(

@@ -9,12 +9,12 @@ use crate::cli::message::print_error;
 use crate::cli::report_output::show;
 use crate::cli::run_dry;
 use crate::faults::{Faulty, Seed};
-use crate::judge::{CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
+use crate::judge::{Case, CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Changes, TargetState};
+use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState};
 use crate::text::Moment;
 
 impl Run {
@@ -45,7 +45,13 @@ impl Run {
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
         let session = TargetState::new(client, profile);
+        let sample =
+            if self.all || self.target.has_file() { Sample::All } else { Sample::BySeed(seed) };
         let session = session.with_changes(changes.clone()).with_deadline(deadline);
+        let mut session = session.with_sample(sample);
+        let by = if self.profile.is_some() { ClaimsBy::Profile } else { ClaimsBy::Queries };
+        let discovery = suite::discover(&mut session, by);
+        print_forecast(&discovery, &plan);
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
@@ -53,7 +59,9 @@ impl Run {
             device,
             ..TargetReport::default()
         };
-        self.judge(plan, session, None, self.about(target, seed, waivers))
+        let about = self.about(target, seed, waivers);
+        let about = About { found: Some(discovery.found), ..about };
+        self.judge(plan, session, None, about)
     }
 
     /// Starts the simulated CNC, runs everything against it and stops it.
@@ -119,6 +127,30 @@ impl Run {
         let file = self.target.capture().unwrap_or(Path::new("the capture"));
         ToolError::Internal(format!("{}: {error}", file.display()))
     }
+}
+
+/// Says what was found, and what the selected cases will take.
+fn print_forecast(discovery: &Discovery, plan: &Plan) {
+    let found = &discovery.found;
+    print_error(format_args!("found {}", found.summary()));
+    if let Some(sampled) = found.sampled() {
+        print_error(format_args!("sampled (--all reads all): {sampled}"));
+    }
+    let queries = |cases: &[Case]| -> u64 {
+        cases.iter().filter(|one| one.needs == Needs::Queries).map(|_| 1_u64).sum()
+    };
+    let (selected, all) = (queries(&plan.cases), queries(&suite::cases()));
+    let requests = found.expected.saturating_mul(selected).checked_div(all).unwrap_or_default();
+    if requests == 0 {
+        return;
+    }
+    let seconds = discovery.time_for(requests).as_secs();
+    let each = discovery.time_for(1).as_secs_f64() * 1000.0;
+    print_error(format_args!(
+        "the queries of the cases: about {requests} requests, {each:.1} ms each: {} min {} s",
+        seconds / 60,
+        seconds % 60
+    ));
 }
 
 /// Whether the case writes and has been executed.

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use ads_cnc::ObjectCount;
 use ads_cnc::address::{Channel, IndexGroup, IndexOffset, PlatformAxis};
-use ads_cnc::operation::{CountObjects, ObjectList};
+use ads_cnc::operation::ObjectList;
 
 use super::super::List;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
@@ -56,14 +55,5 @@ impl Walk<'_> {
             }
         }
         Ok(Some(addresses))
-    }
-
-    /// The number of objects of a list; `None` if the target does not have the list.
-    pub(super) fn count_objects(
-        &mut self,
-        list: impl Into<ObjectList>,
-    ) -> Result<Option<u32>, ToolError> {
-        let count: Option<ObjectCount> = self.decoded(CountObjects::new(list))?;
-        Ok(count.map(|count| count.0).filter(|&count| count > 0))
     }
 }

@@ -57,10 +57,7 @@ impl Walk<'_> {
     /// Adds the elements of an instance; returns whether the target has it.
     fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, ToolError> {
         let query = FindInstance::new(class, channel, axis);
-        let is_of_channel = class == Class::Spindle || channel > 0;
-        let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);
-        let axis = u8::try_from(axis).ok().filter(|&axis| axis > 0);
-        let list = List::Class { class, channel, axis };
+        let list = List::of_instance(class, channel, axis);
         let found: Option<ObjectAddress> = self.decoded(query)?;
         let first = match found.map(|found| (found, found.first_element())) {
             Some((_, Ok(first))) => first,

@@ -1,5 +1,6 @@
 //! Reads the lists of a CNC; [`objects`](super) documents the requests.
 
+mod channels;
 mod com;
 mod elements;
 mod variables;
@@ -9,12 +10,12 @@ use std::collections::HashMap;
 
 use ads_cnc::CncString;
 use ads_cnc::address::{Channel, Class, ElementAddress};
-use ads_cnc::operation::{FindInstance, Request, Task};
-use ads_cnc::sda::ObjectAddress;
+use ads_cnc::operation::{Request, Task};
 
 use super::{List, Object, Pattern, ReportedAccess};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
+pub(crate) use channels::{active_channels, decoder_of};
 pub use walker::GAP;
 use walker::NUMBER_MAX;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
@@ -212,26 +213,10 @@ impl Walk<'_> {
         if !self.options.channels.is_empty() {
             return self.channels_given();
         }
-        let mut ranks = 0_usize;
-        for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
-            if self.count_objects(rank)?.is_none() {
-                break;
-            }
-            ranks = ranks.saturating_add(1);
-        }
-        let (mut found, mut gap) = (Vec::new(), 0_u32);
-        for number in (1..=NUMBER_MAX).map_while(|number| Channel::new(number).ok()) {
-            if found.len() >= ranks && (ranks > 0 || gap >= GAP) {
-                break;
-            }
-            let is_there = match ranks {
-                0 => self.is_instance(decoder_of(number))?,
-                _ => self.count_objects(number)?.is_some(),
-            };
-            gap = if is_there { 0 } else { gap.saturating_add(1) };
-            found.extend(is_there.then_some(number));
-        }
-        Ok(found)
+        active_channels(self, |walk, number, has_objects| match has_objects {
+            true => Ok(walk.count_objects(number)?.is_some()),
+            false => walk.is_instance(decoder_of(number)),
+        })
     }
 
     /// The channels of the options that the target has, each once.
@@ -249,11 +234,6 @@ impl Walk<'_> {
             }
         }
         Ok(found)
-    }
-
-    fn is_instance(&mut self, query: FindInstance) -> Result<bool, ToolError> {
-        let found: Option<ObjectAddress> = self.decoded(query)?;
-        Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
     }
 }
 
@@ -288,9 +268,4 @@ impl Walker for Walk<'_> {
             Err(error) => Err(error),
         }
     }
-}
-
-/// A decoder exists even for a channel without objects.
-fn decoder_of(channel: Channel) -> FindInstance {
-    FindInstance::new(Class::Decoder, channel.number().into(), 0)
 }

@@ -1,9 +1,11 @@
 //! The requests that every walk sends, and the end of its lists.
 
 use ads_cnc::address::{Channel, Class, ElementAddress};
-use ads_cnc::operation::{CountElements, ObjectList, ReadDescriptors, Request};
-use ads_cnc::sda::{ElementCount, ElementLength};
-use ads_cnc::{Decode, Descriptors, Kind};
+use ads_cnc::operation::{
+    CountElements, CountObjects, FindInstance, ObjectList, ReadDescriptors, Request,
+};
+use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
+use ads_cnc::{Decode, Descriptors, Kind, ObjectCount};
 
 use super::super::Object;
 
@@ -51,6 +53,18 @@ pub(crate) trait Walker: Sized {
         T: for<'b> Decode<'b>,
     {
         Ok(self.request(request)?.and_then(|data| T::decode(&data).ok()))
+    }
+
+    /// The number of objects of a list; `None` if the target does not have the list.
+    fn count_objects(&mut self, list: impl Into<ObjectList>) -> Result<Option<u32>, Self::Error> {
+        let count: Option<ObjectCount> = self.decoded(CountObjects::new(list))?;
+        Ok(count.map(|count| count.0).filter(|&count| count > 0))
+    }
+
+    /// Whether the target has an instance.
+    fn is_instance(&mut self, query: FindInstance) -> Result<bool, Self::Error> {
+        let found: Option<ObjectAddress> = self.decoded(query)?;
+        Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
     }
 
     /// Visits numbers until [`GAP`] consecutive ones are rejected; returns how many are not

@@ -15,7 +15,7 @@ use crate::objects::{self, Object, Options};
 use crate::profile::Profile;
 use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
-use crate::suite;
+use crate::suite::{self, ClaimsBy};
 
 /// Valid variants, by position and digest of the first answer that differs from the CNC without a
 /// defect.
@@ -102,6 +102,8 @@ impl Device {
         }
         let (client, _) = session.into_parts();
         let mut session = suite::TargetState::new(client, profile);
+        let by = if mode.has_profile() { ClaimsBy::Profile } else { ClaimsBy::Queries };
+        suite::discover(&mut session, by);
         let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
         let plan = Selection::default().plan(cases, 1);
         let plan = plan.map_err(|error| ToolError::Internal(error.to_string()))?;

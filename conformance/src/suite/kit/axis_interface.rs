@@ -13,6 +13,9 @@ pub(crate) const PLACES_MAX: u32 = 64;
 /// Maximum number of consecutive places without an axis: such a place need not answer.
 const GAP_MAX: u32 = 4;
 
+/// Maximum number of names of a channel in a sample: each is requested at every place.
+const NAMES_MAX: u32 = 32;
+
 /// A place with a handle for a name.
 pub(crate) struct AxisHandle {
     pub(crate) axis: ChannelAxis,
@@ -58,7 +61,7 @@ pub(crate) fn axis_address(
     Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
 }
 
-/// The described axis variables of a channel, with their names on the axis interface.
+/// The described axis variables of a channel that the cases read, with their names on the axis interface.
 pub(crate) fn axis_variables(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -72,7 +75,11 @@ pub(crate) fn axis_variables(
         path.axis()?;
         Some((path.without_axis().ok()?, variable))
     });
-    Ok(of_axes.collect())
+    let mut of_axes: Vec<(CncString, Description)> = of_axes.collect();
+    let names = axis_names(&of_axes).into_iter().cloned().collect();
+    let names: Vec<CncString> = probe.target.sample.among(names, NAMES_MAX);
+    of_axes.retain(|(name, _)| names.contains(name));
+    Ok(of_axes)
 }
 
 pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncString> {

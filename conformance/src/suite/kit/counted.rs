@@ -9,8 +9,9 @@ use ads_cnc::operation::{
 use ads_cnc::sda::ElementCount;
 use ads_cnc::{Kind, ObjectCount, VariableCount};
 
-use crate::judge::Step;
-use crate::suite::kit::{Instance, Probe};
+use crate::judge::{IfPresent as _, Step};
+use crate::objects::List;
+use crate::suite::kit::{Instance, ItemKind, Probe};
 
 /// A list whose items are requested by their number from 1.
 #[derive(Clone, Debug)]
@@ -23,20 +24,51 @@ pub(crate) enum Counted {
 
 impl std::fmt::Display for Counted {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Objects(list) => write!(f, "objects of {}", list.parts().index_group()),
-            Self::Variables(channel, kind, _) => {
-                write!(f, "{kind} of channel {}", channel.number())
-            }
-            Self::Parameters(channel, kind) => {
-                write!(f, "{kind:?} of channel {}", channel.number())
-            }
-            Self::Elements(instance) => write!(f, "elements of {instance}"),
-        }
+        self.list().fmt(f)
     }
 }
 
 impl Counted {
+    /// All claimed lists that have a number, with it.
+    pub(crate) fn all(probe: &mut Probe<'_>) -> Step<Vec<(Self, u32)>> {
+        let mut all: Vec<Self> = probe.lists()?.into_iter().map(Self::Objects).collect();
+        for channel in probe.channels()? {
+            let listed = probe.kinds().into_iter();
+            all.extend(listed.map(|(name, kind)| Self::Variables(channel, name, kind)));
+            all.extend(DynamicKind::ALL.map(|kind| Self::Parameters(channel, kind)));
+        }
+        let instances = probe.instances().if_applicable()?.unwrap_or_default();
+        all.extend(instances.into_iter().map(Self::Elements));
+        let mut counted = Vec::new();
+        for one in all {
+            let number = one.number(probe).if_applicable()?.flatten();
+            counted.extend(number.map(|number| (one, number)));
+        }
+        Ok(counted)
+    }
+
+    /// What the list has; `None` for parameters, which come and go.
+    pub(crate) const fn kind(&self) -> Option<ItemKind> {
+        match self {
+            Self::Objects(_) => Some(ItemKind::Object),
+            Self::Variables(..) => Some(ItemKind::Variable),
+            Self::Elements(_) => Some(ItemKind::Element),
+            Self::Parameters(..) => None,
+        }
+    }
+
+    /// The name of the list.
+    pub(crate) fn list(&self) -> List {
+        match *self {
+            Self::Objects(list) => list.into(),
+            Self::Variables(channel, kind, _) => {
+                List::Variables { kind, channel: channel.number(), axis: None }
+            }
+            Self::Parameters(channel, kind) => List::Parameters { kind, channel: channel.number() },
+            Self::Elements(ref one) => List::of_instance(one.class, one.channel, one.axis),
+        }
+    }
+
     /// The number of items according to the target.
     pub(crate) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
         Ok(match self {

@@ -21,18 +21,23 @@ pub(crate) fn each_variable(
     Ok(())
 }
 
-/// Calls a function for every array.
+/// Maximum number of arrays of all channels in a sample: each is read element by element.
+const ARRAYS_MAX: u32 = 64;
+
+/// Calls a function for every array that the cases read.
 pub(crate) fn each_array(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,
 ) -> Step {
-    let mut any = false;
-    each_variable(probe, |probe, channel, variable| match element_size(variable) {
-        Some(size) if !variable.dimensions.is_empty() => {
-            any = true;
-            judge(probe, channel, variable, size)
-        }
-        _ => Ok(()),
+    let mut arrays = Vec::new();
+    each_variable(probe, |_, channel, variable| {
+        let size = element_size(variable).filter(|_| !variable.dimensions.is_empty());
+        arrays.extend(size.map(|size| (channel, variable.clone(), size)));
+        Ok(())
     })?;
-    applicable(any, "no variable is an array")
+    applicable(!arrays.is_empty(), "no variable is an array")?;
+    for (channel, variable, size) in probe.target.sample.among(arrays, ARRAYS_MAX) {
+        judge(probe, channel, &variable, size)?;
+    }
+    Ok(())
 }

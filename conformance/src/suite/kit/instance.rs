@@ -14,8 +14,10 @@ pub(crate) struct Instance {
     /// The elements without element 0, which holds their number: whether the number counts it is not
     /// documented.
     pub(crate) count: u32,
-    /// The number of elements that cases read.
-    pub(super) reached: u32,
+    /// The number of elements up to the last that has a name.
+    pub(crate) reached: u32,
+    /// The numbers of the elements that the cases read, from 1 on.
+    pub(super) chosen: Vec<u32>,
 }
 
 impl Instance {
@@ -24,9 +26,15 @@ impl Instance {
         self.reported > self.count
     }
 
-    /// Its elements without element 0.
+    /// The elements that the cases read, with their numbers from 1 on.
+    pub(crate) fn numbered(&self) -> impl Iterator<Item = (u32, ElementAddress)> + '_ {
+        let numbers = self.chosen.iter().copied();
+        numbers.map_while(|number| Some((number, self.first.nth(number).ok()?)))
+    }
+
+    /// The elements that the cases read, without element 0.
     pub(crate) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
-        (1..=self.reached).map_while(|place| self.first.nth(place).ok())
+        self.numbered().map(|(_, element)| element)
     }
 }
 

@@ -2,22 +2,24 @@
 
 mod variables;
 
-use ads_cnc::ObjectCount;
+use std::ops::Range;
+
 use ads_cnc::address::{
     Addressing, Channel, Class, ClassGroup, ComGroup, ComTable, ElementAddress, Group, PlatformAxis,
 };
 use ads_cnc::operation::{
-    CountObjects, FindInstance, Function, ObjectList, ReadElementLength, ReadElementName,
-    ReadElementType, ReadElementUnit, ReadElementWriteFlag, Request,
+    CountObjects, FindInstance, Function, ObjectList, ReadDescriptors, ReadElementLength,
+    ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag, Request,
 };
 use ads_cnc::sda::{ElementLength, ObjectAddress};
+use ads_cnc::{Descriptors, ObjectCount};
 
 pub(crate) use variables::{VARIABLES_MAX, name_of};
 
 use crate::judge::{OrStop as _, Step, Stop};
 use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
 use crate::profile::Claim;
-use crate::suite::kit::{Instance, Probe};
+use crate::suite::kit::{Instance, ItemKind, Probe};
 
 /// Maximum number of objects of a list, and of elements of an instance, that are read.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
@@ -108,14 +110,31 @@ impl Probe<'_> {
         Ok(platform.chain(channels).chain(axes?).collect())
     }
 
-    /// Every object of all lists. Other cases judge a descriptor that cannot be read.
+    /// The items of a list that the cases read, in order.
+    pub(crate) fn sample(&self, kind: ItemKind, items: Range<u32>) -> Vec<u32> {
+        self.target.sample.of(items, self.target.sample_sizes.of(kind))
+    }
+
+    /// The numbers from 1 on of the objects of a list that the cases read.
+    pub(crate) fn object_numbers(&self, count: u32) -> Vec<u32> {
+        self.sample(ItemKind::Object, 1..count.saturating_add(1))
+    }
+
+    /// The objects of all lists that the cases read. Other cases judge a descriptor that cannot be read.
     pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
         if self.target.objects.is_none() {
             let mut all = Vec::new();
             for list in self.lists()? {
                 let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
-                let count = count.map_or(0, |count| count.0.min(OBJECTS_MAX));
-                all.extend(self.objects_of(list, count, 1)?);
+                let numbers = self.object_numbers(count.map_or(0, |count| count.0));
+                self.each(numbers, |probe, number| {
+                    let Ok(read) = ReadDescriptors::new(list, number, 1) else { return Ok(false) };
+                    let one: Option<Descriptors> = probe.try_read(read)?;
+                    let one = one.filter(|one| one.len() == 1);
+                    let objects = one.iter().flat_map(|one| one.iter());
+                    all.extend(objects.map(|one| Object::of_descriptor(list.into(), one)));
+                    Ok(one.is_some())
+                })?;
             }
             self.target.objects = Some(all);
         }
@@ -167,8 +186,18 @@ impl Probe<'_> {
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
         let count = if is_itself { reached } else { reported };
-        all.push(Instance { class, channel, axis, first, reported, count, reached });
+        let chosen = self.sample(ItemKind::Element, 1..reached.saturating_add(1));
+        all.push(Instance { class, channel, axis, first, reported, count, reached, chosen });
         Ok(true)
+    }
+
+    /// Chooses the elements that the cases read again, after the sizes of samples changed.
+    pub(crate) fn choose_elements(&mut self) {
+        let (sample, sizes) = (self.target.sample, self.target.sample_sizes);
+        for one in self.target.instances.iter_mut().flatten() {
+            let numbers = 1..one.reached.saturating_add(1);
+            one.chosen = sample.of(numbers, sizes.of(ItemKind::Element));
+        }
     }
 
     /// The number of elements up to the last that has a name, of `count` that the target reports.

@@ -3,6 +3,7 @@
 mod axis_interface;
 mod changes;
 mod counted;
+mod described_list;
 mod dynamic_variables;
 mod each_variable;
 mod element_type;
@@ -12,6 +13,7 @@ mod layout;
 mod object_list;
 mod probe;
 mod raw_call;
+mod sample;
 mod service_channels;
 mod steady;
 mod stream_write;
@@ -26,6 +28,7 @@ pub(crate) use axis_interface::{
 };
 pub use changes::Changes;
 pub(crate) use counted::Counted;
+pub(crate) use described_list::DescribedList;
 pub(crate) use dynamic_variables::dynamic_among_variables;
 pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use element_type::type_and_length;
@@ -42,6 +45,8 @@ pub(crate) use object_list::{
 pub use probe::Probe;
 pub(crate) use probe::{ask_if_claimed, with_reply};
 pub(crate) use raw_call::{IntoRawCall, RawCall};
+pub use sample::Sample;
+pub(crate) use sample::{ItemKind, SampleSizes};
 pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub(crate) use stream_write::{StreamWrite, send};

@@ -13,7 +13,7 @@ pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32>
     if number == 0 {
         return Err(Stop::not_applicable("the list has no object"));
     }
-    Ok(number.min(OBJECTS_MAX))
+    Ok(number)
 }
 
 /// Like [`object_count`], without a check: other cases judge the number.
@@ -21,7 +21,7 @@ pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Ste
     let exchange = probe.send(CountObjects::new(list))?;
     let data = exchange.success().unwrap_or_default();
     match ObjectCount::decode(data) {
-        Ok(ObjectCount(number)) if number > 0 => Ok(number.min(OBJECTS_MAX)),
+        Ok(ObjectCount(number)) if number > 0 => Ok(number),
         Ok(_) => Err(Stop::not_applicable("the list has no object")),
         Err(_) => Err(Stop::inconclusive("the number of objects could not be read")),
     }
@@ -39,7 +39,8 @@ pub(crate) fn read_descriptors(
     probe.read(rule, request)
 }
 
-/// Reads every descriptor with a request of its own: other cases judge ranges.
+/// Reads the descriptors of all objects up to the maximum, each with a request of its own: other
+/// cases judge ranges.
 pub(crate) fn descriptors_one_by_one(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -47,7 +48,7 @@ pub(crate) fn descriptors_one_by_one(
     number: u32,
 ) -> Step<Descriptors> {
     let mut all = Descriptors::default();
-    for first in 1..=number {
+    for first in 1..=number.min(OBJECTS_MAX) {
         let one = read_descriptors(probe, rule, list, first, 1)?;
         one.as_ref().iter().for_each(|object| all.push(object.to_owned()));
     }

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use ads_cnc::Description;
 use ads_cnc::operation::Service;
 
 use crate::client::Client;
@@ -10,7 +9,7 @@ use crate::deadline::Deadline;
 use crate::judge::{Evidence, Record};
 use crate::objects::Object;
 use crate::profile::Profile;
-use crate::suite::kit::{Changes, Instance};
+use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
 
 /// A connection to a target, and the state that the cases of a run have found so far.
 #[derive(Debug)]
@@ -19,8 +18,12 @@ pub struct TargetState {
     pub client: Client,
     /// The claims of the target.
     pub profile: Profile,
+    /// Which items of a long list the cases read.
+    pub(in crate::suite) sample: Sample,
+    /// How many of them.
+    pub(in crate::suite) sample_sizes: SampleSizes,
     /// Descriptions of the variables of each kind and channel.
-    pub(in crate::suite) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
+    pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
     /// Its objects, read when a case first needs them.
     pub(in crate::suite) objects: Option<Vec<Object>>,
     /// Its instances, read when a case first needs them.
@@ -62,6 +65,8 @@ impl TargetState {
         Self {
             client,
             profile,
+            sample: Sample::All,
+            sample_sizes: SampleSizes::DEFAULT,
             variables: BTreeMap::new(),
             objects: None,
             instances: None,
@@ -76,6 +81,12 @@ impl TargetState {
             refusals: Refusals::default(),
             changes: Changes::default(),
         }
+    }
+
+    /// Sets which items of a long list the cases read.
+    #[must_use]
+    pub fn with_sample(self, sample: Sample) -> Self {
+        Self { sample, ..self }
     }
 
     /// Shares the list of changed values with other threads.

@@ -1,13 +1,14 @@
-//! All descriptions of a channel, read once.
+//! The descriptions of a channel's variables, each read once.
 
 use ads_cnc::address::Channel;
 use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
 use ads_cnc::{Decode, Description, Kind, TextRef, VariableCount};
+use ads_cnc_vectors::ClauseId;
 
 use crate::judge::{Step, Stop, applicable};
 use crate::objects::KINDS;
-use crate::suite::kit::Probe;
+use crate::suite::kit::{DescribedList, ItemKind, Probe};
 
 /// Maximum number of variables of a kind that are read.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
@@ -17,6 +18,11 @@ pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
 }
 
+/// The variable, if its name has room for its NUL: otherwise it cannot be requested.
+fn requestable(variable: Description) -> Option<Description> {
+    Some(variable).filter(|variable| variable.name.text.as_bytes().len() < TEXT_MAX)
+}
+
 impl Probe<'_> {
     /// The kinds that the target lists.
     pub(crate) fn kinds(&self) -> Vec<(&'static str, Kind<'static>)> {
@@ -24,20 +30,31 @@ impl Probe<'_> {
         KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
     }
 
-    /// All descriptions of a channel. Cases that judge descriptions read them again; here an
-    /// unreadable one is skipped.
+    /// The descriptions of a channel that the cases read. Cases that judge descriptions read them
+    /// again.
     pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
-            let key = (u32::from(channel.number()), name);
-            if !self.target.variables.contains_key(&key) {
-                let described = self.describe(channel, kind)?;
-                self.target.variables.insert(key, described);
-            }
-            all.extend(self.target.variables.get(&key).into_iter().flatten().cloned());
+            let count = self.count_described(channel, name, kind)?;
+            let indices = self.sample(ItemKind::Variable, 0..count);
+            all.extend(self.described(channel, (name, kind), indices)?);
         }
         applicable(!all.is_empty(), "the target has no variable")?;
         Ok(all)
+    }
+
+    /// All descriptions of a channel, for a case that needs to know what is not among them; `None`
+    /// if it has more than are read.
+    pub(crate) fn all_variables(&mut self, channel: Channel) -> Step<Option<Vec<Description>>> {
+        let mut all = Vec::new();
+        for (name, kind) in self.kinds() {
+            let count = self.count_described(channel, name, kind)?;
+            if count > VARIABLES_MAX {
+                return Ok(None);
+            }
+            all.extend(self.described(channel, (name, kind), 0..count)?);
+        }
+        Ok(Some(all))
     }
 
     /// Variables whose whole value fits into a reply.
@@ -48,19 +65,65 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    fn describe(&mut self, channel: Channel, kind: Kind<'_>) -> Step<Vec<Description>> {
+    /// The number of variables of a kind.
+    fn count_described(
+        &mut self,
+        channel: Channel,
+        name: &'static str,
+        kind: Kind<'_>,
+    ) -> Step<u32> {
+        let key = (u32::from(channel.number()), name);
+        if let Some(known) = self.target.variables.get(&key) {
+            return Ok(known.count);
+        }
         let count: VariableCount = self.read_unjudged(CountVariables::new(channel, kind))?;
-        let indices = 0..count.0.min(VARIABLES_MAX);
+        let list = DescribedList { count: count.0, ..DescribedList::default() };
+        self.target.variables.insert(key, list);
+        Ok(count.0)
+    }
+
+    /// The descriptions with these indices.
+    fn described(
+        &mut self,
+        channel: Channel,
+        (name, kind): (&'static str, Kind<'_>),
+        indices: impl IntoIterator<Item = u32>,
+    ) -> Step<Vec<Description>> {
+        let key = (u32::from(channel.number()), name);
         let mut all = Vec::new();
         for index in indices {
+            let known = self.target.variables.get(&key).and_then(|list| list.read.get(&index));
+            if let Some(known) = known {
+                all.extend(known.clone());
+                continue;
+            }
             let variable: Description =
                 self.read_unjudged(DescribeByIndex::new(channel, index, kind))?;
-            // A name without room for its NUL cannot be requested.
-            if variable.name.text.as_bytes().len() < TEXT_MAX {
-                all.push(variable);
-            }
+            let variable = requestable(variable);
+            all.extend(variable.clone());
+            self.target.variables.entry(key).or_default().read.insert(index, variable);
         }
         Ok(all)
+    }
+
+    /// A description that is judged, but read once for all cases.
+    pub(crate) fn judged_description(
+        &mut self,
+        rule: ClauseId,
+        channel: Channel,
+        (name, kind): (&'static str, Kind<'_>),
+        index: u32,
+    ) -> Step<Description> {
+        let key = (u32::from(channel.number()), name);
+        let known = self.target.variables.get(&key).and_then(|list| list.read.get(&index));
+        if let Some(Some(known)) = known {
+            return Ok(known.clone());
+        }
+        let variable: Description = self.read(rule, DescribeByIndex::new(channel, index, kind))?;
+        if let Some(list) = self.target.variables.get_mut(&key) {
+            list.read.insert(index, requestable(variable.clone()));
+        }
+        Ok(variable)
     }
 
     /// Reads a stream that other cases judge.

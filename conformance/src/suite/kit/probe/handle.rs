@@ -19,7 +19,7 @@ impl Probe<'_> {
         }
         let number = u32::from(op.channel.number());
         let is_described = self.target.variables.iter().any(|((channel, _), all)| {
-            *channel == number && all.iter().any(|variable| variable.handle == op.handle)
+            *channel == number && all.descriptions().any(|variable| variable.handle == op.handle)
         });
         if is_described && !self.target.client.gate().knows_handle(op.channel, op.handle) {
             // They were read on another connection, perhaps before a restart of the device.

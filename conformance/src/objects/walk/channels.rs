@@ -1,0 +1,37 @@
+//! The active channels.
+
+use ads_cnc::address::{Channel, Class};
+use ads_cnc::operation::FindInstance;
+
+use super::Walker;
+use super::walker::{GAP, NUMBER_MAX};
+
+/// The active channels, by ascending number. `is_there` checks a number, for a CNC with objects in
+/// its channels or one without.
+pub(crate) fn active_channels<W: Walker>(
+    walker: &mut W,
+    mut is_there: impl FnMut(&mut W, Channel, bool) -> Result<bool, W::Error>,
+) -> Result<Vec<Channel>, W::Error> {
+    let mut ranks = 0_usize;
+    for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
+        if walker.count_objects(rank)?.is_none() {
+            break;
+        }
+        ranks = ranks.saturating_add(1);
+    }
+    let (mut found, mut gap) = (Vec::new(), 0_u32);
+    for number in (1..=NUMBER_MAX).map_while(|number| Channel::new(number).ok()) {
+        if found.len() >= ranks && (ranks > 0 || gap >= GAP) {
+            break;
+        }
+        let is_there = is_there(walker, number, ranks > 0)?;
+        gap = if is_there { 0 } else { gap.saturating_add(1) };
+        found.extend(is_there.then_some(number));
+    }
+    Ok(found)
+}
+
+/// A decoder exists even for a channel without objects.
+pub(crate) fn decoder_of(channel: Channel) -> FindInstance {
+    FindInstance::new(Class::Decoder, channel.number().into(), 0)
+}

@@ -1,0 +1,208 @@
+//! What a target has, by queries before the cases run.
+
+use std::time::{Duration, Instant};
+
+use ads_cnc::address::{Channel, Class, PlatformAxis};
+use ads_cnc::ads::{AmsPort, DeviceInfoReply};
+use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
+use ads_cnc::{Kind, VariableCount};
+
+use super::kit::{
+    Counted, ItemKind, OF_PLACES, Probe, RawCall, SampleSizes, TargetState, VARIABLES_MAX,
+    ask_if_claimed,
+};
+use crate::client::InquiryReply;
+use crate::judge::{IfPresent as _, Step, Stop};
+use crate::objects::{Walker, active_channels, decoder_of};
+use crate::report::{FoundChannel, FoundList, FoundReport};
+
+/// Who says which parts of the target are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClaimsBy {
+    /// The file of `--profile`.
+    Profile,
+    /// The answers of the target.
+    Queries,
+}
+
+/// What the queries found, and how long they took.
+#[derive(Clone, Debug, Default)]
+pub struct Discovery {
+    pub found: FoundReport,
+    pub time: Duration,
+}
+
+impl Discovery {
+    /// How long this many requests take, if each takes as long as those of the discovery did.
+    pub fn time_for(&self, requests: u64) -> Duration {
+        let each = self.time.checked_div(u32::try_from(self.found.requests).unwrap_or(u32::MAX));
+        let nanoseconds = each.unwrap_or_default().as_nanos().saturating_mul(requests.into());
+        Duration::from_nanos(u64::try_from(nanoseconds).unwrap_or(u64::MAX))
+    }
+}
+
+/// Finds the channels, axes, lists and ports of a target. Without a file for `--profile` its answers
+/// become the claims of its profile; of what the manuals require of every CNC nothing is left out.
+///
+/// If the target stops answering, the cases say so.
+pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
+    let (begun, frames) = (Instant::now(), target.frames);
+    let mut probe = Probe::new(target);
+    let deadline = probe.target.deadline;
+    probe = probe.with_deadline(deadline);
+    let mut found = FoundReport::default();
+    // An error here stops the first case too, which reports it.
+    let _stopped = find(&mut probe, by, &mut found);
+    found.requests = target.frames.saturating_sub(frames);
+    Discovery { found, time: begun.elapsed() }
+}
+
+fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
+    if by == ClaimsBy::Queries {
+        claim_ports(probe)?;
+        claim_channels(probe)?;
+        claim_axes(probe)?;
+        found.ports = probe.target.profile.ports.to_vec();
+    }
+    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    for number in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
+        let places = instances.iter().filter(|one| OF_PLACES.contains(&one.class));
+        let places = places.filter(|one| one.channel == number).map(|one| one.axis);
+        found.channels.push(FoundChannel { number, axes: places.max().unwrap_or_default() });
+    }
+    let spindles = instances.iter().filter(|one| one.class == Class::Spindle).count();
+    found.spindles = u32::try_from(spindles).unwrap_or(u32::MAX);
+    found.platform_axes = probe.target.profile.platform_axes;
+    let channels = u64::try_from(found.channels.len()).unwrap_or_default();
+    found.expected = channels.saturating_mul(PER_CHANNEL);
+    let lists = Counted::all(probe)?;
+    let kinds = lists.iter().filter_map(|(list, items)| Some((list.kind()?, *items)));
+    probe.target.sample_sizes = SampleSizes::new(&kinds.collect::<Vec<_>>());
+    probe.choose_elements();
+    for (list, items) in lists {
+        let read = match list.kind() {
+            Some(kind) => u32::try_from(probe.sample(kind, 0..items).len()).unwrap_or(items),
+            None => items,
+        };
+        found.expected = found.expected.saturating_add(requests_for(list.kind(), items, read));
+        found.lists.push(FoundList { name: list.list().to_string(), items, read });
+    }
+    Ok(())
+}
+
+/// About as many requests the cases send for a channel, whatever is in its lists.
+const PER_CHANNEL: u64 = 2_000;
+
+/// About as many requests the cases send for a list; `tests/large.rs` compares the sum with those that
+/// are sent.
+fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
+    let (list, item) = match kind {
+        Some(ItemKind::Object) => (0, 13),
+        Some(ItemKind::Variable) => (0, 29),
+        Some(ItemKind::Element) => (35, 35),
+        None => (0, 30),
+    };
+    // Of every variable the name is read.
+    let names = match kind {
+        Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
+        _ => 0,
+    };
+    u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
+}
+
+/// Claims the ports that answer; all if none does, which the cases judge.
+fn claim_ports(probe: &mut Probe<'_>) -> Step {
+    let channel = Channel::new(1)?;
+    let mut there = Vec::new();
+    for task in [Task::Geo, Task::Sda, Task::Com] {
+        let request: Request<'_> = match task {
+            Task::Com => CountObjects::new(ObjectList::PLATFORM).into(),
+            Task::Sda => CountVariables::new(channel, Kind::ALL).into(),
+            Task::Geo => decoder_of(channel).into(),
+        };
+        let request = RawCall::new(request)?.with(|call| call.port = task.port());
+        let answered =
+            probe.call(&request)?.answer().is_some_and(|answer| answer.ams_error.is_ok());
+        // An error in the AMS header may also be that of the query.
+        let answered = answered || {
+            let inquired = probe.inquire::<DeviceInfoReply>(task)?;
+            matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Refused(_)))
+        };
+        if answered {
+            there.push(task.port());
+        }
+    }
+    if !there.is_empty() {
+        let ports: Vec<u16> = there.into_iter().map(|AmsPort(port)| port).collect();
+        probe.target.profile.ports = ports.into();
+    }
+    Ok(())
+}
+
+/// Sends the requests of a walk whose functions are claimed; the others count as rejected.
+struct IfClaimed<'p, 's>(&'p mut Probe<'s>);
+
+impl Walker for IfClaimed<'_, '_> {
+    type Error = Stop;
+
+    fn request<'r>(&mut self, request: impl Into<Request<'r>>) -> Step<Option<Vec<u8>>> {
+        ask_if_claimed(self.0, request)
+    }
+}
+
+/// Claims the channels that are found; channel 1 if none is. The first number that is not found is
+/// that of an absent channel.
+fn claim_channels(probe: &mut Probe<'_>) -> Step {
+    let (mut absent, mut by_objects) = (None, false);
+    let walker = &mut IfClaimed(probe);
+    let channels = active_channels(walker, |walker, channel, has_objects| {
+        by_objects = has_objects;
+        let is_there = is_channel(walker, channel, has_objects)?;
+        if !is_there && absent.is_none() {
+            absent = Some(channel);
+        }
+        Ok(is_there)
+    })?;
+    let Some(last) = channels.last() else { return Ok(()) };
+    if absent.is_none()
+        && let Ok(next) = Channel::new(u32::from(last.number()).saturating_add(1))
+        && !is_channel(walker, next, by_objects)?
+    {
+        absent = Some(next);
+    }
+    let numbers: Vec<u32> = channels.iter().map(|channel| channel.number().into()).collect();
+    let profile = &mut probe.target.profile;
+    profile.channels = numbers.into();
+    profile.absent_channel = absent.map(|channel| channel.number().into());
+    Ok(())
+}
+
+/// Whether a channel is there. Where channels have objects, a channel has them, or both a decoder and
+/// variables; elsewhere one of these two is enough.
+fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: bool) -> Step<bool> {
+    if has_objects && walker.count_objects(channel)?.is_some() {
+        return Ok(true);
+    }
+    let has_decoder = walker.is_instance(decoder_of(channel))?;
+    let count: Option<VariableCount> = walker.decoded(CountVariables::new(channel, Kind::ALL))?;
+    let has_variables = count.is_some_and(|count| count.0 > 0);
+    Ok(if has_objects { has_decoder && has_variables } else { has_decoder || has_variables })
+}
+
+/// Claims the axes of the platform that COM or the position controller has, and the spindles.
+fn claim_axes(probe: &mut Probe<'_>) -> Step {
+    let mut listed = 0_u32;
+    for axis in (1..=u32::from(u8::MAX)).map_while(|place| PlatformAxis::new(place).ok()) {
+        if IfClaimed(probe).count_objects(axis)?.is_none() {
+            break;
+        }
+        listed = listed.saturating_add(1);
+    }
+    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    let of = |class| instances.iter().filter(move |one| one.class == class);
+    let controlled = of(Class::PositionController).map(|one| one.axis).max().unwrap_or_default();
+    let spindles = u32::try_from(of(Class::Spindle).count()).ok().filter(|count| *count > 0);
+    probe.target.profile.platform_axes = listed.max(controlled);
+    probe.target.profile.spindles = spindles;
+    Ok(())
+}

@@ -1,0 +1,21 @@
+//! The descriptions of a list of variables, each read once.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::Description;
+
+/// The variables of a kind in a channel.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DescribedList {
+    /// The number of variables according to the target.
+    pub(crate) count: u32,
+    /// The descriptions that were read, by index; `None` for a name that cannot be requested.
+    pub(crate) read: BTreeMap<u32, Option<Description>>,
+}
+
+impl DescribedList {
+    /// The descriptions that were read.
+    pub(crate) fn descriptions(&self) -> impl Iterator<Item = &Description> {
+        self.read.values().flatten()
+    }
+}

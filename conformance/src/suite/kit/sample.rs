@@ -1,0 +1,157 @@
+//! The choice of the items of long lists.
+
+use std::ops::Range;
+
+use crate::judge::order;
+
+/// Maximum number of items that are read of every list.
+const ITEMS_MAX: u32 = 10_000;
+
+/// Which items of a list the cases read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// By this seed, up to a number of items that depends on how many lists there are.
+    BySeed(u32),
+    /// The first 10,000 items of every list.
+    All,
+}
+
+impl Sample {
+    /// The chosen items, in order: all, or `most` of a longer list. A quarter of them are the first, a
+    /// quarter the last, and the others are spread over the items in between. Lists of the same length
+    /// have the same choice.
+    ///
+    /// ```
+    /// use ads_cnc_conformance::suite::Sample;
+    ///
+    /// let by_seed = |seed| Sample::BySeed(seed).of(1..10_001, 256);
+    /// let some = by_seed(1);
+    /// assert_eq!((some.len(), some[0], some[63], some[192], some[255]), (256, 1, 64, 9_937, 10_000));
+    /// assert_eq!(some, by_seed(1));
+    /// assert_ne!(some, by_seed(2));
+    /// assert_eq!(Sample::BySeed(1).of(0..256, 256), Sample::All.of(0..256, 256));
+    /// ```
+    pub fn of(self, items: Range<u32>, most: u32) -> Vec<u32> {
+        let Range { start, end } = items;
+        let count = end.saturating_sub(start);
+        let seed = match self {
+            Self::BySeed(seed) if count > most => seed,
+            _ => return (start..end.min(start.saturating_add(ITEMS_MAX))).collect(),
+        };
+        let at_end = most / 4;
+        let parts = most.saturating_sub(at_end.saturating_mul(2));
+        let (first, last) = (start.saturating_add(at_end), end.saturating_sub(at_end));
+        // The parts differ by one item at most.
+        let begin = |part: u32| {
+            let items = u64::from(last.saturating_sub(first)).saturating_mul(part.into());
+            let items = items.checked_div(parts.into()).unwrap_or_default();
+            first.saturating_add(u32::try_from(items).unwrap_or(u32::MAX))
+        };
+        let between = (0..parts).map(|part| {
+            let (begin, end) = (begin(part), begin(part.saturating_add(1)));
+            let random = order(seed, &format!("{part} of {count}"));
+            let random = random.checked_rem(end.saturating_sub(begin).into()).unwrap_or_default();
+            begin.saturating_add(u32::try_from(random).unwrap_or_default())
+        });
+        (start..first).chain(between).chain(last..end).collect()
+    }
+
+    /// The chosen items of a list that is known.
+    pub(crate) fn among<T>(self, items: Vec<T>, most: u32) -> Vec<T> {
+        let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
+        let chosen = self.of(0..count, most);
+        let numbered = (0..).zip(items);
+        let kept = numbered.filter(|(number, _)| chosen.binary_search(number).is_ok());
+        kept.map(|(_, item)| item).collect()
+    }
+}
+
+/// What a list has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ItemKind {
+    Object,
+    Variable,
+    Element,
+}
+
+/// The most items of a list that are read in a sample, for each kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SampleSizes {
+    objects: u32,
+    variables: u32,
+    elements: u32,
+}
+
+impl SampleSizes {
+    /// The most items of a list.
+    const MOST: u32 = 256;
+    /// The fewest, however many lists there are.
+    const LEAST: u32 = 4;
+    /// Those of few lists.
+    pub(crate) const DEFAULT: Self =
+        Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
+
+    /// The sizes for these lists, by kind and number of items: with many lists fewer items of each, so
+    /// that all together are no more than about ten minutes with 10 ms for a request allow.
+    pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
+        let size = |kind, budget| {
+            let counts = || lists.iter().filter(move |list| list.0 == kind).map(|list| list.1);
+            let read = |most: u32| counts().map(|count| u64::from(count.min(most))).sum::<u64>();
+            (Self::LEAST..=Self::MOST)
+                .rev()
+                .find(|most| read(*most) <= budget)
+                .unwrap_or(Self::LEAST)
+        };
+        Self {
+            objects: size(ItemKind::Object, 1024),
+            variables: size(ItemKind::Variable, 512),
+            elements: size(ItemKind::Element, 512),
+        }
+    }
+
+    pub(crate) const fn of(self, kind: ItemKind) -> u32 {
+        match kind {
+            ItemKind::Object => self.objects,
+            ItemKind::Variable => self.variables,
+            ItemKind::Element => self.elements,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every part has its item, whatever the length.
+    #[test]
+    fn a_sample_is_spread_over_the_list() {
+        for most in [4, 5, 17, 255, 256] {
+            for count in [257, 258, 300, 511, 780, 10_000, 1 << 31, u32::MAX - 1] {
+                let chosen = Sample::BySeed(7).of(1..count + 1, most);
+                assert_eq!(chosen.len(), most as usize, "{count}");
+                assert!(chosen.is_sorted_by(|one, next| one < next), "{count}: {chosen:?}");
+                assert_eq!((chosen[0], chosen[chosen.len() - 1]), (1, count));
+                let gaps = chosen.windows(2).map(|pair| pair[1] - pair[0]);
+                assert!(gaps.max() <= Some(count / (most / 4)), "{count}");
+            }
+        }
+        assert_eq!(Sample::BySeed(7).of(0..0, 256), [0; 0]);
+        assert_eq!(Sample::All.of(0..u32::MAX, 256).len(), 10_000);
+    }
+
+    /// With few lists those of 256 items are read whole; with many, fewer of each.
+    #[test]
+    fn many_lists_share_what_is_read() {
+        let sizes = |lists: &[u32]| {
+            let lists: Vec<_> = lists.iter().map(|&items| (ItemKind::Variable, items)).collect();
+            let sizes = SampleSizes::new(&lists);
+            assert_eq!(sizes.of(ItemKind::Object), 256);
+            sizes.of(ItemKind::Variable)
+        };
+        assert_eq!(sizes(&[256, 200, 3]), 256);
+        assert_eq!(sizes(&[10_000, 50, 20]), 256);
+        assert_eq!(sizes(&[333; 30]), 17);
+        assert_eq!(sizes(&[10; 100]), 5);
+        assert_eq!(sizes(&[10; 1000]), 4);
+    }
+}

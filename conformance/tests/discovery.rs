@@ -1,0 +1,73 @@
+//! What a run without a profile finds out about a device, and judges.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::faults::{self, Faulty, Seed, SeedKind};
+use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection};
+use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::simulator::{Cnc, NET_ID};
+use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
+
+/// A device in this process, asked before its cases run.
+fn discovered(seed: Option<&Seed>) -> (TargetState, Discovery) {
+    let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
+    let cnc = Arc::new(Faulty::new(cnc, seed));
+    let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
+    let client = Client::in_process(target, Gate::queries(), cnc).unwrap();
+    let mut target = TargetState::new(client, Profile::DEVICE).with_sample(Sample::BySeed(1));
+    let discovery = suite::discover(&mut target, ClaimsBy::Queries);
+    (target, discovery)
+}
+
+fn outcomes(target: &mut TargetState) -> Vec<CaseOutcome> {
+    let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
+    let plan = Selection::default().plan(cases, 1).unwrap();
+    suite::run(plan.cases, Some(target), None, 1)
+}
+
+#[test]
+fn the_default_model_is_found_without_a_profile() {
+    let (target, Discovery { found, .. }) = discovered(None);
+    assert_eq!(found.ports, [551, 552, 553]);
+    let channels: Vec<_> = found.channels.iter().map(|one| (one.number, one.axes)).collect();
+    assert_eq!(channels, [(1, 3), (2, 3), (6, 3)]);
+    assert_eq!((found.platform_axes, found.spindles), (5, 2));
+    assert_eq!(target.profile.channels[..], [1, 2, 6]);
+    assert_eq!(target.profile.absent_channel, Some(3));
+    let items = |name: &str| found.lists.iter().find(|list| list.name == name).unwrap().items;
+    assert_eq!((items("COM platform"), items("COM channel 6")), (2, 12));
+    assert_eq!((items("V.E channel 2"), items("decoder channel 1")), (2, 6));
+    assert!(found.requests < 400, "{}", found.requests);
+    assert_eq!(found.sampled(), None);
+}
+
+/// A correct CNC of another make fails nothing without a profile either. The others are tried by
+/// `selftest --only different`.
+#[test]
+fn a_sample_of_correct_variants_fails_nothing() {
+    assert_harmless(|at| at % 16 == 0);
+}
+
+#[test]
+#[ignore = "takes minutes; selftest measures them too"]
+fn no_correct_variant_fails_anything() {
+    assert_harmless(|_| true);
+}
+
+fn assert_harmless(is_tried: impl Fn(usize) -> bool) {
+    let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
+    let tried = variants.enumerate().filter(|(at, _)| is_tried(*at)).map(|(_, seed)| seed);
+    let mut alarms = Vec::new();
+    let mut count = 0;
+    for seed in tried {
+        count += 1;
+        let (mut target, Discovery { found, .. }) = discovered(Some(seed));
+        println!("{}: {}", seed.id, found.summary());
+        let failed = outcomes(&mut target).into_iter().filter(|one| one.verdict().fails_run());
+        alarms.extend(failed.map(|one| format!("{}: {} {:?}", seed.id, one.case.id, one.verdicts)));
+    }
+    assert!(count > 3 && alarms.is_empty(), "{count}: {alarms:#?}");
+}

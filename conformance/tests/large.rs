@@ -1,0 +1,103 @@
+//! CNCs with more objects and variables than a person would write into a model.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection, Verdict};
+use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, LocalCnc, Model, NET_ID, Settings};
+use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
+
+/// The default model with more variables in its first channel.
+fn with_variables(count: usize) -> Cnc {
+    let first = "variables = [\n";
+    let (head, tail) = {
+        let channel = DEFAULT_MODEL.find("[[channel]]").unwrap();
+        let at = channel + DEFAULT_MODEL[channel..].find(first).unwrap() + first.len();
+        DEFAULT_MODEL.split_at(at)
+    };
+    let more: String = (0..count)
+        .map(|one| format!("  {{ name = \"V.E.more_{one}\", type = \"SGN32\", value = {one} }},\n"))
+        .collect();
+    let model = format!("{head}{more}{tail}");
+    let model = Model::with_settings(&model, "the model", Settings::default()).unwrap();
+    Cnc::new(model).with_stopped_clock()
+}
+
+fn connected(cnc: Cnc, sample: Sample) -> (TargetState, Discovery) {
+    let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
+    let client =
+        Client::in_process(target, Gate::queries(), LocalCnc::new(Arc::new(cnc), NET_ID)).unwrap();
+    let mut target = TargetState::new(client, Profile::DEVICE).with_sample(sample);
+    let discovery = suite::discover(&mut target, ClaimsBy::Queries);
+    (target, discovery)
+}
+
+fn outcomes(target: &mut TargetState, only: &[&str]) -> Vec<CaseOutcome> {
+    let only = only.iter().map(|&word| word.to_owned()).collect();
+    let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
+    let plan = Selection { only, ..Selection::default() }.plan(cases, 1).unwrap();
+    suite::run(plan.cases, Some(target), None, 1)
+}
+
+/// The requests that these cases send.
+fn requests(cnc: Cnc, sample: Sample, only: &[&str]) -> usize {
+    let (mut target, _) = connected(cnc, sample);
+    let before = target.frames;
+    for outcome in outcomes(&mut target, only) {
+        assert_eq!(outcome.verdict(), Verdict::Pass, "{outcome:?}");
+    }
+    target.frames - before
+}
+
+/// The index after the last is that after all variables, not after those that are read.
+#[test]
+fn more_variables_than_are_read() {
+    let cnc = || with_variables(10_100);
+    requests(cnc(), Sample::BySeed(1), &["var-extended-beyond-last"]);
+    requests(cnc(), Sample::All, &["var-extended-beyond-last"]);
+    // With more names than are read no case knows a name that nobody has.
+    let (mut target, _) = connected(cnc(), Sample::BySeed(1));
+    for outcome in outcomes(&mut target, &["var-descriptions", "var-similar-name"]) {
+        assert_eq!(outcome.verdict(), Verdict::Pass, "{outcome:?}");
+    }
+}
+
+/// A sample has the first and the last of a list, and is reported; with `Sample::All` everything is
+/// read.
+#[test]
+fn a_long_list_is_sampled() {
+    let (_, Discovery { found, .. }) = connected(with_variables(1000), Sample::BySeed(1));
+    let long = found.lists.iter().find(|list| list.name == "V.E channel 1").unwrap();
+    assert_eq!((long.items, long.read), (1123, 256));
+    let sampled = found.sampled().unwrap();
+    assert_eq!(sampled, "V.E channel 1: 256 of 1123; by the seed");
+    let whole = found.lists.iter().filter(|list| list.items <= 256);
+    assert!(whole.clone().count() > 90 && whole.clone().all(|list| list.read == list.items));
+
+    let (_, Discovery { found, .. }) = connected(with_variables(1000), Sample::All);
+    assert!(found.lists.iter().all(|list| list.read == list.items));
+    assert_eq!(found.sampled(), None);
+
+    let asked = |sample| requests(with_variables(1000), sample, &["var-extended-descriptions"]);
+    assert_eq!(asked(Sample::All) - asked(Sample::BySeed(1)), 1123 - 256);
+    // Names are unique among all variables, whatever is sampled.
+    let described = requests(with_variables(1000), Sample::BySeed(1), &["var-descriptions"]);
+    assert!(described > 1123, "{described}");
+}
+
+/// What is said before the cases is what they send, within a quarter.
+#[test]
+fn the_forecast_is_about_right() {
+    for more in [0, 3000] {
+        let (mut target, discovery) = connected(with_variables(more), Sample::BySeed(1));
+        let before = target.frames;
+        outcomes(&mut target, &[]);
+        let (sent, expected) = ((target.frames - before) as u64, discovery.found.expected);
+        assert!(sent.abs_diff(expected) < expected / 4, "{sent}, {expected} expected");
+        // Ten minutes with 10 ms for each.
+        assert!(sent < 60_000, "{sent}");
+    }
+}
