@@ -8,7 +8,7 @@ use ads_cnc_conformance::faults::{self, Faulty, Seed, SeedKind};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection};
 use ads_cnc_conformance::profile::Profile;
-use ads_cnc_conformance::simulator::{Cnc, NET_ID};
+use ads_cnc_conformance::simulator::{Cnc, LocalCnc, NET_ID};
 use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
 
 /// A device in this process, asked before its cases run.
@@ -16,7 +16,7 @@ fn discovered(seed: Option<&Seed>) -> (TargetState, Discovery) {
     let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
     let cnc = Arc::new(Faulty::new(cnc, seed));
     let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
-    let client = Client::in_process(target, Gate::queries(), cnc).unwrap();
+    let client = Client::in_process(target, Gate::queries(), LocalCnc::new(cnc, NET_ID)).unwrap();
     let mut target = TargetState::new(client, Profile::DEVICE).with_sample(Sample::BySeed(1));
     let discovery = suite::discover(&mut target, ClaimsBy::Queries);
     (target, discovery)

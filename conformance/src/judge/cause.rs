@@ -45,6 +45,11 @@ fn before(function: Function) -> HashSet<Function> {
     all
 }
 
+/// Whether the requests or expectations of `function` depend on the answers of `earlier`.
+pub(crate) fn follows(function: Function, earlier: Function) -> bool {
+    before(function).contains(&earlier)
+}
+
 /// The function that a chain begins with.
 fn origin(function: Function) -> Function {
     let mut first = function;
@@ -258,5 +263,100 @@ fn follow(case: &Case, verdict: &mut RequirementVerdict, causes: &Causes) {
     let by_checks = is_broken(verdict.verdict) || verdict.verdict == Verdict::Warning;
     if by_checks && let Some(gravest) = gravest(verdict.judgements.iter().map(|one| one.verdict)) {
         verdict.verdict = gravest;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::{Body, CaseSubject, Evidence};
+
+    /// A failed check: case, clause, function, subject.
+    type Failed = (&'static str, ClauseId, Function, &'static str);
+
+    fn outcome((case, clause, function, subject): Failed) -> CaseOutcome {
+        let requirement = clause.as_str();
+        let (function, subject) = (Some(function), Some(subject.to_owned()));
+        let judgement = Judgement {
+            requirement,
+            level: None,
+            verdict: Verdict::Fail,
+            expected: case.to_owned(),
+            found: String::new(),
+            evidence: Some(Evidence { function, subject, ..Evidence::default() }),
+            more: 0,
+            follows: None,
+        };
+        let case = Case {
+            id: case.to_owned(),
+            title: String::new(),
+            subject: CaseSubject::Target,
+            requirements: vec![requirement],
+            needs: Needs::Queries,
+            body: Body::Probe,
+        };
+        let (verdict, judgements) = (Verdict::Fail, vec![judgement]);
+        let verdicts = vec![RequirementVerdict { requirement, verdict, judgements }];
+        CaseOutcome { case, verdicts, checks: 1, note: None, refused: false }
+    }
+
+    /// Each verdict, and the clause that it follows from.
+    fn attributed(failed: &[Failed]) -> Vec<(Verdict, Option<&'static str>)> {
+        let mut outcomes: Vec<CaseOutcome> = failed.iter().copied().map(outcome).collect();
+        attribute(&mut outcomes);
+        let verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
+        verdicts.map(|one| (one.verdict, one.judgements[0].follows)).collect()
+    }
+
+    const FAILS: (Verdict, Option<&str>) = (Verdict::Fail, None);
+
+    fn follows_from(clause: ClauseId) -> (Verdict, Option<&'static str>) {
+        (Verdict::Inconclusive, Some(clause.as_str()))
+    }
+
+    #[test]
+    fn no_function_is_before_itself() {
+        for function in Function::ALL {
+            assert!(!before(*function).contains(function), "{function:?}");
+        }
+    }
+
+    #[test]
+    fn a_value_follows_from_the_description_of_the_same_variable() {
+        let sized = ("size", VAR_8, Function::DescribeByIndex, "V.E.a");
+        let read = ("read", VAR_14, Function::ReadByHandle, "V.E.a");
+        let other = ("read", VAR_14, Function::ReadByHandle, "V.E.b");
+        assert_eq!(attributed(&[read, other]), [FAILS, FAILS]);
+        assert_eq!(attributed(&[read, sized, other]), [follows_from(VAR_8), FAILS, FAILS]);
+    }
+
+    #[test]
+    fn a_general_clause_follows_from_one_of_the_function() {
+        let count = ("count", COM_1, Function::CountObjects, "");
+        let general = ("general", ADS_1, Function::CountObjects, "");
+        let reversed = ("order", GEN_1, Function::CountObjects, "");
+        assert_eq!(attributed(&[general, count, reversed]), [follows_from(COM_1), FAILS, FAILS]);
+        assert_eq!(attributed(&[general, reversed]), [FAILS, FAILS]);
+    }
+
+    #[test]
+    fn what_all_functions_of_a_service_fail_is_the_service() {
+        let all = [
+            ("com", COM_1, Function::CountObjects, ""),
+            ("dyn", DYN_1, Function::CountDynamic, ""),
+            ("ads", ADS_1, Function::CountDynamic, ""),
+        ];
+        assert_eq!(attributed(&all), [follows_from(ADS_1), follows_from(ADS_1), FAILS]);
+        assert_eq!(attributed(&all[..2]), [FAILS, FAILS]);
+    }
+
+    #[test]
+    fn what_several_functions_read_wrong_is_their_request() {
+        let all = [
+            ("one", VAR_4, Function::DescribeByIndex, ""),
+            ("one", VAR_3, Function::DescribeByIndex, ""),
+            ("other", VAR_15, Function::DescribeExtended, ""),
+        ];
+        assert_eq!(attributed(&all), [follows_from(VAR_3), FAILS, follows_from(VAR_3)]);
     }
 }

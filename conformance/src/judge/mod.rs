@@ -13,7 +13,7 @@ mod verdict;
 mod waivers;
 
 pub use case::{Body, Case, CaseSubject, Needs};
-pub(crate) use cause::attribute;
+pub(crate) use cause::{attribute, follows};
 pub(crate) use check::{Checks, IfPresent, OrStop, Record, TEXT_MAX, applicable};
 pub use check::{Describe, Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub use evidence::Evidence;

@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use crate::faults::{self, SeedKind};
 use crate::judge::{CaseOutcome, Exit, Verdict};
-use detection::{CheckedTable, Scope};
+use detection::{CheckedTable, PairFigures, Scope};
 
 use parallel::parallel;
 pub use show::print;
@@ -36,6 +36,8 @@ pub struct SelfTest {
     pub stale: Vec<String>,
     /// The table of detection, and the rows that were measured again.
     pub detection: CheckedTable,
+    /// Pairs of defects; only tried with all defects.
+    pub pairs: PairFigures,
 }
 
 impl SelfTest {
@@ -60,9 +62,10 @@ impl SelfTest {
             TrialResult::FalseAlarm | TrialResult::Broken => true,
         };
         let differs = !self.detection.differences.is_empty();
+        let hides = !self.pairs.hidden.is_empty();
         if self.tried.is_empty() {
             Exit::Nothing
-        } else if self.tried.iter().any(wrong) || !self.stale.is_empty() || differs {
+        } else if self.tried.iter().any(wrong) || !self.stale.is_empty() || differs || hides {
             Exit::Failure
         } else {
             Exit::Success
@@ -100,7 +103,12 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     });
     let scope = if only.is_empty() { scope } else { Scope::All };
     let detection = CheckedTable::new(seeds.collect(), scope, only.is_empty(), &tell);
-    SelfTest { tried, stale, detection }
+    let pairs = if only.is_empty() {
+        detection::pairs(&detection.table, &tell)
+    } else {
+        PairFigures::default()
+    };
+    SelfTest { tried, stale, detection, pairs }
 }
 
 fn attempt(candidate: &Candidate) -> Trial {

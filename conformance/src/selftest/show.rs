@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::detection::{CheckedTable, Figures, Mode};
+use super::detection::{CheckedTable, Figures, Mode, PairFigures};
 use super::{SelfTest, SelfTestGroup, Trial, TrialResult};
 use crate::judge::Exit;
 
@@ -98,6 +98,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
         "Requirements that fail, read-only: {fields} by a defect of one field ({fields_most} at the 90th \
          percentile),\n{others} by others ({others_most})"
     )?;
+    pairs(&test.pairs, out)?;
     if verbose {
         for mode in Mode::ALL {
             writeln!(out, "\nMissed, {}:", mode.name())?;
@@ -107,6 +108,22 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
         }
     }
     Ok(())
+}
+
+fn pairs(figures: &PairFigures, out: &mut dyn Write) -> io::Result<()> {
+    let PairFigures { both, masked, hidden } = figures;
+    for pair in hidden {
+        writeln!(out, "HIDDEN       {pair}")?;
+    }
+    let all = both + masked + hidden.len();
+    if all == 0 {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "Pairs of defects, read-only: both detected in {both} of {all}; in {masked} one makes the other \
+         undetectable"
+    )
 }
 
 fn percent(part: usize, all: usize) -> String {

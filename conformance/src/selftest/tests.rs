@@ -64,7 +64,7 @@ fn tried(result: TrialResult, reason: Option<&str>) -> Trial {
 fn test(tried: Vec<Trial>) -> SelfTest {
     let table = DetectionTable::published().unwrap();
     let detection = CheckedTable { table, measured: 0, differences: Vec::new() };
-    SelfTest { tried, stale: Vec::new(), detection }
+    SelfTest { tried, stale: Vec::new(), detection, pairs: PairFigures::default() }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use super::found::Mode;
 use super::requests::{RecordedAnswers, ask_everything};
 use crate::edition::Edition;
-use crate::faults::{Faulty, Seed};
+use crate::faults::{Faulty, FieldDefect, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::{CaseOutcome, Needs, Selection};
 use crate::objects::{self, Object, Options};
@@ -51,7 +51,7 @@ impl Device {
     }
 
     /// The CNC of the default model with an edition.
-    fn of_edition(edition: Edition) -> Result<&'static Self, ToolError> {
+    pub(super) fn of_edition(edition: Edition) -> Result<&'static Self, ToolError> {
         static ENGLISH: OnceLock<Device> = OnceLock::new();
         static GERMAN: OnceLock<Device> = OnceLock::new();
         let device = match edition {
@@ -66,12 +66,16 @@ impl Device {
         device.get().ok_or_else(|| ToolError::Internal("no device".to_owned()))
     }
 
-    /// A CNC of this device, optionally with a defect.
-    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
+    /// A CNC of this device.
+    fn correct_cnc(&self) -> Result<Cnc, ToolError> {
         let internal = |error| ToolError::Internal(format!("the model: {error}"));
         let model = Model::with_settings(self.model, "the model", self.settings);
-        let cnc = Cnc::new(model.map_err(internal)?).with_stopped_clock();
-        Ok(Arc::new(Faulty::new(cnc, seed)))
+        Ok(Cnc::new(model.map_err(internal)?).with_stopped_clock())
+    }
+
+    /// A CNC of this device, optionally with a defect.
+    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
+        Ok(Arc::new(Faulty::new(self.correct_cnc()?, seed)))
     }
 
     /// The digests of the answers without a defect to every request that a mode may send.
@@ -94,8 +98,21 @@ impl Device {
         seed: Option<&Seed>,
         mode: Mode,
     ) -> Result<Vec<CaseOutcome>, ToolError> {
+        self.outcomes_of(self.cnc(seed)?, mode)
+    }
+
+    /// The outcomes with several defects of fields.
+    pub(super) fn outcomes_with(
+        &self,
+        fields: Vec<FieldDefect>,
+        mode: Mode,
+    ) -> Result<Vec<CaseOutcome>, ToolError> {
+        self.outcomes_of(Arc::new(Faulty::with_fields(self.correct_cnc()?, fields)), mode)
+    }
+
+    fn outcomes_of(&self, cnc: Arc<Faulty>, mode: Mode) -> Result<Vec<CaseOutcome>, ToolError> {
         let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
-        let mut session = Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
+        let mut session = Session::in_process(cnc, mode.gate(&self.allowed))?;
         if session.check_reachable(&profile).is_err() {
             // For a device without any answer `run` makes no report.
             return Ok(Vec::new());

@@ -9,6 +9,7 @@
 mod check;
 mod device;
 mod found;
+mod pairs;
 mod requests;
 mod table;
 mod witness;
@@ -23,6 +24,8 @@ use super::tried::{TrialResult, judge};
 pub use check::{CheckedTable, SAMPLE, Scope};
 use device::{answers, devices};
 pub use found::{Detection, DetectionResult, Mode};
+pub(super) use pairs::pairs;
+pub use pairs::{PAIRS, PairFigures};
 pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 
 /// Measures a defect, or a valid variant, in every mode.

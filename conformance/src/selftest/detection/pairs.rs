@@ -1,0 +1,114 @@
+//! Pairs of defects: that one clause fails does not hide another one that is broken.
+
+use serde::Serialize;
+
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Function;
+
+use super::device::Device;
+use super::found::{DetectionResult, Mode};
+use super::table::DetectionTable;
+use crate::edition::Edition;
+use crate::faults::{self, FieldDefect, Seed};
+use crate::judge::{follows, order};
+use crate::selftest::parallel::parallel;
+use crate::selftest::tried::{TrialResult, judge};
+use crate::session::ToolError;
+
+/// Number of pairs that are tried.
+pub const PAIRS: usize = 200;
+
+/// The seed by which they are chosen: always the same ones, so that the list below is complete.
+const SEED: u32 = 24;
+
+/// Fields whose defect hides that of another field in a later function. The clause of a dimension is
+/// shown by elements that are read, the other clauses of a description by itself.
+const MASKED: [(&str, &str); 1] = [("variable-handle-read", "variable-description.dimensions")];
+
+/// Pairs of defects in different fields, each detected alone without a profile.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct PairFigures {
+    /// Both are detected.
+    pub both: usize,
+    /// One makes requests or expectations of the other wrong, so that only its clause fails.
+    pub masked: usize,
+    /// One hides the other, though they do not depend on each other.
+    pub hidden: Vec<String>,
+}
+
+/// Tries the pairs.
+pub(crate) fn pairs(table: &DetectionTable, tell: &(impl Fn(usize, usize) + Sync)) -> PairFigures {
+    let mut figures = PairFigures::default();
+    let tried = parallel(&chosen(table), 1, |pair| (pair.clone(), try_pair(pair)), tell);
+    for ((one, other), detected) in tried {
+        let name = || format!("{} and {}", one.id, other.id);
+        match detected {
+            Err(error) => figures.hidden.push(format!("{}: {error}", name())),
+            Ok((true, true)) => figures.both += 1,
+            Ok((is_first, _)) => {
+                let (masking, masked) = if is_first { (&one, &other) } else { (&other, &one) };
+                if can_mask(masking, masked) {
+                    figures.masked += 1;
+                } else {
+                    figures.hidden.push(format!("{}: {} is not detected", name(), masked.id));
+                }
+            }
+        }
+    }
+    figures
+}
+
+/// Defects that are caught alone, in pairs.
+fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
+    let is_caught = |seed: &Seed| {
+        let found = table.row(seed).and_then(|row| row.modes.get(&Mode::ReadOnly));
+        found.is_some_and(|found| found.result == DetectionResult::Caught)
+    };
+    let seeds = faults::all().iter().filter(|seed| is_caught(seed));
+    let mut all: Vec<&FieldDefect> = seeds.filter_map(Seed::field).collect();
+    all.sort_by_key(|defect| order(SEED, &defect.id));
+    let distances = 1..all.len();
+    let pairs = distances.flat_map(|distance| {
+        let others = all.iter().cycle().skip(distance);
+        all.iter().zip(others).map(|(one, other)| (*one, *other))
+    });
+    let pairs = pairs.filter(|(one, other)| (one.stream, one.field) != (other.stream, other.field));
+    pairs.take(PAIRS).map(|(one, other)| (one.clone(), other.clone())).collect()
+}
+
+/// Whether each of the two is detected by a clause that it breaks.
+fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), ToolError> {
+    let device = Device::of_edition(Edition::English)?;
+    let outcomes = device.outcomes_with(vec![one.clone(), other.clone()], Mode::ReadOnly)?;
+    let detected = |defect: &FieldDefect| {
+        let seed = Seed::from(defect.clone());
+        judge(&seed.requirements, &outcomes).1 == TrialResult::Caught
+    };
+    Ok((detected(one), detected(other)))
+}
+
+/// Whether a wrong field makes another one undetectable: that of a frame, of an earlier function, or of
+/// the same function.
+fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
+    let listed = MASKED
+        .iter()
+        .any(|(one, other)| masking.id.starts_with(one) && masked.id.starts_with(other));
+    let (first, then) = (functions(masking.stream), functions(masked.stream));
+    let depends =
+        first.iter().any(|one| then.iter().any(|other| one == other || follows(*other, *one)));
+    listed || first.is_empty() || depends
+}
+
+/// The functions whose request or reply is the stream, or has it as a record; none for a stream of
+/// frames.
+fn functions(stream: Stream) -> Vec<Function> {
+    let stream = match stream {
+        Stream::ObjectDescriptor => Stream::ObjectDescriptors,
+        stream => stream,
+    };
+    let has = |function: &&Function| {
+        let spec = function.spec();
+        [spec.request, spec.reply].contains(&Some(stream))
+    };
+    Function::ALL.iter().filter(has).copied().collect()
+}
