@@ -58,7 +58,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         // The instance's part of the address may be wrong.
         let of_address: &[ClauseId] = match instance.class {
             Class::Spindle => &[SDA_4, ADR_2],
-            Class::Decoder if instance.axis > 0 => &[SDA_4, ADR_7],
+            class if instance.axis > 0 && OF_PLACES.contains(&class) => &[SDA_4, ADR_7],
             _ => &[SDA_4],
         };
         let data = probe.ask(of_address, CountElements::new(first)?)?;
