@@ -9,13 +9,14 @@ use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
+use super::platform::PRINTED;
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Step, applicable, assumed};
 use crate::objects::Object;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("com-content", &[COM_2, COM_5, GEN_5], Needs::Queries, content,
+    case("com-content", &[COM_2, COM_5, COM_6, GEN_5], Needs::Queries, content,
         "Every object is read where its descriptor says, in the size it says"),
     case("com-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
         "By number and by rank of the channel, an object has the same content"),
@@ -49,6 +50,12 @@ fn content(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{} at {}, where no query goes", object.name, at(&object));
             probe.check(rules, false, "a content that can be read", found);
             continue;
+        }
+        let place = object.address.content().map(|(group, offset)| (group.get(), offset.get()));
+        if PRINTED.iter().any(|&(_, group, offset)| place == Some((group, offset))) {
+            let exchange = probe.send(read)?;
+            let expected = || format!("{} at its printed address", object.name);
+            probe.check(COM_6, exchange.success().is_some(), expected, &exchange);
         }
         let content = probe.ask(rules, read)?;
         let found = || format!("{} bytes of {}", content.len(), object.name);

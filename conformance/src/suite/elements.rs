@@ -21,7 +21,7 @@ use crate::objects::decode_element_count;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("sda-elements", &[SDA_4, ADR_6], Needs::Queries, elements,
+    case("sda-elements", &[SDA_4, ADR_2, ADR_6, ADR_7], Needs::Queries, elements,
         "The first element says how many follow, and whose they are; then the list ends"),
     case("sda-first-element", &[SDA_4, SDA_8], Needs::Queries, first_element,
         "The first element has the attributes of an element, and its length is that of the number"),
@@ -55,7 +55,14 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     let (mut alone, mut with_first) = (None, None);
     for instance in probe.instances()? {
         let first = instance.first;
-        let data = probe.ask(SDA_4, CountElements::new(first)?)?;
+        // The instance's part of the address may be wrong.
+        let of_address: &[ClauseId] = match instance.class {
+            Class::Spindle => &[SDA_4, ADR_2],
+            class if instance.axis > 0 && OF_PLACES.contains(&class) => &[SDA_4, ADR_7],
+            _ => &[SDA_4],
+        };
+        let data = probe.ask(of_address, CountElements::new(first)?)?;
+        probe.pass(of_address);
         probe.pass(ADR_6);
         let found = || format!("{} bytes for the number of {instance}", data.len());
         probe.check(assumed(SDA_4), data.len() == 4, "a number of 4 bytes", found);

@@ -123,7 +123,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
 }
 
 /// The printed objects.
-const PRINTED: [(&str, u32, u32); 4] = [
+pub(super) const PRINTED: [(&str, u32, u32); 4] = [
     ("platform", 0x12_0100, 0x251),
     ("axis", 0x12_0200, 0x1_0001),
     ("channel", 0x12_0101, 0x1),
