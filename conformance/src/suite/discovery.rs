@@ -42,17 +42,19 @@ impl Discovery {
 }
 
 /// Finds the channels, axes, lists and ports of a target. Without a file for `--profile` its answers
-/// become the claims of its profile; of what the manuals require of every CNC nothing is left out.
-///
-/// If the target stops answering, the cases say so.
+/// become claims of its profile; sections and functions stay claimed whether they answer or not.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
     let deadline = probe.target.deadline;
     probe = probe.with_deadline(deadline);
     let mut found = FoundReport::default();
-    // An error here stops the first case too, which reports it.
-    let _stopped = find(&mut probe, by, &mut found);
+    found.stopped = find(&mut probe, by, &mut found).err().map(|stop| match stop {
+        Stop::NotApplicable(why) | Stop::Inconclusive(why) => why,
+        Stop::Refused(why) | Stop::Harness(why) => why,
+        Stop::Interrupted => "the run is being interrupted".to_owned(),
+        Stop::Judged => "a reply is wrong".to_owned(),
+    });
     found.requests = target.frames.saturating_sub(frames);
     Discovery { found, time: begun.elapsed() }
 }
@@ -90,11 +92,11 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     Ok(())
 }
 
-/// About as many requests the cases send for a channel, whatever is in its lists.
+/// Number of requests that the cases send for a channel, about, whatever is in its lists.
 const PER_CHANNEL: u64 = 2_000;
 
-/// About as many requests the cases send for a list; `tests/large.rs` compares the sum with those that
-/// are sent.
+/// Number of requests that the cases send for a list, about; `tests/large.rs` compares the sum with
+/// the requests that are sent.
 fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     let (list, item) = match kind {
         Some(ItemKind::Object) => (0, 13),
@@ -102,7 +104,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
         Some(ItemKind::Element) => (35, 35),
         None => (0, 30),
     };
-    // Of every variable the name is read.
+    // Every variable is described once, for its name.
     let names = match kind {
         Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
         _ => 0,
