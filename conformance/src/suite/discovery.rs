@@ -4,16 +4,16 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::address::{Channel, Class, PlatformAxis};
 use ads_cnc::ads::{AmsPort, DeviceInfoReply};
-use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
+use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, ReadElement, Request, Task};
 use ads_cnc::{Kind, VariableCount};
 
 use super::kit::{
-    Counted, ItemKind, OF_PLACES, Probe, RawCall, SampleSizes, TargetState, VARIABLES_MAX,
-    ask_if_claimed,
+    Counted, Instance, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
+    VARIABLES_MAX, ask_if_claimed,
 };
 use crate::client::InquiryReply;
 use crate::judge::{IfPresent as _, Step, Stop};
-use crate::objects::{Walker, active_channels, decoder_of};
+use crate::objects::{List, Walker, active_channels, decoder_of};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// Who says which parts of the target are judged.
@@ -65,6 +65,9 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
         claim_channels(probe)?;
         claim_axes(probe)?;
         found.ports = probe.target.profile.ports.to_vec();
+    }
+    if by == ClaimsBy::Queries && probe.target.client.gate().may_let_writes_pass() {
+        probe.target.blank_places = blank_places(probe)?;
     }
     let instances = probe.instances().if_applicable()?.unwrap_or_default();
     for number in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
@@ -207,4 +210,37 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     probe.target.profile.platform_axes = listed.max(controlled);
     probe.target.profile.spindles = spindles;
     Ok(())
+}
+
+/// The places for axes at which every element and object is zero, as at a place without an axis.
+fn blank_places(probe: &mut Probe<'_>) -> Step<Vec<(u32, u32)>> {
+    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    let objects = probe.objects().if_applicable()?.unwrap_or_default();
+    let mut all = Vec::new();
+    for channel in probe.channels()? {
+        let (number, list) = (u32::from(channel.number()), List::from(ObjectList::from(channel)));
+        for place in 1..=PLACES_MAX {
+            let mut reads = Vec::new();
+            let here = instances.iter().filter(|one| {
+                OF_PLACES.contains(&one.class) && (one.channel, one.axis) == (number, place)
+            });
+            for element in here.flat_map(Instance::elements) {
+                let length = probe.length_of(element)?;
+                let read = length.and_then(|length| ReadElement::new(element, length).ok());
+                reads.extend(read.map(Request::from));
+            }
+            let here = objects.iter().filter(|one| one.list == list && one.is_of_axis(place));
+            reads.extend(here.filter_map(|one| one.address.read().ok()));
+            let mut is_blank = !reads.is_empty();
+            for read in reads {
+                let content = probe.try_ask(read)?.unwrap_or_default();
+                is_blank = content.iter().all(|&byte| byte == 0);
+                if !is_blank {
+                    break;
+                }
+            }
+            all.extend(is_blank.then_some((number, place)));
+        }
+    }
+    Ok(all)
 }
