@@ -7,7 +7,7 @@ use super::model::{
     AreaReport, CaseReport, EvidenceReport, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport,
 };
-use super::{BytesReport, DeviceReport, FieldReport};
+use super::{BytesReport, DeviceReport, FieldReport, FoundReport};
 use crate::judge::{LeftChanged, WaiverReport};
 use crate::text::{escape, escape_lines, is_escaped};
 
@@ -43,8 +43,19 @@ impl Report {
             let escaped = std::mem::take(claims).into_iter();
             *claims = escaped.map(|(key, claim)| (escape(&key), escape_value(claim))).collect();
         }
-        let lists = found.iter_mut().flat_map(|found| &mut found.lists);
-        all(lists.map(|list| &mut list.name));
+        if let Some(FoundReport {
+            requests: _,
+            expected: _,
+            ports: _,
+            channels: _,
+            platform_axes: _,
+            spindles: _,
+            lists,
+            stopped,
+        }) = found
+        {
+            all(lists.iter_mut().map(|list| &mut list.name).chain(stopped));
+        }
         for WaiverReport { test, requirement, verdict: _, reason, expires, state: _, found: _ } in
             waivers
         {

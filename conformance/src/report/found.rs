@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct FoundReport {
     /// Number of requests that this took.
     pub requests: usize,
-    /// About as many requests the cases were expected to send, those of `--allow-write` not counted.
+    /// Number of requests that the cases are expected to send, about, without those of
+    /// `--allow-write`.
     pub expected: u64,
     /// The AMS ports that answer; none with `--profile`, which names them.
     pub ports: Vec<u16>,
@@ -20,6 +21,9 @@ pub struct FoundReport {
     pub spindles: u32,
     /// The lists that have a number of items.
     pub lists: Vec<FoundList>,
+    /// Why the queries ended early.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,7 +67,9 @@ impl FoundReport {
         parts.push(format!("{axes} axes of the platform, {spindles} spindles"));
         let items: u64 = self.lists.iter().map(|list| u64::from(list.items)).sum();
         parts.push(format!("{items} items in {} lists", self.lists.len()));
-        format!("{}, by {} requests", parts.join("; "), self.requests)
+        let stopped = self.stopped.as_ref();
+        let stopped = stopped.map_or_else(String::new, |why| format!("; no more, because {why}"));
+        format!("{}, by {} requests{stopped}", parts.join("; "), self.requests)
     }
 
     /// The lists that are not read whole, in one line; `None` if all are.

@@ -4,16 +4,16 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::address::{Channel, Class, PlatformAxis};
 use ads_cnc::ads::{AmsPort, DeviceInfoReply};
-use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
+use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, ReadElement, Request, Task};
 use ads_cnc::{Kind, VariableCount};
 
 use super::kit::{
-    Counted, ItemKind, OF_PLACES, Probe, RawCall, SampleSizes, TargetState, VARIABLES_MAX,
-    ask_if_claimed,
+    Counted, Instance, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
+    VARIABLES_MAX, ask_if_claimed,
 };
 use crate::client::InquiryReply;
 use crate::judge::{IfPresent as _, Step, Stop};
-use crate::objects::{Walker, active_channels, decoder_of};
+use crate::objects::{List, Walker, active_channels, decoder_of};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// Who says which parts of the target are judged.
@@ -42,17 +42,19 @@ impl Discovery {
 }
 
 /// Finds the channels, axes, lists and ports of a target. Without a file for `--profile` its answers
-/// become the claims of its profile; of what the manuals require of every CNC nothing is left out.
-///
-/// If the target stops answering, the cases say so.
+/// become claims of its profile; sections and functions stay claimed whether they answer or not.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
     let deadline = probe.target.deadline;
     probe = probe.with_deadline(deadline);
     let mut found = FoundReport::default();
-    // An error here stops the first case too, which reports it.
-    let _stopped = find(&mut probe, by, &mut found);
+    found.stopped = find(&mut probe, by, &mut found).err().map(|stop| match stop {
+        Stop::NotApplicable(why) | Stop::Inconclusive(why) => why,
+        Stop::Refused(why) | Stop::Harness(why) => why,
+        Stop::Interrupted => "the run is being interrupted".to_owned(),
+        Stop::Judged => "a reply is wrong".to_owned(),
+    });
     found.requests = target.frames.saturating_sub(frames);
     Discovery { found, time: begun.elapsed() }
 }
@@ -63,6 +65,9 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
         claim_channels(probe)?;
         claim_axes(probe)?;
         found.ports = probe.target.profile.ports.to_vec();
+    }
+    if by == ClaimsBy::Queries && probe.target.client.gate().may_let_writes_pass() {
+        probe.target.blank_places = blank_places(probe)?;
     }
     let instances = probe.instances().if_applicable()?.unwrap_or_default();
     for number in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
@@ -90,11 +95,11 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     Ok(())
 }
 
-/// About as many requests the cases send for a channel, whatever is in its lists.
+/// Number of requests that the cases send for a channel, about, whatever is in its lists.
 const PER_CHANNEL: u64 = 2_000;
 
-/// About as many requests the cases send for a list; `tests/large.rs` compares the sum with those that
-/// are sent.
+/// Number of requests that the cases send for a list, about; `tests/large.rs` compares the sum with
+/// the requests that are sent.
 fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     let (list, item) = match kind {
         Some(ItemKind::Object) => (0, 13),
@@ -102,7 +107,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
         Some(ItemKind::Element) => (35, 35),
         None => (0, 30),
     };
-    // Of every variable the name is read.
+    // Every variable is described once, for its name.
     let names = match kind {
         Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
         _ => 0,
@@ -205,4 +210,37 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     probe.target.profile.platform_axes = listed.max(controlled);
     probe.target.profile.spindles = spindles;
     Ok(())
+}
+
+/// The places for axes at which every element and object is zero, as at a place without an axis.
+fn blank_places(probe: &mut Probe<'_>) -> Step<Vec<(u32, u32)>> {
+    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    let objects = probe.objects().if_applicable()?.unwrap_or_default();
+    let mut all = Vec::new();
+    for channel in probe.channels()? {
+        let (number, list) = (u32::from(channel.number()), List::from(ObjectList::from(channel)));
+        for place in 1..=PLACES_MAX {
+            let mut reads = Vec::new();
+            let here = instances.iter().filter(|one| {
+                OF_PLACES.contains(&one.class) && (one.channel, one.axis) == (number, place)
+            });
+            for element in here.flat_map(Instance::elements) {
+                let length = probe.length_of(element)?;
+                let read = length.and_then(|length| ReadElement::new(element, length).ok());
+                reads.extend(read.map(Request::from));
+            }
+            let here = objects.iter().filter(|one| one.list == list && one.is_of_axis(place));
+            reads.extend(here.filter_map(|one| one.address.read().ok()));
+            let mut is_blank = !reads.is_empty();
+            for read in reads {
+                let content = probe.try_ask(read)?.unwrap_or_default();
+                is_blank = content.iter().all(|&byte| byte == 0);
+                if !is_blank {
+                    break;
+                }
+            }
+            all.extend(is_blank.then_some((number, place)));
+        }
+    }
+    Ok(all)
 }

@@ -84,7 +84,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{name:?} of {instance}");
         // The name of a place without an axis, or of an instance without further elements, is not
         // specified.
-        let is_bare = count == 0 || probe.is_claimed_empty(&instance);
+        let is_bare = count == 0 || probe.is_at_empty_place(&instance);
         let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
         let rule = assumed(SDA_4);

@@ -87,12 +87,15 @@ impl Probe<'_> {
         })
     }
 
-    /// Whether an object belongs to an axis index to which, by the profile, the channel assigns no axis: a
-    /// value written to it is not kept.
+    /// The places to which the channels assign no axis, by the profile or by their contents.
+    fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
+        self.target.profile.empty_places.iter().chain(&self.target.blank_places)
+    }
+
+    /// Whether an object belongs to a place without an axis: a value written to it is not kept.
     pub(crate) fn is_blank(&self, object: &Object) -> bool {
         let List::Channel(number) = object.list else { return false };
-        let empty = self.target.profile.empty_places.iter();
-        empty.filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
+        self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
     }
 
     /// The length of an element, from its attribute.
@@ -142,10 +145,10 @@ impl Probe<'_> {
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
-    /// Whether an instance is at an axis index to which, by the profile, the channel assigns no axis.
-    pub(crate) fn is_claimed_empty(&self, instance: &Instance) -> bool {
+    /// Whether an instance is at a place without an axis.
+    pub(crate) fn is_at_empty_place(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
-        OF_PLACES.contains(&instance.class) && self.target.profile.empty_places.contains(&at)
+        OF_PLACES.contains(&instance.class) && self.empty_places().any(|empty| *empty == at)
     }
 
     /// Every instance for which the target gives an address. Other cases judge the address.

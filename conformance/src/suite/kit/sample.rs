@@ -91,8 +91,8 @@ impl SampleSizes {
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
-    /// The sizes for these lists, by kind and number of items: with many lists fewer items of each, so
-    /// that all together are no more than about ten minutes with 10 ms for a request allow.
+    /// The sizes for these lists, by kind and number of items. With many lists fewer items of each are
+    /// read, so that all cases together send about 60,000 requests at most.
     pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
         let size = |kind, budget| {
             let counts = || lists.iter().filter(move |list| list.0 == kind).map(|list| list.1);

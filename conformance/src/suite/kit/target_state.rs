@@ -18,6 +18,9 @@ pub struct TargetState {
     pub client: Client,
     /// The claims of the target.
     pub profile: Profile,
+    /// Places for axes, by channel, whose contents are all zero: they may have no axis, and then a value
+    /// written there is not kept.
+    pub(in crate::suite) blank_places: Vec<(u32, u32)>,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
     /// How many of them.
@@ -65,6 +68,7 @@ impl TargetState {
         Self {
             client,
             profile,
+            blank_places: Vec::new(),
             sample: Sample::All,
             sample_sizes: SampleSizes::DEFAULT,
             variables: BTreeMap::new(),

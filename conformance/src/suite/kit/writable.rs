@@ -150,7 +150,7 @@ pub(crate) fn elements_with_flag(
 ) -> Step<Vec<WritableElement>> {
     let mut all = Vec::new();
     for instance in probe.instances()? {
-        if probe.is_claimed_empty(&instance) {
+        if probe.is_at_empty_place(&instance) {
             continue;
         }
         for element in instance.elements() {
