@@ -129,13 +129,11 @@ fn every_reason_is_of_a_defect_that_can_be_missed() {
 #[test]
 fn the_table_is_whole() {
     let table = DetectionTable::published().unwrap();
-    assert_eq!(table.to_text(), include_str!("../../doc/detection.tsv"));
-    assert_eq!(table.to_markdown(), include_str!("../../doc/detection.md"));
-    assert_eq!(
-        table.inputs,
-        detection::inputs(),
-        "renew it: ads-cnc selftest --renew conformance/doc"
-    );
+    let renew = "renew it: ads-cnc selftest --renew conformance/doc";
+    // Two long texts that differ are no message.
+    assert!(table.to_text() == include_str!("../../doc/detection.tsv"), "{renew}");
+    assert!(table.to_markdown() == include_str!("../../doc/detection.md"), "{renew}");
+    assert_eq!(table.inputs, detection::inputs(), "{renew}");
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let ids: Vec<&str> = seeds.map(|seed| seed.id.as_str()).collect();
     assert_eq!(table.rows.iter().map(|row| row.id.as_str()).collect::<Vec<_>>(), ids);

@@ -41,38 +41,6 @@ const FREE: &[(&str, &str, &[FieldChange], &str)] = &[
 const ONE_TO_ONE: &[FieldChange] =
     &[FieldChange::FlipLow, FieldChange::Invert, FieldChange::SwapBytes];
 
-/// Defects of a CNC that are right ones of another content: prefix of the ID, whether that holds for
-/// queries only, and why. A mode that knows the content may detect them all the same.
-const OTHER_CONTENT: &[(&str, bool, &str)] = &[
-    ("device-info-reply.minor.zero", false, "a CNC may have any version"),
-    ("object-descriptor.write_access.invert", false, "any object may be writable"),
-    ("cnc.com.access-always", false, "any object may be writable"),
-    ("element-write-flag.flag.", false, "any element may be writable or not"),
-    ("cnc.sda.flag-", false, "any element may be writable or not, and every byte but 0 is TRUE"),
-    ("cnc.var.access-", false, "any variable may be READ_ONLY or READ_WRITE"),
-    ("cnc.var.strings-read-only", true, "any variable may be READ_ONLY or READ_WRITE"),
-    ("variable-value.value.invert", true, "a variable may have any value"),
-    ("variable-value.value.zero", true, "a variable may have any value"),
-    ("cnc.com.content-big-endian", false, "an object may have any value"),
-    ("cnc.var.string-cut", true, "the length of a reply with a STRING is not documented"),
-    ("cnc.var.extended-swapped", false, "any V.E may be synchronised, and valid in all channels"),
-    ("cnc.var.index-reversed", false, "any V.E may be synchronised, and valid in all channels"),
-    ("cnc.gen.utf-8", false, "a name may have any characters"),
-    ("cnc.gen.units-ascii", false, "a unit may be any text"),
-    ("cnc.sda.feedhold-", false, "it is printed of an example, which no profile claims"),
-    ("cnc.dyn.p1-value", false, "it is printed of an example, which no profile claims"),
-    ("cnc.com.command-elsewhere", false, "it is printed of an example, which no profile claims"),
-];
-
-/// Why a CNC with this defect is a right one with another content.
-fn is_other_content(seed: &Seed, mode: Mode) -> Option<&'static str> {
-    let is_query = matches!(mode, Mode::ReadOnly | Mode::Profiled);
-    let mine = OTHER_CONTENT
-        .iter()
-        .find(|(start, queries, _)| seed.id.starts_with(start) && (is_query || !queries));
-    mine.map(|(.., why)| *why)
-}
-
 /// Why a CNC with this change of a field is a right one.
 pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
     let FieldDefect { stream, field, change, .. } = seed.field()?;
@@ -88,7 +56,7 @@ pub(super) fn of(
     devices: &[&'static Device],
     mode: Mode,
 ) -> Result<DetectionResult, ToolError> {
-    if let Some(why) = is_right(seed).or_else(|| is_other_content(seed, mode)) {
+    if let Some(why) = is_right(seed) {
         return Ok(DetectionResult::Undetectable(format!("a right CNC: {why}")));
     }
     let mut shown = None;
@@ -138,16 +106,4 @@ fn variants(device: &'static Device, mode: Mode) -> Result<Variants, ToolError> 
         }
     }
     Ok(Arc::clone(known.entry(mode).or_insert(Arc::new(variants))))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_other_content_is_of_a_defect() {
-        for (start, ..) in OTHER_CONTENT {
-            assert!(faults::all().iter().any(|seed| seed.id.starts_with(start)), "{start}");
-        }
-    }
 }
