@@ -261,7 +261,7 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         (Verdict::Warning, "known from help pages only, and done otherwise: fails nobody"),
         (Verdict::Differs, "in no document, assumed, and done otherwise: fails nobody"),
         (Verdict::Vacuous, "refused as it should be, but so is what should be accepted: fails"),
-        (Verdict::Inconclusive, "what came back does not tell"),
+        (Verdict::Inconclusive, "the replies do not decide it, or it follows from another failure"),
         (Verdict::NotObserved, "nothing in this run touches it"),
         (Verdict::Interrupted, "the run was ended before it was done"),
     ] {
