@@ -36,11 +36,15 @@ fn run_against(
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 
-/// The cases with a fail, or of a should with a warning.
+/// The cases with a fail, or of a should with a warning, or with one that follows from another case.
 fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
-    let failed = outcomes
-        .iter()
-        .filter(|outcome| matches!(outcome.verdict(), Verdict::Fail | Verdict::Warning));
+    let follows = |outcome: &CaseOutcome| {
+        let mut judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
+        judged.any(|judgement| judgement.follows.is_some())
+    };
+    let failed = outcomes.iter().filter(|outcome| {
+        matches!(outcome.verdict(), Verdict::Fail | Verdict::Warning) || follows(outcome)
+    });
     failed.map(|outcome| outcome.case.id.as_str()).collect()
 }
 

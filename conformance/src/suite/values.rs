@@ -19,7 +19,7 @@ use crate::text::hex::spaced;
 pub(super) const CASES: &[CaseRow] = &[
     case("val-whole-by-handle", &[VAR_8, VAR_11, VAR_14], Needs::Queries, whole_by_handle,
         "Without an index, a handle gives the whole variable, in its described size"),
-    case("val-whole-by-name", &[VAR_9, VAR_14, GEN_2], Needs::Queries, whole_by_name,
+    case("val-whole-by-name", &[VAR_9, VAR_14], Needs::Queries, whole_by_name,
         "A name gives the same bytes as its handle"),
     case("val-elements-by-handle", &[VAR_11, VAR_14, VAR_21], Needs::Queries, elements_by_handle,
         "An index gives the element of that place in the whole array"),
