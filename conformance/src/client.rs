@@ -228,7 +228,10 @@ impl Client {
             answer(header, got, data).map(|answer| (answer, got))
         });
         exchange.sent = bytes;
-        if let Some(data) = exchange.answer().and_then(AdsReply::success) {
+        // A handle or an address from a reply with another invoke ID permits nothing.
+        let reply = exchange.outcome.as_ref().ok();
+        let reply = reply.filter(|(_, got)| got.invoke_id == header.invoke_id);
+        if let Some(data) = reply.and_then(|(reply, _)| reply.success()) {
             self.gate.observe(call, data);
         }
         Ok(header)
@@ -332,7 +335,8 @@ impl Client {
                 let header = frame.header();
                 let (id, asked_id) = (header.invoke_id, sent.invoke_id);
                 let is_other = id != asked_id;
-                // Its source port is not that of the requests before: another invoke ID is wrong.
+                // A reply to an earlier request would have another target port. So this is the reply to
+                // this request, with a wrong invoke ID.
                 if !is_other || is_reply(&sent, &header) {
                     if is_other {
                         violations.push(Violation::of_invoke_id(id, asked_id));
@@ -351,7 +355,10 @@ impl Client {
                     violations.push(Violation::of_invoke_id(id, asked_id));
                 }
                 received.drain(..len);
-                timeout = timeout.min(asked.elapsed().saturating_add(AFTER_STRAY));
+                // The first one may be late; a device that sends more of them is not waited for.
+                if *strays > 1 {
+                    timeout = timeout.min(asked.elapsed().saturating_add(AFTER_STRAY));
+                }
                 if asked.elapsed() >= timeout {
                     return Err(ExchangeError::Silence(timeout));
                 }

@@ -170,11 +170,11 @@ fn frames_without_end_that_nobody_asked_for() {
         }
     });
     let addr = addr.to_string();
-    for timeout in ["2000", "6000"] {
-        let ended = run(&against(&addr, &["get", "V.E.Testvar", "--timeout", timeout]));
-        assert_eq!(ended.code, Some(1), "{}", ended.stderr);
-        assert!(ended.stderr.contains("an answer to invoke ID"), "{}", ended.stderr);
-    }
+    let begun = Instant::now();
+    let ended = run(&against(&addr, &["get", "V.E.Testvar", "--timeout", "60000"]));
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    assert!(ended.stderr.contains("an answer to invoke ID"), "{}", ended.stderr);
+    assert!(begun.elapsed().as_secs() < 30, "{}", ended.stderr);
     for tool in [&["browse"][..], &["browse", "--variables"], &["run"]] {
         let ended = run(&against(&addr, tool));
         assert_eq!(ended.code, Some(1), "{tool:?}: {}", ended.stderr);

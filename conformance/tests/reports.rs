@@ -216,7 +216,9 @@ fn junit_has_a_test_for_each_case() {
         let counted = at(&format!("{test}{path}")).len();
         assert_eq!(value(root, name), counted.to_string(), "{name}");
     }
-    assert_eq!(value(root, "errors"), "0");
+    let errors = document["cases"].as_array().unwrap().iter();
+    let errors = errors.filter(|case| case["verdict"] == "inconclusive" && case["waived"] != true);
+    assert_eq!(value(root, "errors"), errors.count().to_string());
     let skipped = at(&format!("{test}/skipped"));
     let why = "waived until 9999-12-31: <known> | & \"so\"";
     assert!(skipped.iter().any(|one| value(one, "message") == why));

@@ -11,7 +11,9 @@ use ads_cnc::operation::{Function, Service};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::{Case, CaseOutcome, Judgement, Needs, RequirementVerdict, Verdict, gravest};
+use super::{
+    Case, CaseOutcome, CaseSubject, Judgement, Needs, RequirementVerdict, Verdict, gravest,
+};
 
 /// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
 /// from.
@@ -59,8 +61,8 @@ fn origin(function: Function) -> Function {
     first
 }
 
-/// Clauses whose checks prove them broken whatever else is: they look for the one error, such as
-/// reversed bytes, which no error of another clause looks like.
+/// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
+/// like it, so they always fail.
 const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, SVC_1];
 
 /// Clauses of every function: an error of the function itself looks like an error of these.
@@ -95,6 +97,7 @@ const fn is_broken(verdict: Verdict) -> bool {
 struct Root {
     function: Function,
     clause: &'static str,
+    /// The variable or object; `None` for several, or for none in particular.
     subject: Option<String>,
     check: (String, String, String),
 }
@@ -129,7 +132,9 @@ fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
         let (Some(function), subject) = site(judgement) else { continue };
         let clause = judgement.requirement;
         if is_of_functions(clause) && defines(clause, function) {
-            let (subject, check) = (subject.map(str::to_owned), check(case, judgement));
+            // The failures that are not stored are about others.
+            let subject = subject.filter(|_| judgement.more == 0).map(str::to_owned);
+            let check = check(case, judgement);
             all.push(Root { function, clause, subject, check });
         }
     }
@@ -153,8 +158,11 @@ fn judgements(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&str, &Judgemen
     })
 }
 
-/// The clause of the service, if functions of several chains fail, all of them of this service, and its
-/// clause fails too.
+/// Number of chains that must fail for their service to be the cause: each service has functions of three.
+const CHAINS_OF_SERVICE: usize = 3;
+
+/// The clause of the service, if functions of all chains fail, all of them of this service, and its clause
+/// fails too.
 fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> {
     let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
     let service = roots.first()?.function.spec().service;
@@ -166,7 +174,7 @@ fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> 
     let is_alone = roots.iter().all(|root| root.function.spec().service == service);
     let fails =
         judgements(outcomes).any(|(_, one)| one.requirement == clause && is_broken(one.verdict));
-    (origins.len() > 1 && is_alone && fails).then_some(clause)
+    (origins.len() >= CHAINS_OF_SERVICE && is_alone && fails).then_some(clause)
 }
 
 /// The clause of a request that several functions have, if it and all of several of them fail.
@@ -190,21 +198,26 @@ fn cause(
     Causes { roots, service, request }: &Causes,
 ) -> Option<&'static str> {
     let clause = judgement.requirement;
-    if case.needs == Needs::Frames || is_one_of(clause, &SPECIFIC) {
+    let is_apart = case.subject != CaseSubject::Target || case.needs == Needs::Frames;
+    if is_apart || is_one_of(clause, &SPECIFIC) {
         return None;
     }
     if let Some(service) = *service {
         return (clause != service).then_some(service);
     }
     let (function, subject) = site(judgement);
-    let roots = || roots.iter().filter(|root| related(root.subject.as_deref(), subject));
+    let explains = |root: &&Root| match &root.subject {
+        // Failures that are not stored may be about others.
+        Some(_) if judgement.more > 0 => false,
+        one => related(one.as_deref(), subject),
+    };
+    let roots = || roots.iter().filter(explains);
     let Some(function) = function else {
-        let homes = |root: &Root| {
-            let homes = Function::ALL.iter().filter(|one| defines(clause, **one));
-            homes.clone().any(|home| before(*home).contains(&root.function))
-                || homes.count() == 0 && !is_of_functions(clause)
+        let is_before_home = |root: &&Root| {
+            let mut homes = Function::ALL.iter().filter(|one| defines(clause, **one));
+            homes.any(|home| before(*home).contains(&root.function))
         };
-        return roots().find(|root| homes(root)).map(|root| root.clause);
+        return roots().find(is_before_home).map(|root| root.clause);
     };
     if let Some((shared, functions)) = request
         && functions.contains(&function)
@@ -213,7 +226,7 @@ fn cause(
         return (clause != *shared).then_some(*shared);
     }
     let earlier = before(function);
-    let explains = |root: &&Root| {
+    let is_earlier = |root: &&Root| {
         if is_of_functions(clause) {
             if defines(clause, function) {
                 return earlier.contains(&root.function);
@@ -229,7 +242,7 @@ fn cause(
     if roots().any(|root| root.check == same) {
         return None;
     }
-    roots().find(explains).map(|root| root.clause)
+    roots().find(is_earlier).map(|root| root.clause)
 }
 
 /// Makes failed checks inconclusive that follow from the failure of an earlier function.
@@ -249,8 +262,7 @@ pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
 
 fn follow(case: &Case, verdict: &mut RequirementVerdict, causes: &Causes) {
     for judgement in &mut verdict.judgements {
-        let counts = is_broken(judgement.verdict) || judgement.verdict == Verdict::Warning;
-        if !counts {
+        if !is_broken(judgement.verdict) {
             continue;
         }
         if let Some(clause) = cause(case, judgement, causes)
@@ -260,8 +272,9 @@ fn follow(case: &Case, verdict: &mut RequirementVerdict, causes: &Causes) {
             judgement.follows = Some(clause);
         }
     }
-    let by_checks = is_broken(verdict.verdict) || verdict.verdict == Verdict::Warning;
-    if by_checks && let Some(gravest) = gravest(verdict.judgements.iter().map(|one| one.verdict)) {
+    if is_broken(verdict.verdict)
+        && let Some(gravest) = gravest(verdict.judgements.iter().map(|one| one.verdict))
+    {
         verdict.verdict = gravest;
     }
 }
@@ -273,6 +286,12 @@ mod tests {
 
     /// A failed check: case, clause, function, subject.
     type Failed = (&'static str, ClauseId, Function, &'static str);
+
+    fn attribute_one(outcomes: &mut [CaseOutcome]) -> Vec<Option<&'static str>> {
+        attribute(outcomes);
+        let verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
+        verdicts.map(|one| one.judgements[0].follows).collect()
+    }
 
     fn outcome((case, clause, function, subject): Failed) -> CaseOutcome {
         let requirement = clause.as_str();
@@ -330,6 +349,39 @@ mod tests {
         assert_eq!(attributed(&[read, sized, other]), [follows_from(VAR_8), FAILS, FAILS]);
     }
 
+    /// Failures that are not stored may be about other variables.
+    #[test]
+    fn unstored_failures_follow_from_unstored_ones_only() {
+        let sized = ("size", VAR_8, Function::DescribeByIndex, "V.E.a");
+        let read = ("read", VAR_14, Function::ReadByHandle, "V.E.a");
+        for (described, read_more, follows) in
+            [(0, 5, None), (5, 5, Some("VAR-8")), (5, 0, Some("VAR-8"))]
+        {
+            let mut outcomes = [outcome(sized), outcome(read)];
+            outcomes[0].verdicts[0].judgements[0].more = described;
+            outcomes[1].verdicts[0].judgements[0].more = read_more;
+            assert_eq!(attribute_one(&mut outcomes), [None, follows], "{described} {read_more}");
+        }
+    }
+
+    #[test]
+    fn a_failure_of_the_target_explains_none_of_the_codec() {
+        let sized = ("size", VAR_8, Function::DescribeByIndex, "V.E.a");
+        let read = ("read", VAR_14, Function::ReadByHandle, "V.E.a");
+        let mut outcomes = [outcome(sized), outcome(read), outcome(read)];
+        outcomes[2].case.subject = CaseSubject::Codec;
+        assert_eq!(attribute_one(&mut outcomes), [None, Some("VAR-8"), None]);
+    }
+
+    /// A clause of no function does not follow if its check is about no function.
+    #[test]
+    fn a_clause_without_a_function_does_not_follow() {
+        let count = ("count", COM_1, Function::CountObjects, "");
+        let mut outcomes = [outcome(count), outcome(("state", ADS_9, Function::CountObjects, ""))];
+        outcomes[1].verdicts[0].judgements[0].evidence = None;
+        assert_eq!(attribute_one(&mut outcomes), [None, None]);
+    }
+
     #[test]
     fn a_general_clause_follows_from_one_of_the_function() {
         let count = ("count", COM_1, Function::CountObjects, "");
@@ -344,10 +396,15 @@ mod tests {
         let all = [
             ("com", COM_1, Function::CountObjects, ""),
             ("dyn", DYN_1, Function::CountDynamic, ""),
+            ("sda", SDA_4, Function::CountElements, ""),
             ("ads", ADS_1, Function::CountDynamic, ""),
         ];
-        assert_eq!(attributed(&all), [follows_from(ADS_1), follows_from(ADS_1), FAILS]);
-        assert_eq!(attributed(&all[..2]), [FAILS, FAILS]);
+        let follows = follows_from(ADS_1);
+        assert_eq!(attributed(&all), [follows, follows, follows, FAILS]);
+        assert_eq!(attributed(&all[..3]), [FAILS, FAILS, FAILS]);
+        // Two functions may be wrong by themselves.
+        let two = [all[0], all[1], ("ads", ADS_1, Function::ReadObject, "")];
+        assert_eq!(attributed(&two), [FAILS, FAILS, follows_from(COM_1)]);
     }
 
     #[test]

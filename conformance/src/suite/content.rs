@@ -46,7 +46,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
         };
-        if !probe.may(read)? {
+        if let Err(Some(_)) = probe.check_gate(&read)? {
             let found = || format!("{} at {}, where no query goes", object.name, at(&object));
             probe.check(rules, false, "a content that can be read", found);
             continue;

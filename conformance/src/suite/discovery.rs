@@ -3,17 +3,17 @@
 use std::time::{Duration, Instant};
 
 use ads_cnc::address::{Channel, Class, PlatformAxis};
-use ads_cnc::ads::{AmsPort, DeviceInfoReply};
-use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, ReadElement, Request, Task};
+use ads_cnc::ads::DeviceInfoReply;
+use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
 use ads_cnc::{Kind, VariableCount};
 
 use super::kit::{
-    Counted, Instance, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
+    Counted, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
     VARIABLES_MAX, ask_if_claimed,
 };
 use crate::client::InquiryReply;
 use crate::judge::{IfPresent as _, Step, Stop};
-use crate::objects::{List, Walker, active_channels, decoder_of};
+use crate::objects::{Walker, active_channels, decoder_of};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// Who says which parts of the target are judged.
@@ -49,27 +49,42 @@ pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let deadline = probe.target.deadline;
     probe = probe.with_deadline(deadline);
     let mut found = FoundReport::default();
-    found.stopped = find(&mut probe, by, &mut found).err().map(|stop| match stop {
+    let ended = find(&mut probe, by, &mut found).err().map(|stop| match stop {
         Stop::NotApplicable(why) | Stop::Inconclusive(why) => why,
         Stop::Refused(why) | Stop::Harness(why) => why,
         Stop::Interrupted => "the run is being interrupted".to_owned(),
         Stop::Judged => "a reply is wrong".to_owned(),
     });
+    found.stopped = found.stopped.or(ended);
     found.requests = target.frames.saturating_sub(frames);
     Discovery { found, time: begun.elapsed() }
 }
 
+/// Goes on after a step that a wrong reply ended, and notes the first reason.
+fn go_on<T>(found: &mut FoundReport, step: Step<T>) -> Step<Option<T>> {
+    match step {
+        Err(Stop::Inconclusive(why)) => {
+            found.stopped.get_or_insert(why);
+            Ok(None)
+        }
+        step => step.map(Some),
+    }
+}
+
 fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     if by == ClaimsBy::Queries {
-        claim_ports(probe)?;
-        claim_channels(probe)?;
-        claim_axes(probe)?;
-        found.ports = probe.target.profile.ports.to_vec();
+        let there = ports(probe);
+        found.ports = go_on(found, there)?.unwrap_or_default();
+        let claimed = claim_channels(probe);
+        go_on(found, claimed)?;
+        let claimed = claim_axes(probe);
+        go_on(found, claimed)?;
+        if probe.target.client.gate().may_let_writes_pass() {
+            probe.target.unwritten_places = unwritten_places(probe)?;
+        }
     }
-    if by == ClaimsBy::Queries && probe.target.client.gate().may_let_writes_pass() {
-        probe.target.blank_places = blank_places(probe)?;
-    }
-    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    let instances = probe.instances().if_applicable();
+    let instances = go_on(found, instances)?.flatten().unwrap_or_default();
     for number in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
         let places = instances.iter().filter(|one| OF_PLACES.contains(&one.class));
         let places = places.filter(|one| one.channel == number).map(|one| one.axis);
@@ -115,8 +130,8 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
 }
 
-/// Claims the ports that answer; all if none does, which the cases judge.
-fn claim_ports(probe: &mut Probe<'_>) -> Step {
+/// The ports that answer. All stay claimed, so that a case fails for a missing one.
+fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     let channel = Channel::new(1)?;
     let mut there = Vec::new();
     for task in [Task::Geo, Task::Sda, Task::Com] {
@@ -134,14 +149,10 @@ fn claim_ports(probe: &mut Probe<'_>) -> Step {
             matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Refused(_)))
         };
         if answered {
-            there.push(task.port());
+            there.push(task.port().0);
         }
     }
-    if !there.is_empty() {
-        let ports: Vec<u16> = there.into_iter().map(|AmsPort(port)| port).collect();
-        probe.target.profile.ports = ports.into();
-    }
-    Ok(())
+    Ok(there)
 }
 
 /// Sends the requests of a walk whose functions are claimed; the others count as rejected.
@@ -212,35 +223,9 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The places for axes at which every element and object is zero, as at a place without an axis.
-fn blank_places(probe: &mut Probe<'_>) -> Step<Vec<(u32, u32)>> {
-    let instances = probe.instances().if_applicable()?.unwrap_or_default();
-    let objects = probe.objects().if_applicable()?.unwrap_or_default();
-    let mut all = Vec::new();
-    for channel in probe.channels()? {
-        let (number, list) = (u32::from(channel.number()), List::from(ObjectList::from(channel)));
-        for place in 1..=PLACES_MAX {
-            let mut reads = Vec::new();
-            let here = instances.iter().filter(|one| {
-                OF_PLACES.contains(&one.class) && (one.channel, one.axis) == (number, place)
-            });
-            for element in here.flat_map(Instance::elements) {
-                let length = probe.length_of(element)?;
-                let read = length.and_then(|length| ReadElement::new(element, length).ok());
-                reads.extend(read.map(Request::from));
-            }
-            let here = objects.iter().filter(|one| one.list == list && one.is_of_axis(place));
-            reads.extend(here.filter_map(|one| one.address.read().ok()));
-            let mut is_blank = !reads.is_empty();
-            for read in reads {
-                let content = probe.try_ask(read)?.unwrap_or_default();
-                is_blank = content.iter().all(|&byte| byte == 0);
-                if !is_blank {
-                    break;
-                }
-            }
-            all.extend(is_blank.then_some((number, place)));
-        }
-    }
-    Ok(all)
+/// The places for axes of all channels but the first. Without a profile a run writes nothing to them: which
+/// of them have no axis is in no list, and a place without one keeps no value.
+fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
+    let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
+    Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())
 }

@@ -95,17 +95,21 @@ fn rows() -> impl Iterator<Item = &'static CaseRow> {
     TABLES.iter().copied().flatten()
 }
 
-/// All cases. [`Selection::plan`](crate::judge::Selection::plan) orders them.
-pub fn cases() -> Vec<Case> {
-    let mut cases = codec_cases();
-    cases.extend(rows().map(|row| Case {
+fn case_of(row: &CaseRow) -> Case {
+    Case {
         id: row.id.to_owned(),
         title: row.title.to_owned(),
         subject: CaseSubject::Target,
         requirements: row.clauses.iter().map(|id| id.as_str()).collect(),
         needs: row.needs,
         body: Body::Probe,
-    }));
+    }
+}
+
+/// All cases. [`Selection::plan`](crate::judge::Selection::plan) orders them.
+pub fn cases() -> Vec<Case> {
+    let mut cases = codec_cases();
+    cases.extend(rows().map(case_of));
     cases.extend(printed::cases());
     cases
 }

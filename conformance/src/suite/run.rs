@@ -45,12 +45,22 @@ pub fn run(
         let run = TRIES.get(case.id.as_str()).copied();
         one(case, run, target.as_deref_mut())
     }));
+    if let Some(target) = target.as_deref_mut() {
+        outcomes.extend(broken_frames(target));
+    }
     attribute(&mut outcomes);
     if let Some(target) = target {
         // Values that this leaves changed after a panic are reported.
         let _panic = caught(|| Probe::new(target).restore_rest());
     }
     outcomes
+}
+
+/// The case of the frames, if it is not selected and a frame was wrong.
+fn broken_frames(target: &mut TargetState) -> Option<CaseOutcome> {
+    let is_wrong = target.broken.checks > 0;
+    let row = rows().find(|row| row.id == "ads-every-frame").filter(|_| is_wrong)?;
+    Some(one(super::case_of(row), Some(row.run), Some(target)))
 }
 
 fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOutcome {

@@ -84,7 +84,9 @@ impl Sending<'_> {
                     }
                 }
                 // The packet may have arrived.
-                Some(error @ (ToolError::NoAnswer(_) | ToolError::Reply(_))) => {
+                Some(
+                    error @ (ToolError::NoAnswer(_) | ToolError::Reply(_) | ToolError::Frame(_)),
+                ) => {
                     return SendEnd::Unknown(error);
                 }
                 Some(error) => return SendEnd::Stopped(error),

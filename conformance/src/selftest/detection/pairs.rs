@@ -30,7 +30,7 @@ const MASKED: [(&str, &str); 1] = [("variable-handle-read", "variable-descriptio
 pub struct PairFigures {
     /// Both are detected.
     pub both: usize,
-    /// One makes requests or expectations of the other wrong, so that only its clause fails.
+    /// The request or the expectation of one depends on the reply of the other, whose clause alone fails.
     pub masked: usize,
     /// One hides the other, though they do not depend on each other.
     pub hidden: Vec<String>,
@@ -45,6 +45,7 @@ pub(crate) fn pairs(table: &DetectionTable, tell: &(impl Fn(usize, usize) + Sync
         match detected {
             Err(error) => figures.hidden.push(format!("{}: {error}", name())),
             Ok((true, true)) => figures.both += 1,
+            Ok((false, false)) => figures.hidden.push(format!("{}: neither is detected", name())),
             Ok((is_first, _)) => {
                 let (masking, masked) = if is_first { (&one, &other) } else { (&other, &one) };
                 if can_mask(masking, masked) {

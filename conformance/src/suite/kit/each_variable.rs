@@ -37,7 +37,9 @@ pub(crate) fn each_array(
     })?;
     applicable(!arrays.is_empty(), "no variable is an array")?;
     for (channel, variable, size) in probe.target.sample.among(arrays, ARRAYS_MAX) {
+        probe.set_subject(&variable.name.text);
         judge(probe, channel, &variable, size)?;
     }
+    probe.end_subject();
     Ok(())
 }

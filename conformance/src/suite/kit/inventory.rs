@@ -89,7 +89,7 @@ impl Probe<'_> {
 
     /// The places to which the channels assign no axis, by the profile or by their contents.
     fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
-        self.target.profile.empty_places.iter().chain(&self.target.blank_places)
+        self.target.profile.empty_places.iter().chain(&self.target.unwritten_places)
     }
 
     /// Whether an object belongs to a place without an axis: a value written to it is not kept.

@@ -20,7 +20,7 @@ pub struct TargetState {
     pub profile: Profile,
     /// Places for axes, by channel, whose contents are all zero: they may have no axis, and then a value
     /// written there is not kept.
-    pub(in crate::suite) blank_places: Vec<(u32, u32)>,
+    pub(in crate::suite) unwritten_places: Vec<(u32, u32)>,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
     /// How many of them.
@@ -68,7 +68,7 @@ impl TargetState {
         Self {
             client,
             profile,
-            blank_places: Vec::new(),
+            unwritten_places: Vec::new(),
             sample: Sample::All,
             sample_sizes: SampleSizes::DEFAULT,
             variables: BTreeMap::new(),
