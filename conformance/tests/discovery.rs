@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::faults::{self, Faulty, Seed, SeedKind};
 use ads_cnc_conformance::gate::Gate;
-use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection};
+use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection, Verdict};
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, LocalCnc, NET_ID};
 use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
@@ -42,6 +42,16 @@ fn the_default_model_is_found_without_a_profile() {
     assert_eq!((items("V.E channel 2"), items("decoder channel 1")), (2, 6));
     assert!(found.requests < 400, "{}", found.requests);
     assert_eq!(found.sampled(), None);
+}
+
+/// Every port stays claimed, whether it was found or not.
+#[test]
+fn a_missing_port_fails() {
+    let (mut target, _) = discovered(faults::by_id("cnc.gen.geo-missing"));
+    assert_eq!(target.profile.ports[..], [551, 552, 553]);
+    let outcomes = outcomes(&mut target);
+    let ports = outcomes.iter().find(|one| one.case.id == "gen-ports-answer").unwrap();
+    assert_eq!(ports.verdict(), Verdict::Fail);
 }
 
 /// A correct CNC of another make fails nothing without a profile either. The others are tried by

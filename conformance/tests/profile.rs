@@ -77,6 +77,16 @@ fn a_function_claimed_by_name_must_work() {
     assert_eq!(verdict(&report, "var-described-by-name"), "not-applicable");
 }
 
+/// An object that the profile does not have read is not a wrong descriptor.
+#[test]
+fn a_function_that_is_not_claimed_fails_nothing() {
+    let profile = claiming("functions = [\"number of objects\", \"object descriptors\"]\n");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert_eq!(verdict(&report, "com-content"), "not-applicable");
+    assert_eq!(verdict(&report, "com-descriptors"), "pass");
+}
+
 #[test]
 fn a_bad_profile_is_wrong_usage() {
     let profile = claiming("name = \"x\"\nports = [851]\n");

@@ -126,7 +126,7 @@ fn a_run_without_a_profile_judges_what_it_finds() {
     assert_eq!(report["found"]["ports"], serde_json::json!([551, 552, 553]));
     let found = "channel 1 with 3 axes, 2 with 3 axes, 6 with 3 axes";
     assert!(
-        told.contains(found) && told.contains("about ") && told.contains(" requests, "),
+        told.contains(found) && told.contains("about ") && told.contains(" requests"),
         "{told}"
     );
 
@@ -311,6 +311,16 @@ fn broken_frames_fail_the_rule_of_the_frame() {
         failed.dedup();
         assert_eq!(failed, clauses, "{defect}");
     }
+}
+
+/// A wrong frame fails whatever is selected.
+#[test]
+fn broken_frames_fail_in_every_selection() {
+    let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
+    let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+    let output = ads_cnc(&[&["run", "--only", "com-count"][..], &target].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("FAIL  ads-every-frame"), "{}", text(&output.stdout));
 }
 
 /// Exit code for a report that cannot be written.

@@ -14,6 +14,7 @@ use ads_cnc::streaming::Ack;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, StreamingInterface};
 use ads_cnc_conformance::simulator::{Cnc, Server};
+use common::Serve;
 use common::fake::{Answer, fake};
 use common::file::TestFile;
 
@@ -144,6 +145,17 @@ fn a_packet_without_an_answer_is_not_repeated() {
         assert!(shown.ends_with(left), "{shown}");
         assert!(said.contains("not sent again"), "{said}");
     }
+}
+
+/// A reply with a wrong invoke ID does not say whether the packet was taken.
+#[test]
+fn a_packet_with_a_wrong_reply_may_have_been_taken() {
+    let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
+    let allow = TestFile::allowing(STREAM_1);
+    let output = stream(b"X1\nX2\n", serve.addr.parse().unwrap(), &allow, &[]);
+    let shown = text(&output.stdout);
+    assert_eq!(code(&output), 1, "{}", text(&output.stderr));
+    assert!(shown.contains("not known whether it was taken: lines 1 to 2"), "{shown}");
 }
 
 /// A faulty program is not begun. What only seems to end streaming can be sent all the same.

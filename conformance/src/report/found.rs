@@ -60,9 +60,11 @@ impl FoundReport {
         if !self.ports.is_empty() {
             parts.push(format!("ports {}", joined(self.ports.iter().map(ToString::to_string))));
         }
-        let channels = self.channels.iter();
-        let channels = channels.map(|one| format!("{} with {} axes", one.number, one.axes));
-        parts.push(format!("channel {}", joined(channels)));
+        if !self.channels.is_empty() {
+            let channels = self.channels.iter();
+            let channels = channels.map(|one| format!("{} with {} axes", one.number, one.axes));
+            parts.push(format!("channel {}", joined(channels)));
+        }
         let (axes, spindles) = (self.platform_axes, self.spindles);
         parts.push(format!("{axes} axes of the platform, {spindles} spindles"));
         let items: u64 = self.lists.iter().map(|list| u64::from(list.items)).sum();

@@ -1,7 +1,7 @@
 //! Defects of a CNC that no case shows.
 
-/// Their IDs. `tests/simulator/defects.rs` finds each by a test of the simulated CNC: what a program
-/// executes, for example, is in no answer, and of the text of a name no device has another source.
+/// Their IDs. `tests/simulator/defects.rs` finds each by a test of the simulated CNC. No reply shows, for
+/// example, what a program executes.
 #[rustfmt::skip]
 pub const UNSEEN: &[&str] = &[
     "ams-header.error.swap", "cnc.adr.place-keeps-axis", "cnc.adr.platform-axis-exchanged",

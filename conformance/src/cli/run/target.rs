@@ -137,20 +137,22 @@ fn print_forecast(discovery: &Discovery, plan: &Plan) {
         print_error(format_args!("sampled (--all reads all): {sampled}"));
     }
     let queries = |cases: &[Case]| -> u64 {
-        cases.iter().filter(|one| one.needs == Needs::Queries).map(|_| 1_u64).sum()
+        let queries = cases.iter().filter(|one| one.needs == Needs::Queries);
+        u64::try_from(queries.count()).unwrap_or(u64::MAX)
     };
     let (selected, all) = (queries(&plan.cases), queries(&suite::cases()));
     let requests = found.expected.saturating_mul(selected).checked_div(all).unwrap_or_default();
     if requests == 0 {
         return;
     }
-    let seconds = discovery.time_for(requests).as_secs();
-    let each = discovery.time_for(1).as_secs_f64() * 1000.0;
-    print_error(format_args!(
-        "the queries of the cases: about {requests} requests, {each:.1} ms each: {} min {} s",
-        seconds / 60,
-        seconds % 60
-    ));
+    let (seconds, each) = (discovery.time_for(requests).as_secs(), discovery.time_for(1));
+    let time = if seconds > 0 {
+        let each = each.as_secs_f64() * 1000.0;
+        format!(", {each:.1} ms each: {} min {} s", seconds / 60, seconds % 60)
+    } else {
+        String::new()
+    };
+    print_error(format_args!("the queries of the cases: about {requests} requests{time}"));
 }
 
 /// Whether the case writes and has been executed.
