@@ -45,6 +45,10 @@ pub(crate) fn pairs(table: &DetectionTable, tell: &(impl Fn(usize, usize) + Sync
         match detected {
             Err(error) => figures.hidden.push(format!("{}: {error}", name())),
             Ok((true, true)) => figures.both += 1,
+            // Frames that are wrong in two ways.
+            Ok((false, false)) if [&one, &other].iter().all(|it| is_of_frames(it)) => {
+                figures.masked += 1;
+            }
             Ok((false, false)) => figures.hidden.push(format!("{}: neither is detected", name())),
             Ok((is_first, _)) => {
                 let (masking, masked) = if is_first { (&one, &other) } else { (&other, &one) };
@@ -88,8 +92,14 @@ fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), T
     Ok((detected(one), detected(other)))
 }
 
-/// Whether a wrong field makes another one undetectable: that of a frame, of an earlier function, or of
-/// the same function.
+/// Whether the field is of a frame or of an ADS service, and of no function.
+fn is_of_frames(defect: &FieldDefect) -> bool {
+    functions(defect.stream).is_empty()
+}
+
+/// Whether a wrong field makes another one undetectable: that of an earlier function, or of the same
+/// function. A wrong frame may leave nothing to detect; and the clause of a service is the cause only if
+/// no function of another service fails.
 fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     let listed = MASKED
         .iter()
@@ -97,7 +107,7 @@ fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     let (first, then) = (functions(masking.stream), functions(masked.stream));
     let depends =
         first.iter().any(|one| then.iter().any(|other| one == other || follows(*other, *one)));
-    listed || first.is_empty() || depends
+    listed || is_of_frames(masking) || is_of_frames(masked) || depends
 }
 
 /// The functions whose request or reply is the stream, or has it as a record; none for a stream of

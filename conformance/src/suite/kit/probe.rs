@@ -199,6 +199,10 @@ impl<'s> Probe<'s> {
         let exchange = self.target.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
         self.record_exchange(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
+        if let Some(fault @ ExchangeError::Malformed(_)) = fault {
+            // A function's data is unknown without a frame; the frame is judged by itself.
+            return Err(Stop::Inconclusive(format!("{exchange}: {fault}")));
+        }
         if exchange.contradicts_itself() {
             return Err(Stop::Inconclusive(format!("{exchange}: an error before a success")));
         }
@@ -267,13 +271,7 @@ impl<'s> Probe<'s> {
             state.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
         }
         self.last = Some(Evidence { subject: self.subject.clone(), ..evidence });
-        match fault {
-            // What the reply was to say is unknown.
-            Some(fault @ ExchangeError::Malformed(_)) => {
-                Err(Stop::Inconclusive(format!("{what}: {fault}")))
-            }
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// Sends an operation.
