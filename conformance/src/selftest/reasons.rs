@@ -4,11 +4,18 @@ use super::tried::{SelfTestGroup, Trial, TrialResult};
 use super::unseen::UNSEEN;
 
 /// Group, prefix of the ID, and why the defect is not detectable.
-const REASONS: &[(SelfTestGroup, &str, &str)] = &[(
-    SelfTestGroup::Cnc,
-    "object-descriptor.write_access.swap",
-    "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
-)];
+const REASONS: &[(SelfTestGroup, &str, &str)] = &[
+    (
+        SelfTestGroup::Cnc,
+        "object-descriptor.write_access.swap",
+        "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
+    ),
+    (
+        SelfTestGroup::Cnc,
+        "cnc.gen.boolean-4-bytes",
+        "The size in the description fails first, from which the size of the type follows.",
+    ),
+];
 
 /// The reason of [`UNSEEN`].
 const INSIDE: &str = "No case shows it: a test of the simulated CNC finds it.";
