@@ -61,7 +61,7 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// of their own; the others are counted.
 const STRAYS_MAX: u64 = 3;
 
-/// The longest time to wait for the reply after a frame that is not it.
+/// The longest time to wait for the reply after a second frame that is not the reply.
 const AFTER_STRAY: Duration = Duration::from_millis(250);
 
 /// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte

@@ -58,21 +58,10 @@ fn a_missing_port_fails() {
 /// `selftest --only different`.
 #[test]
 fn a_sample_of_correct_variants_fails_nothing() {
-    assert_harmless(|at| at % 16 == 0);
-}
-
-#[test]
-#[ignore = "takes minutes; selftest measures them too"]
-fn no_correct_variant_fails_anything() {
-    assert_harmless(|_| true);
-}
-
-fn assert_harmless(is_tried: impl Fn(usize) -> bool) {
     let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
-    let tried = variants.enumerate().filter(|(at, _)| is_tried(*at)).map(|(_, seed)| seed);
     let mut alarms = Vec::new();
     let mut count = 0;
-    for seed in tried {
+    for seed in variants.step_by(16) {
         count += 1;
         let (mut target, Discovery { found, .. }) = discovered(Some(seed));
         println!("{}: {}", seed.id, found.summary());

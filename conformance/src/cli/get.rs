@@ -107,7 +107,10 @@ impl Get {
                 if self.plain { Exit::Failure } else { Exit::Success }
             }
             Err(error) => {
-                print_error(format_args!("what was read is no {}: {error}", object.ty));
+                print_error(format_args!(
+                    "the content is not a value of type {}: {error}",
+                    object.ty
+                ));
                 Exit::Failure
             }
         }

@@ -46,7 +46,9 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
     let given = value.list().ok_or_else(|| invalid(format_args!("{field} is not a list")))?;
     let items = given.iter().map(|value| match value.tagged() {
         Some(tagged) if tagged.kind == kind => Ok(tagged),
-        _ => Err(invalid(format_args!("{field} has an element that is no {}", kind.name()))),
+        _ => {
+            Err(invalid(format_args!("{field} has an element that is not of type {}", kind.name())))
+        }
     });
     let items: Vec<&Tagged> = items.collect::<Result<_, _>>()?;
     let count = dimensions.iter().try_fold(1_usize, |count, &len| {

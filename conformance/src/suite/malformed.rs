@@ -174,7 +174,7 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     for more in 1..4 {
         let mut data = good.clone();
         data.extend((0..more).map(|_| 0));
-        malformed.of_other_length(&format!("{more} bytes behind the last index"), &data)?;
+        malformed.of_other_length(&format!("{more} bytes after the last index"), &data)?;
     }
     Ok(())
 }

@@ -144,7 +144,7 @@ client_faults! {
     // Services.
     ServiceText "client.service-text" SVC_1 "fills its response up to 200 bytes";
     ServiceAny "client.service-any" SVC_2 "answers requests to other services";
-    ServiceIdle "client.service-idle" SVC_2 "answers what is no request";
+    ServiceIdle "client.service-idle" SVC_2 "answers while REQUEST_STATE is 0";
     ServiceClears "client.service-clears" SVC_3_1 "takes the request back behind its answer";
     ServiceOrder "client.service-order" SVC_5 "writes RESPONSE_STATE before RESPONSE";
     ServiceZero "client.service-zero" SVC_5 "answers with a response state of 0";
