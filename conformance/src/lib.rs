@@ -19,6 +19,7 @@
 //! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
 //! | [`simulator`] | the simulated CNC: data model, answers, AMS/TCP server |
 //! | [`net`] | the only module that opens sockets |
+//! | [`rules`] | the clauses as checks of requests, replies and what is known of a CNC |
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
 //! | [`process`] | commands given by the user, and signals |
@@ -82,6 +83,7 @@ pub mod process;
 pub mod profile;
 #[allow(clippy::restriction)]
 pub mod report;
+pub mod rules;
 #[allow(clippy::restriction)]
 pub mod selftest;
 pub mod session;

@@ -23,14 +23,13 @@
 //! ```
 
 mod file;
-mod findings;
 mod frame;
 mod frames;
 mod judge;
 mod link;
+mod observation;
 mod table;
 mod tally;
-mod target;
 mod tcp;
 mod time;
 mod vectors;

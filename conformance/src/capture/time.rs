@@ -21,6 +21,10 @@ impl Time {
         Self(Duration::from_secs(seconds).saturating_add(part(rest, resolution)))
     }
 
+    pub(super) const fn since_1970(self) -> Duration {
+        self.0
+    }
+
     /// The time since `earlier`; zero if that is later.
     pub(super) const fn since(self, earlier: Self) -> Duration {
         self.0.saturating_sub(earlier.0)

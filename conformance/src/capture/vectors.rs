@@ -16,9 +16,9 @@ use ads_cnc_vectors::{
 };
 use serde_json::json;
 
-use super::target::TargetVariable;
 use crate::client::frame;
 use crate::codec::decode_stream;
+use crate::rules::TargetVariable;
 use crate::text::json as json_text;
 use crate::wire_service;
 

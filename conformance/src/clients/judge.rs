@@ -10,13 +10,12 @@ use serde_json::Value;
 
 use super::findings::Findings;
 use super::message::{ActionResult, ClientHello, ClientReaction, CncAddress};
+use super::requests::RequestJudge;
 use super::result::same;
 use super::scenario::{ExpectedAnswer, Scenario};
 use super::script::ScenarioScript;
 use super::test_server::{RecordedExchange, TestServer};
-use super::{
-    ClientDefect, ClientUnderTest, ReferenceClient, ordering, request_match, requests, scenarios,
-};
+use super::{ClientDefect, ClientUnderTest, ReferenceClient, ordering, request_match, scenarios};
 use crate::judge::{
     Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Record, Rule, Stop, Verdict, caught,
 };
@@ -191,7 +190,9 @@ fn play(
     let (exchanges, beyond, script) = server.end();
     let script = script.ok_or("the CNC of the scenario is still in use")?;
     let mut findings = Findings::default();
-    requests::judge(&exchanges, &mut None, &mut findings);
+    let mut requests = RequestJudge::of_scenario();
+    requests.judge(&exchanges, &mut findings);
+    requests.finish(&mut findings);
     // A client may reject a program with a loop word, or detect an inconsistent reply, without a
     // request.
     request_match::judge(&scenario.asks, &exchanges, may_write(scenario), &mut findings);

@@ -4,7 +4,7 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
 use super::findings::Findings;
-use super::requests;
+use super::requests::RequestJudge;
 use super::script::ScenarioScript;
 use super::test_server::{RecordedExchange, TestServer};
 use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
@@ -37,10 +37,11 @@ pub fn listen(
     mut go_on: impl FnMut() -> bool,
 ) -> Result<(CaseOutcome, usize), ModelError> {
     server.begin(ScenarioScript::new(Cnc::with_default_model()?));
-    let (mut findings, mut before, mut count) = (Findings::default(), None, 0_usize);
+    let (mut findings, mut requests) = (Findings::default(), RequestJudge::passive());
+    let mut count = 0_usize;
     let mut judge = |exchanges: &[RecordedExchange]| {
         count = count.saturating_add(exchanges.len());
-        requests::judge(exchanges, &mut before, &mut findings);
+        requests.judge(exchanges, &mut findings);
     };
     server.watch(|| {
         judge(&server.exchanges());
@@ -48,6 +49,7 @@ pub fn listen(
     });
     let (exchanges, beyond, _) = server.end();
     judge(&exchanges);
+    requests.finish(&mut findings);
     let mut requirements = Vec::new();
     for judgement in &findings.record.judgements {
         if !requirements.contains(&judgement.requirement) {

@@ -1,103 +1,111 @@
 //! Judges each request of a client: whether the CNC has such a function, and its headers.
 
-use std::fmt;
+use std::fmt::Display;
 
-use ads_cnc::Error;
-use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
-use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
+use ads_cnc::ads::{AmsPort, Command, FrameRef};
+use ads_cnc::operation::{Call, DispatchError, Effect, Request, Task};
 use ads_cnc_vectors::ids::*;
 
-use super::findings::Findings;
+use super::findings::{Findings, evidence};
 use super::test_server::RecordedExchange;
-use crate::judge::{Rule, assumed};
+use crate::client::answer;
+use crate::exchange::Exchange;
+use crate::judge::{Evidence, Rule};
+use crate::rules::{Observation, RuleBook, function_at};
 use crate::simulator::{DATA_MAX, NET_ID};
 use crate::wire_service::{self, service_of};
 
-/// Connection and invoke ID of the previous request.
-pub(super) type PreviousRequest = Option<(usize, Option<Vec<u8>>)>;
+/// Judges the requests of a client.
+#[derive(Debug)]
+pub(super) struct RequestJudge {
+    rules: RuleBook,
+    /// Connection and invoke ID of the previous request.
+    before: Option<(usize, u32)>,
+    /// Whether replies show what later requests must match. In a scenario the suite itself names
+    /// what the client asks for, and changes replies.
+    learns: bool,
+}
 
-/// Judges each request, and its invoke ID together with that of the previous request.
-pub(super) fn judge(
-    exchanges: &[RecordedExchange],
-    before: &mut PreviousRequest,
-    findings: &mut Findings,
-) {
-    for exchange in exchanges {
-        one(exchange, findings);
-        let id = exchange.request.get(34..38).map(<[u8]>::to_vec);
-        if let Some((_, last)) = before.take().filter(|(of, _)| *of == exchange.connection) {
-            // With a constant invoke ID a client cannot detect a late reply.
-            let passed = last.is_none() || last != id;
-            let expected = "another invoke ID than that of the request before";
-            findings.check(assumed(ADS_5), passed, Some(exchange), expected, "the same");
-        }
-        *before = Some((exchange.connection, id));
+impl Observation for RecordedExchange {
+    fn evidence(&self) -> Evidence {
+        evidence(self)
     }
 }
 
-fn one(exchange: &RecordedExchange, findings: &mut Findings) {
-    let frame = match FrameRef::split(&exchange.request, DATA_MAX) {
-        Ok(Some((frame, _))) => frame,
-        Ok(None) => {
-            let found = || format!("{} bytes of a frame, and no more", exchange.request.len());
-            findings.check(ADS_5, false, Some(exchange), "a whole frame", found);
-            return;
-        }
-        Err(error) => {
-            findings.check(ADS_5, false, Some(exchange), "a frame", error);
-            return;
-        }
-    };
-    let header = frame.header();
-    let mut check = |passed: bool, expected: &str, found: fmt::Arguments<'_>| {
-        findings.check(ADS_5, passed, Some(exchange), expected, found);
-    };
-    let flags = header.state_flags;
-    check(flags == StateFlags::REQUEST, "state flags 0x0004", format_args!("{:#06x}", flags.0));
-    let error = header.error;
-    check(error == AdsError::NO_ERROR, "error 0", format_args!("{error:#x}"));
-    let net_id = header.target.net_id;
-    check(net_id == NET_ID, "the NetId it was told", format_args!("{net_id}"));
-    let command = header.command.0;
-    check((1..=9).contains(&command), "a command from 1 to 9", format_args!("{command}"));
-    let port = header.target.port;
-    let has_task = Task::from_port(port).is_some();
-    findings.check(GEN_4, has_task, Some(exchange), "port 551, 552 or 553", || port);
-    let service = service_of(header.command).map(wire_service::clause);
-    let service = service.map_or(Rule::CLIENT, Rule::from);
-    match Call::from_frame(&frame) {
-        Err(error) => {
-            let expected = || format!("a request of {}", name(header.command));
-            findings.check(service, false, Some(exchange), expected, error);
-        }
-        Ok(None) => {
-            let harmless = [Command::READ_DEVICE_INFO, Command::READ_STATE];
-            let expected = "Read, Write, ReadWrite, ReadDeviceInfo or ReadState";
-            let passed = harmless.contains(&header.command);
-            findings.check(Rule::CLIENT, passed, Some(exchange), expected, || name(header.command));
-        }
-        Ok(Some(call)) => {
-            findings.check(service, true, Some(exchange), "", "");
-            if !has_task {
-                return;
+impl RequestJudge {
+    /// For a client that decides by itself what to ask for.
+    pub(super) fn passive() -> Self {
+        Self { learns: true, ..Self::of_scenario() }
+    }
+
+    pub(super) fn of_scenario() -> Self {
+        Self { rules: RuleBook::new(false), before: None, learns: false }
+    }
+
+    /// Adds the checks so far to the findings.
+    pub(super) fn finish(self, findings: &mut Findings) {
+        findings.record.append(self.rules.records.into_client_record());
+    }
+
+    pub(super) fn judge(&mut self, exchanges: &[RecordedExchange], findings: &mut Findings) {
+        exchanges.iter().for_each(|exchange| self.one(exchange, findings));
+    }
+
+    fn one(&mut self, exchange: &RecordedExchange, findings: &mut Findings) {
+        let mut check = |rule: Rule, passed, expected: &str, found: &dyn Display| {
+            findings.check(rule, passed, Some(exchange), expected, || found.to_string());
+        };
+        let frame = match FrameRef::split(&exchange.request, DATA_MAX) {
+            Ok(Some((frame, _))) => frame,
+            Ok(None) => {
+                let found = format!("{} bytes of a frame, and no more", exchange.request.len());
+                return check(ADS_5.into(), false, "a whole frame", &found);
             }
-            match call.dispatch() {
-                Ok(request) => {
-                    let rule = Rule::of(request.function().spec().clause);
-                    findings.check(rule, true, Some(exchange), "", "");
+            Err(error) => return check(ADS_5.into(), false, "a frame", &error),
+        };
+        let header = frame.header();
+        let net_id = header.target.net_id;
+        check(ADS_5.into(), net_id == NET_ID, "the NetId it was told", &net_id);
+        let command = header.command;
+        let is_known = (1..=9).contains(&command.0);
+        check(ADS_5.into(), is_known, "a command from 1 to 9", &command.0);
+        let port = header.target.port;
+        let has_task = Task::from_port(port).is_some();
+        check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
+        // With a constant invoke ID a client cannot detect a late reply.
+        let before = self.before.replace((exchange.connection, header.invoke_id));
+        let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
+        self.rules.request_headers(exchange, &header, is_repeated);
+        let clause =
+            service_of(command).map_or(Rule::CLIENT, |one| wire_service::clause(one).into());
+        match Call::from_frame(&frame) {
+            Err(error) => check(clause, false, &format!("a request of {}", name(command)), &error),
+            Ok(None) => {
+                let harmless = [Command::READ_DEVICE_INFO, Command::READ_STATE];
+                let expected = "Read, Write, ReadWrite, ReadDeviceInfo or ReadState";
+                check(Rule::CLIENT, harmless.contains(&command), expected, &name(command));
+            }
+            Ok(Some(call)) => {
+                check(clause, true, "", &"");
+                if !has_task {
+                    return;
                 }
-                Err(refusal) => {
-                    let rule = clause(&call, refusal);
-                    findings.check(
-                        rule,
-                        false,
-                        Some(exchange),
-                        "a request that a CNC knows",
-                        || refusal,
-                    );
+                if let Some(unknown) = self.rules.request(exchange, &call) {
+                    check(address_clause(&call), false, "a request that a CNC knows", &unknown);
+                }
+                if self.learns {
+                    self.reply(exchange, &frame, &call);
                 }
             }
         }
+    }
+
+    fn reply(&mut self, exchange: &RecordedExchange, asked: &FrameRef<'_>, call: &Call<'_>) {
+        let Ok(Some((reply, _))) = FrameRef::split(&exchange.sent, u32::MAX) else { return };
+        let header = reply.header();
+        let outcome = answer(asked.header(), header, reply.data()).map(|answer| (answer, header));
+        let answered = Exchange { outcome, ..Exchange::new(call) };
+        self.rules.reply(exchange, NET_ID, call, &answered, &[]);
     }
 }
 
@@ -108,48 +116,15 @@ fn name(command: Command) -> String {
     }
 }
 
-/// The requirement that is broken by a request without a function.
-pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> Rule {
-    match refusal {
-        DispatchError::Port(_) => GEN_4.into(),
-        DispatchError::Group(_) => {
-            let other = match call.port {
-                AmsPort::COM => AmsPort::SDA,
-                _ => AmsPort::COM,
-            };
-            let elsewhere = Call { port: other, ..*call }.dispatch();
-            match (elsewhere, call.port) {
-                // The request would be valid for another task.
-                (Ok(_) | Err(DispatchError::Stream(_) | DispatchError::Service { .. }), _) => {
-                    GEN_4.into()
-                }
-                (_, AmsPort::COM) => ADR_3.into(),
-                _ => ADR_5.into(),
-            }
-        }
-        DispatchError::Offset(_) => match call.port {
-            AmsPort::COM => COM_5.into(),
-            _ => SDA_4.into(),
-        },
-        DispatchError::Service { .. } => at(call).unwrap_or(ADS_4.into()),
-        DispatchError::Stream(error) => {
-            of_field(&error).or_else(|| at(call)).unwrap_or(ADS_4.into())
-        }
-        _ => Rule::CLIENT,
+/// The requirement that an address without a function breaks.
+fn address_clause(call: &Call<'_>) -> Rule {
+    match (call.dispatch(), call.port) {
+        (Err(DispatchError::Group(_)), AmsPort::COM) => ADR_3.into(),
+        (Err(DispatchError::Group(_)), _) => ADR_5.into(),
+        (Err(DispatchError::Offset(_)), AmsPort::COM) => COM_5.into(),
+        (Err(DispatchError::Offset(_)), _) => SDA_4.into(),
+        _ => function_at(call).map_or(ADS_4.into(), |one| Rule::of(one.spec().clause)),
     }
-}
-
-fn of_field(error: &Error) -> Option<Rule> {
-    error.field().spec().map(|spec| Rule::of(spec.clause))
-}
-
-/// The requirement of the function at an address.
-fn at(call: &Call<'_>) -> Option<Rule> {
-    let group = call.index_group.parts()?;
-    let here = Function::ALL.iter().map(|function| function.spec()).find(|spec| {
-        !spec.is_content() && spec.group.contains(group) && spec.offset.contains(call.index_offset)
-    });
-    here.map(|spec| Rule::of(spec.clause))
 }
 
 /// Calls a function with the decoded request of an exchange, if it is one.

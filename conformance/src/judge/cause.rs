@@ -12,7 +12,7 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    Case, CaseOutcome, CaseSubject, Judgement, Needs, RequirementVerdict, Verdict, gravest,
+    Body, Case, CaseOutcome, CaseSubject, Judgement, Needs, RequirementVerdict, Verdict, gravest,
 };
 
 /// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
@@ -198,7 +198,8 @@ fn cause(
     Causes { roots, service, request }: &Causes,
 ) -> Option<&'static str> {
     let clause = judgement.requirement;
-    let is_apart = case.subject != CaseSubject::Target || case.needs == Needs::Frames;
+    let is_of_frames = case.needs == Needs::Frames && !matches!(case.body, Body::Traffic);
+    let is_apart = case.subject != CaseSubject::Target || is_of_frames;
     if is_apart || is_one_of(clause, &SPECIFIC) {
         return None;
     }
@@ -282,7 +283,7 @@ fn follow(case: &Case, verdict: &mut RequirementVerdict, causes: &Causes) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::{Body, CaseSubject, Evidence};
+    use crate::judge::{CaseSubject, Evidence};
 
     /// A failed check: case, clause, function, subject.
     type Failed = (&'static str, ClauseId, Function, &'static str);

@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use ads_cnc::address::{Access, ComGroup, ComTable, Group};
+use ads_cnc::address::ComTable;
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
-use ads_cnc::value::DataType;
 use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks, IfPresent as _, Needs, Step, assumed, online};
+use crate::judge::{Checks as _, IfPresent as _, Needs, Step, assumed};
+use crate::rules::check_descriptor;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -85,7 +85,7 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
             probe.set_subject(object.name());
             let id = object.id();
             probe.check(COM_2, ids.insert(id), "an ID no other object has", || format!("ID {id}"));
-            descriptor_holds_together(probe, object);
+            check_descriptor(probe, object);
             // Objects are static.
             let again = read_descriptors(probe, COM_2, list, first, 1)?;
             let what = |one: DescriptorRef<'_>| {
@@ -98,32 +98,6 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
         }
     }
     Ok(())
-}
-
-/// Checks a descriptor by itself.
-pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: DescriptorRef<'_>) {
-    let name = object.name().to_string();
-    probe.check(assumed(COM_2), !name.is_empty(), "an object with a name", "an empty name");
-    let type_name = object.type_name().to_string();
-    let listed = DataType::ALL.into_iter().any(|one| one.object_name() == type_name);
-    let found = || format!("{type_name:?} of {name}");
-    probe.check(COM_2, listed, "one of the types of the manual", found);
-    if let Some(size) = object.type_size() {
-        let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
-        let expected = || format!("a multiple of the {size} bytes of {type_name}");
-        let found = || format!("size {} of {name}", object.size());
-        let is_printed = ["BOOL", "WORD", "DWORD"].contains(&type_name.as_str());
-        let rule = if is_printed { GEN_5.into() } else { online(GEN_5) };
-        probe.check(rule, whole, expected, found);
-    }
-    let group = object.index_group();
-    let content =
-        matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
-    let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
-    probe.check(assumed(COM_5), content, expected, || format!("group {group} of {name}"));
-    let access = object.write_access().0;
-    let expected = "write access 0 or 1";
-    probe.check(assumed(COM_2), access <= 1, expected, || format!("{access} of {name}"));
 }
 
 fn in_sequence(probe: &mut Probe<'_>) -> Step {

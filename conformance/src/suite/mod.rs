@@ -42,13 +42,12 @@ mod write_refused;
 mod write_sizes;
 mod write_texts;
 
-pub(crate) use com::descriptor_holds_together;
 pub use discovery::{ClaimsBy, Discovery, discover};
 pub use kit::{Changes, Probe, Sample, TargetState};
 pub use run::run;
-pub(crate) use variable::holds_together;
 
 use crate::judge::{Body, Case, CaseSubject, codec_cases};
+use crate::rules::reply_cases;
 use row::CaseRow;
 
 /// The cases with a function.
@@ -111,5 +110,6 @@ pub fn cases() -> Vec<Case> {
     let mut cases = codec_cases();
     cases.extend(rows().map(case_of));
     cases.extend(printed::cases());
+    cases.extend(reply_cases());
     cases
 }

@@ -92,10 +92,14 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
         (Body::Probe, Some(run)) => run(&mut probe),
         (Body::Probe, None) => Err(Stop::Harness(format!("no function tries {}", case.id))),
         (Body::Printed(vector), _) => printed::ask(&mut probe, vector),
-        (
-            Body::Vector(_) | Body::Sequence(_) | Body::Protocol | Body::Client | Body::Traffic,
-            _,
-        ) => Err(Stop::Harness("this case needs no target".to_owned())),
+        (Body::Traffic, _) => {
+            let record = probe.target.rules.records.take_of_replies(&case.id);
+            probe.take_over(record);
+            Ok(())
+        }
+        (Body::Vector(_) | Body::Sequence(_) | Body::Protocol | Body::Client, _) => {
+            Err(Stop::Harness("this case needs no target".to_owned()))
+        }
     });
     let step = match begun {
         Ok(Ok(())) if probe.interrupted => Err(Stop::Interrupted),

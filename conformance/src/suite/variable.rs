@@ -3,21 +3,18 @@
 use std::collections::HashSet;
 
 use ads_cnc::address::Channel;
-use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{
     CountVariables, DescribeByIndex, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{
-    Decode as _, Description, Kind, TextRef, U32List, VariableAccess, VariableCount, VariablePath,
-    VariableType,
-};
+use ads_cnc::{Decode as _, Description, Kind, TextRef, U32List, VariableCount, VariablePath};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{ItemKind, Probe, VARIABLES_MAX, name_of};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, assumed};
+use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 use crate::objects::KINDS;
+use crate::rules::check_description;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -88,7 +85,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
                     probe.judged_description(VAR_4, channel, (name, kind), index)?
                 };
                 probe.set_subject(&variable.name.text);
-                holds_together(probe, &variable, name);
+                check_description(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
                 let found = || format!("{} again at index {index}", variable.name.text);
                 probe.check(VAR_3, unique, "another variable at each index", found);
@@ -121,49 +118,6 @@ fn descriptions_backwards(
         }
     }
     Ok(())
-}
-
-/// Checks a description by itself.
-pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, kind: &str) {
-    let name = variable.name.text.to_string();
-    let of_kind = name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
-    probe.check(VAR_3, of_kind, || format!("a name of {kind}"), || format!("{name:?}"));
-    let askable = name.chars().count() < TEXT_MAX;
-    probe.check(VAR_9, askable, "a name of at most 255 characters", || format!("{name:?}"));
-    let readable = !name.chars().any(char::is_control);
-    probe.check(assumed(GEN_3), readable, "a name of CP1252 characters", || format!("{name:?}"));
-    let known = variable.var_type.name().is_some();
-    let expected = "a type from 1 to 9";
-    probe.check(VAR_5, known, expected, || format!("{} of {name}", variable.var_type.0));
-    let access = variable.access;
-    let known = matches!(access, VariableAccess::READ_ONLY | VariableAccess::READ_WRITE);
-    probe.check(VAR_6, known, "access 1 or 2", || format!("{} of {name}", access.0));
-    let empty = variable.dimensions.contains(&0);
-    let found = || format!("{:?} of {name}", variable.dimensions);
-    probe.check(VAR_4, !empty, "at least one element in each dimension", found);
-    probe.check(VAR_7, !empty, "no dimension where there is no array", found);
-    let Description { var_type, access, .. } = variable;
-    // Invalid in this order, but valid when exchanged.
-    let exchanged = !(1..=2).contains(&access.0)
-        && VariableType(access.0).name().is_some()
-        && (1..=2).contains(&var_type.0);
-    let found = || format!("{} and {} of {name}", var_type.0, access.0);
-    probe.check(VAR_4, !exchanged, "the type, and behind it the access", found);
-    let Some(size) = variable.var_type.element_size() else { return };
-    if variable.dimensions.is_empty() {
-        let one = variable.size < size.saturating_mul(2);
-        let found = || format!("{} bytes of {name}", variable.size);
-        // The dimensions may be missing.
-        probe.check([VAR_7, VAR_4], one, "one element where there is no dimension", found);
-    }
-    let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
-    let expected =
-        || format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
-    let found = || format!("{} bytes of {name}", variable.size);
-    probe.check(VAR_8, variable.size == whole, expected, found);
-    // A size in the wrong byte order usually exceeds every limit.
-    let plausible = variable.size <= 0x00FF_FFFF;
-    probe.check(GEN_1, plausible, "a little-endian size", || format!("{:#x}", variable.size));
 }
 
 fn index_beyond_last(probe: &mut Probe<'_>) -> Step {

@@ -7,17 +7,17 @@ use ads_cnc::{Decode as _, Error};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
 use super::super::frames::Span;
+use super::super::observation::CapturedFrames;
 use super::super::table::{Ending, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
 use super::{
     CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, is_cnc, is_reply, location,
-    service_clause,
 };
 use crate::judge::{Checks as _, Describe, Rule};
+use crate::rules::{Observation, Topic, service_clause};
 
 impl TrafficJudge {
     pub(super) fn broken(
@@ -27,42 +27,47 @@ impl TrafficJudge {
         way: &SegmentDirection,
         span: Span,
     ) {
-        let observation = Observation::Bytes(bytes, location(way, Some(span), None));
+        let observation = CapturedFrames::Bytes(bytes, location(way, Some(span), None));
         let case = self.side(way);
-        self.records.on(case, &observation).check(ADS_5, false, "the headers of a frame", error);
+        self.rules.records.on(case, &observation).check(
+            ADS_5,
+            false,
+            "the headers of a frame",
+            error,
+        );
         self.lost.entry(way.connection).or_default().gap = Some(span.last.packet);
     }
 
     /// Which side sent these bytes, as far as the ports show.
-    fn side(&self, way: &SegmentDirection) -> TrafficCase {
+    fn side(&self, way: &SegmentDirection) -> Topic {
         let asks = self.waiting.range((way.connection, 0)..=(way.connection, u32::MAX)).next();
         match asks.and_then(|(_, all)| all.front()) {
-            Some(asked) if asked.way.from == way.from => TrafficCase::ClientFrames,
-            Some(_) => TrafficCase::CncFrames,
+            Some(asked) if asked.way.from == way.from => Topic::ClientFrames,
+            Some(_) => Topic::CncFrames,
             // Usually the listener's port is the lower one.
-            None if way.to.port() < way.from.port() => TrafficCase::ClientFrames,
-            None => TrafficCase::CncFrames,
+            None if way.to.port() < way.from.port() => Topic::ClientFrames,
+            None => Topic::CncFrames,
         }
     }
 
     /// A frame whose rest was not captured.
     pub(super) fn cut(&mut self, bytes: &[u8], way: &SegmentDirection, span: Span) {
-        let observation = Observation::Bytes(bytes, location(way, Some(span), None));
+        let observation = CapturedFrames::Bytes(bytes, location(way, Some(span), None));
         let there = bytes.len();
         let found = || format!("{there} bytes of a frame whose rest was not captured");
         let begin = FrameRef::HEADERS_LEN.saturating_sub(AMS_HEADER_LEN);
         let header = bytes.get(begin..FrameRef::HEADERS_LEN).map(AmsHeader::decode);
         let Some(Ok(header)) = header else {
             let case = self.side(way);
-            self.records.on(case, &observation).open(ADS_5, found);
+            self.rules.records.on(case, &observation).open(ADS_5, found);
             return;
         };
         if !is_reply(&header) {
             if is_cnc(header.target.port) {
                 let rule = service_clause(header.command);
                 self.open_service(
-                    TrafficCase::ClientServices,
-                    TrafficCase::ClientFrames,
+                    Topic::ClientServices,
+                    Topic::ClientFrames,
                     &observation,
                     rule,
                     found,
@@ -74,33 +79,27 @@ impl TrafficJudge {
         let asked = asked.filter(|asked| is_cnc(asked.header.target.port));
         let Some(asked) = asked else { return };
         let rule = service_clause(asked.header.command);
-        self.open_service(
-            TrafficCase::CncServices,
-            TrafficCase::CncFrames,
-            &observation,
-            rule,
-            found,
-        );
+        self.open_service(Topic::CncServices, Topic::CncFrames, &observation, rule, found);
         self.open_function(&asked, &observation, found);
     }
 
     fn open_service(
         &mut self,
-        case: TrafficCase,
-        frames: TrafficCase,
-        observation: &Observation<'_>,
+        case: Topic,
+        frames: Topic,
+        observation: &dyn Observation,
         rule: ClauseId,
         found: impl Describe,
     ) {
         let case = if rule == ADS_5 { frames } else { case };
-        self.records.on(case, observation).open(rule, found);
+        self.rules.records.on(case, observation).open(rule, found);
     }
 
     /// A lost reply leaves the requirement of the requested function undecided.
     fn open_function(
         &mut self,
         asked: &CapturedFrame,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         found: impl Describe,
     ) {
         let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
@@ -108,8 +107,8 @@ impl TrafficJudge {
         let Ok(request) = call.dispatch() else { return };
         let spec = request.function().spec();
         if spec.reply.is_some() {
-            let case = TrafficCase::of_reply(request.function());
-            self.records.on(case, observation).open(Rule::of(spec.clause), found);
+            let case = Topic::of_reply(request.function());
+            self.rules.records.on(case, observation).open(Rule::of(spec.clause), found);
         }
     }
 
@@ -117,19 +116,12 @@ impl TrafficJudge {
         count(&mut self.tally.gaps);
         self.lost.entry(way.connection).or_default().gap = Some(mark.packet);
         self.gap = self.gap.max(Some(mark.packet));
-        self.forget_cncs();
+        self.rules.forget_cncs();
         let span = Span { first: mark, last: mark, end: 0 };
-        let observation = Observation::Bytes(&[], location(way, Some(span), None));
+        let observation = CapturedFrames::Bytes(&[], location(way, Some(span), None));
         let found = || format!("{length} bytes before this packet were not captured");
         let case = self.side(way);
-        self.records.on(case, &observation).open(ADS_5, found);
-    }
-
-    /// The bytes that were not captured may have changed any state: forgets what is known of all
-    /// CNCs.
-    pub(super) fn forget_cncs(&mut self) {
-        self.cncs.clear();
-        self.is_lost = true;
+        self.rules.records.on(case, &observation).open(ADS_5, found);
     }
 
     pub(super) fn ended(&mut self, ending: Ending) {
@@ -160,19 +152,19 @@ impl TrafficJudge {
 
     /// No segment of one direction was captured.
     fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
-        let observation = Observation::Bytes(&[], location(way, None, None));
+        let observation = CapturedFrames::Bytes(&[], location(way, None, None));
         let (case, found) = if is_cnc {
-            (TrafficCase::CncFrames, "nothing of what the CNC sent was captured")
+            (Topic::CncFrames, "nothing of what the CNC sent was captured")
         } else {
-            (TrafficCase::ClientFrames, "nothing of what the client sent was captured")
+            (Topic::ClientFrames, "nothing of what the client sent was captured")
         };
-        self.records.on(case, &observation).open(ADS_5, found);
+        self.rules.records.on(case, &observation).open(ADS_5, found);
     }
 
     fn unanswered(&mut self, asked: &CapturedFrame, lost: &ConnectionLoss, ending: Ending) {
         count(&mut self.tally.unanswered);
         let observation =
-            Observation::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));
+            CapturedFrames::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));
         let packet = asked.span.last.packet;
         if lost.gap.is_some_and(|gap| gap.saturating_add(REORDERED_MAX) >= packet) {
             self.open_function(asked, &observation, "the answer may be in a gap");
@@ -187,9 +179,8 @@ impl TrafficJudge {
         if waited > REPLY_TIMEOUT && !lost.joined && followed {
             let rule = service_clause(asked.header.command);
             let found = || format!("none within {} s", waited.as_secs());
-            let case =
-                if rule == ADS_5 { TrafficCase::CncFrames } else { TrafficCase::CncServices };
-            self.records.on(case, &observation).check(rule, false, "an answer", found);
+            let case = if rule == ADS_5 { Topic::CncFrames } else { Topic::CncServices };
+            self.rules.records.on(case, &observation).check(rule, false, "an answer", found);
         }
     }
 }

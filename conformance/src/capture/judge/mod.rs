@@ -1,40 +1,24 @@
 //! Pairs requests with their replies and judges them.
 
-mod elements;
 mod gaps;
-mod objects;
-mod observed;
 mod pair;
-mod parameters;
-mod replies;
-mod requests;
-mod service;
-mod streaming;
-mod values;
-mod variables;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;
 
-use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
-use ads_cnc::operation::{Call, Request, Task};
-use ads_cnc_vectors::ClauseId;
-use ads_cnc_vectors::ids::*;
+use ads_cnc::ads::{AmsHeader, AmsPort, FrameRef, StateFlags};
+use ads_cnc::operation::{Call, Task};
 
-use self::observed::{ExchangeContext, MemoryBudget, ObservedCnc};
-use super::findings::{CaseRecords, Location, Observation, TrafficCase};
 use super::frames::Span;
+use super::observation::{CapturedFrames, Location};
 use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
 use super::tally::{CaptureTally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
 use crate::client::answer;
 use crate::exchange::{Exchange, ExchangeError, violations};
-use crate::judge::{CaseOutcome, Checks as _, Describe, Rule, assumed};
-use crate::wire_service;
-
-/// Maximum number of CNCs that are distinguished.
-const CNCS_MAX: usize = 64;
+use crate::judge::{CaseOutcome, Checks as _};
+use crate::rules::{RuleBook, Topic, service_clause};
 
 /// A reply that is later than this counts as missing.
 const REPLY_TIMEOUT: Duration = Duration::from_secs(5);
@@ -74,7 +58,7 @@ struct EarlyReplies {
 
 #[derive(Debug)]
 pub(super) struct TrafficJudge {
-    records: CaseRecords,
+    rules: RuleBook,
     pub(super) tally: CaptureTally,
     /// Requests without a reply, by connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
@@ -90,14 +74,10 @@ pub(super) struct TrafficJudge {
     gap: Option<u64>,
     /// Whether a request and its reply were captured on different connections.
     is_crossed: bool,
-    cncs: BTreeMap<AmsNetId, ObservedCnc>,
-    /// Whether bytes are missing that may have changed the state of a CNC.
-    is_lost: bool,
     vectors: Option<Collector>,
     now: Option<Time>,
     /// The last packet that completed a frame.
     newest: u64,
-    budget: MemoryBudget,
 }
 
 /// Whether this is the port of a task of a CNC.
@@ -120,15 +100,10 @@ fn location(way: &SegmentDirection, asked: Option<Span>, answered: Option<Span>)
     Location { from: way.from, to: way.to, asked, answered }
 }
 
-/// The requirement of a command's service.
-fn service_clause(command: Command) -> ClauseId {
-    wire_service::service_of(command).map_or(ADS_5, wire_service::clause)
-}
-
 impl TrafficJudge {
     pub(super) fn new(vectors: Option<Collector>) -> Self {
         Self {
-            records: CaseRecords::new(),
+            rules: RuleBook::new(false),
             tally: CaptureTally::default(),
             waiting: BTreeMap::new(),
             waiting_ids: BTreeSet::new(),
@@ -138,22 +113,19 @@ impl TrafficJudge {
             lost: BTreeMap::new(),
             gap: None,
             is_crossed: false,
-            cncs: BTreeMap::new(),
-            is_lost: false,
             vectors,
             now: None,
             newest: 0,
-            budget: MemoryBudget { left: MemoryBudget::ALL, missed: 0 },
         }
     }
 
     /// The outcomes of all cases.
     pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
-        self.tally.unkept = self.budget.missed;
+        self.tally.unkept = self.rules.missed();
         for line in self.tally.lines().into_iter().skip(1) {
-            self.records.note(TrafficCase::CncFrames, line);
+            self.rules.records.note(Topic::CncFrames, line);
         }
-        (self.records.finish(), self.tally, self.vectors)
+        (self.rules.records.finish(), self.tally, self.vectors)
     }
 
     /// Sets the time of the current packet.
@@ -178,7 +150,7 @@ impl TrafficJudge {
             ConnectionEvent::Joined(connection) => {
                 count(&mut self.tally.joined);
                 self.lost.entry(connection).or_default().joined = true;
-                self.forget_cncs();
+                self.rules.forget_cncs();
             }
             ConnectionEvent::Unfinished => count(&mut self.tally.unfinished),
             ConnectionEvent::Ended(ending) => self.ended(ending),
@@ -220,15 +192,15 @@ impl TrafficJudge {
         });
         let place = location(&seen.way, Some(seen.span), None);
         let observation = match &exchange {
-            Some(exchange) => Observation::Exchange(exchange, place),
-            None => Observation::Bytes(&seen.frame, place),
+            Some(exchange) => CapturedFrames::Exchange(exchange, place),
+            None => CapturedFrames::Bytes(&seen.frame, place),
         };
         let again = self.is_repeated(&seen, table);
-        requests::headers(&mut self.records, &observation, &header, again);
+        self.rules.request_headers(&observation, &header, again);
         match call {
             Err(error) => {
                 let rule = service_clause(header.command);
-                let mut record = self.records.on(TrafficCase::ClientServices, &observation);
+                let mut record = self.rules.records.on(Topic::ClientServices, &observation);
                 record.check(rule, false, "what the service takes", error);
             }
             Ok(None) => {
@@ -236,10 +208,11 @@ impl TrafficJudge {
                 return;
             }
             Ok(Some(call)) => {
-                self.records
-                    .on(TrafficCase::ClientServices, &observation)
+                self.rules
+                    .records
+                    .on(Topic::ClientServices, &observation)
                     .pass(service_clause(header.command));
-                if let Some(unknown) = requests::judge(&mut self.records, &observation, &call) {
+                if let Some(unknown) = self.rules.request(&observation, &call) {
                     count_of(&mut self.tally.unknown, unknown);
                 }
             }
@@ -262,50 +235,20 @@ impl TrafficJudge {
             ..Exchange::new(&call)
         };
         let place = location(&asked.way, Some(asked.span), Some(reply.span));
-        let observation = Observation::Exchange(&exchange, place);
-        replies::headers(
-            &mut self.records,
-            &observation,
-            &violations(&asked.header, &reply.header),
-        );
-        let Some(answer) = replies::service(&mut self.records, &observation, &exchange) else {
-            return;
-        };
+        let observation = CapturedFrames::Exchange(&exchange, place);
+        let net_id = asked.header.target.net_id;
+        let violations = violations(&asked.header, &reply.header);
+        self.rules.reply(&observation, net_id, &call, &exchange, &violations);
+        let Some(answer) = exchange.answer() else { return };
         if answer.success().is_none() {
             count(&mut self.tally.refused);
         }
-        let net_id = asked.header.target.net_id;
         if !answer.ams_error.is_ok() {
-            // An AMS error may mean that the CNC is gone; another one may take its NetId.
-            self.cncs.remove(&net_id);
             return;
         }
-        if !self.cncs.contains_key(&net_id) && self.cncs.len() >= CNCS_MAX {
-            return;
-        }
-        let cnc = self.cncs.entry(net_id).or_insert_with(|| ObservedCnc::new(self.is_lost));
-        let mut context =
-            ExchangeContext { records: &mut self.records, cnc, budget: &mut self.budget };
-        replies::judge(&mut context, &observation, &call, answer);
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {
-            let known = context.cnc.variables.described(&request);
+            let known = self.rules.described(net_id, &request);
             vectors.add(&request, &call, answer.success(), known.as_ref());
         }
-    }
-}
-
-impl ExchangeContext<'_> {
-    /// Judges a client's request for an index or name that, as a reply shows, does not exist. No
-    /// manual forbids such a request, so the rule is assumed.
-    fn judge_nonexistent(
-        &mut self,
-        observation: &Observation<'_>,
-        request: &Request<'_>,
-        rule: impl Into<Rule>,
-        expected: impl Describe,
-        found: impl Describe,
-    ) {
-        let case = TrafficCase::of_request(request.function());
-        self.records.on(case, observation).check(assumed(rule), false, expected, found);
     }
 }

@@ -2,11 +2,12 @@
 
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
+use super::super::observation::CapturedFrames;
 use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, EarlyReplies, TrafficJudge, is_cnc, location, service_clause};
+use super::{CapturedFrame, EarlyReplies, TrafficJudge, is_cnc, location};
 use crate::judge::Checks as _;
+use crate::rules::{Topic, service_clause};
 
 /// Maximum number of waiting requests of a connection, and of bytes of those of all connections;
 /// beyond it the oldest request of the connection is forgotten.
@@ -249,8 +250,8 @@ impl TrafficJudge {
     /// Judges a reply without a request, once the connection has ended.
     pub(super) fn unasked(&mut self, reply: &CapturedFrame, is_open: bool) {
         let observation =
-            Observation::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
-        let mut record = self.records.on(TrafficCase::CncFrames, &observation);
+            CapturedFrames::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
+        let mut record = self.rules.records.on(Topic::CncFrames, &observation);
         let found = || format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
         if is_open {
             let found = || format!("{}, whose request may not have been captured", found());

@@ -199,6 +199,12 @@ impl<'s> Probe<'s> {
         let exchange = self.target.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
         self.record_exchange(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
+        if exchange.violations.is_empty()
+            && matches!(exchange.outcome, Ok(_) | Err(ExchangeError::Malformed(_)))
+        {
+            let cnc = self.target.client.target().net_id;
+            self.target.rules.reply(&exchange, cnc, &call, &exchange, &[]);
+        }
         if let Some(fault @ ExchangeError::Malformed(_)) = fault {
             // A function's data is unknown without a frame; the frame is judged by itself.
             return Err(Stop::Inconclusive(format!("{exchange}: {fault}")));

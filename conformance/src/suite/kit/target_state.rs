@@ -9,6 +9,7 @@ use crate::deadline::Deadline;
 use crate::judge::{Evidence, Record};
 use crate::objects::Object;
 use crate::profile::Profile;
+use crate::rules::RuleBook;
 use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
 
 /// A connection to a target, and the state that the cases of a run have found so far.
@@ -45,6 +46,8 @@ pub struct TargetState {
     pub(in crate::suite) gone: Option<String>,
     /// Violations of the frames' headers.
     pub(in crate::suite) broken: Record,
+    /// The checks of all replies.
+    pub(in crate::suite) rules: RuleBook,
     /// The deadline; a case that writes is completed after it.
     pub(in crate::suite) deadline: Option<Deadline>,
     /// The replies to requests that must be rejected.
@@ -81,6 +84,7 @@ impl TargetState {
             silences: 0,
             gone: None,
             broken: Record::default(),
+            rules: RuleBook::new(true),
             deadline: None,
             refusals: Refusals::default(),
             changes: Changes::default(),

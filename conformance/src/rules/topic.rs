@@ -1,47 +1,49 @@
-//! The cases of captured traffic and their checks.
+//! The topics of the checks, each a case, and their records.
 
 use std::collections::BTreeSet;
-use std::fmt::{self, Display};
-use std::net::SocketAddr;
+use std::fmt::Display;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirements;
 
-use super::frames::Span;
-use super::time::Time;
-use crate::exchange::Exchange;
+use super::Observation;
 use crate::judge::{
     Body, Case, CaseOutcome, CaseSubject, Checks, Describe, Evidence, Needs, Record, Rule, Rules,
     Stop, Verdict,
 };
 
-/// Declares [`TrafficCase`].
+/// Declares [`Topic`].
 macro_rules! traffic_cases {
     ($( $case:ident: $subject:ident, $id:literal, $title:literal, [$($requirement:expr),*] $(of $area:literal)?; )+) => {
         /// A case of captured traffic.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum TrafficCase { $( $case, )+ }
+        pub(crate) enum Topic { $( $case, )+ }
 
-        impl TrafficCase {
+        impl Topic {
             const ALL: &'static [Self] = &[$( Self::$case, )+];
 
+            const fn subject(self) -> CaseSubject {
+                match self { $( Self::$case => CaseSubject::$subject, )+ }
+            }
+
             fn case(self) -> Case {
-                match self { $(
+                let (id, title, requirements) = match self { $(
                     Self::$case => {
                         let requirements = vec![$(Rule::from($requirement).id),*];
                         $( let requirements = of_area($area, CaseSubject::$subject, requirements); )?
-                        Case {
-                            id: $id.to_owned(),
-                            title: $title.to_owned(),
-                            subject: CaseSubject::$subject,
-                            requirements,
-                            needs: Needs::Frames,
-                            body: Body::Traffic,
-                        }
+                        ($id, $title, requirements)
                     }
-                )+ }
+                )+ };
+                Case {
+                    id: id.to_owned(),
+                    title: title.to_owned(),
+                    subject: self.subject(),
+                    requirements,
+                    needs: Needs::Frames,
+                    body: Body::Traffic,
+                }
             }
         }
     };
@@ -94,8 +96,8 @@ traffic_cases! {
         [SVC_1, SVC_3];
 }
 
-impl TrafficCase {
-    pub(super) fn of_request(function: Function) -> Self {
+impl Topic {
+    pub(crate) fn of_request(function: Function) -> Self {
         match function.spec().clause.get(..3) {
             Some("COM") => Self::ClientCom,
             Some("SDA") => Self::ClientSda,
@@ -106,7 +108,7 @@ impl TrafficCase {
     }
 
     /// The topic of replies of a function.
-    pub(super) fn of_reply(function: Function) -> Self {
+    pub(crate) fn of_reply(function: Function) -> Self {
         match function.spec().clause.get(..3) {
             Some("COM") => Self::CncCom,
             Some("SDA") => Self::CncSda,
@@ -115,6 +117,19 @@ impl TrafficCase {
             _ => Self::CncVar,
         }
     }
+}
+
+/// The cases that judge every reply to a run's own requests. The case of all frames judges their
+/// headers.
+pub(crate) fn reply_cases() -> impl Iterator<Item = Case> {
+    let replies = Topic::ALL.iter().filter(|topic| topic.subject() == CaseSubject::CapturedCnc);
+    let replies = replies.filter(|topic| **topic != Topic::CncFrames).map(|topic| topic.case());
+    replies.map(|case| Case { id: reply_case_id(&case.id), subject: CaseSubject::Target, ..case })
+}
+
+/// The ID of the case for a run that corresponds to a case of captured replies.
+fn reply_case_id(captured: &str) -> String {
+    captured.replacen("cap-cnc", "replies", 1)
 }
 
 /// The requirements that the function table and the field tables name for an area.
@@ -139,97 +154,53 @@ fn clauses(stream: Stream) -> impl Iterator<Item = &'static str> {
     layout.fields.iter().map(|field| field.clause).chain([layout.clause])
 }
 
-/// Where in the capture a frame was seen.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Location {
-    pub(super) from: SocketAddr,
-    pub(super) to: SocketAddr,
-    pub(super) asked: Option<Span>,
-    pub(super) answered: Option<Span>,
-}
-
-impl Display for Location {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let packets = |f: &mut fmt::Formatter<'_>, span: Span| {
-            match (span.first.packet, span.last.packet) {
-                (first, last) if first == last => write!(f, "packet {first}")?,
-                (first, last) => write!(f, "packets {first} to {last}")?,
-            }
-            span.last.time.map_or(Ok(()), |time| write!(f, " at {time}"))
-        };
-        if let Some(asked) = self.asked {
-            packets(f, asked)?;
-        }
-        if let Some(answered) = self.answered {
-            f.write_str(if self.asked.is_some() { ", answered in " } else { "" })?;
-            packets(f, answered)?;
-        }
-        let is_known = self.asked.or(self.answered).is_some();
-        write!(f, "{}{} to {}", if is_known { ", " } else { "" }, self.from, self.to)
-    }
-}
-
-/// The frames that a check is about.
-#[derive(Debug)]
-pub(super) enum Observation<'e> {
-    /// A request, and its reply if one was captured.
-    Exchange(&'e Exchange, Location),
-    /// Bytes that are not a frame, or not a complete one.
-    Bytes(&'e [u8], Location),
-}
-
-impl Observation<'_> {
-    /// When the request was sent.
-    pub(super) fn time(&self) -> Option<Time> {
-        let (Self::Exchange(_, location) | Self::Bytes(_, location)) = self;
-        location.asked?.last.time
-    }
-
-    fn evidence(&self) -> Evidence {
-        match self {
-            Self::Exchange(exchange, location) => {
-                let evidence = Evidence::from(*exchange);
-                Evidence { call: format!("{}\n            {location}", evidence.call), ..evidence }
-            }
-            Self::Bytes(bytes, location) => {
-                Evidence { call: location.to_string(), sent: bytes.to_vec(), ..Evidence::default() }
-            }
-        }
-    }
-}
-
 /// The records of all cases.
 #[derive(Debug)]
-pub(super) struct CaseRecords {
+pub(crate) struct TopicRecords {
     records: Vec<(Case, Record, Vec<String>)>,
 }
 
-impl CaseRecords {
-    pub(super) fn new() -> Self {
-        let records =
-            TrafficCase::ALL.iter().map(|case| (case.case(), Record::default(), Vec::new()));
+impl TopicRecords {
+    pub(crate) fn new() -> Self {
+        let records = Topic::ALL.iter().map(|case| (case.case(), Record::default(), Vec::new()));
         Self { records: records.collect() }
     }
 
     /// Where the checks of a topic are recorded.
-    pub(super) fn on<'b>(
+    pub(crate) fn on<'b>(
         &'b mut self,
-        case: TrafficCase,
-        observation: &'b Observation<'b>,
-    ) -> CaseRecord<'b> {
-        let place = TrafficCase::ALL.iter().position(|one| *one == case).unwrap_or(0);
-        CaseRecord { case: self.records.get_mut(place), observation }
+        case: Topic,
+        observation: &'b dyn Observation,
+    ) -> TopicRecord<'b> {
+        let place = Topic::ALL.iter().position(|one| *one == case).unwrap_or(0);
+        TopicRecord { case: self.records.get_mut(place), observation, subject: None }
     }
 
     /// Adds a note for the reader to a case.
-    pub(super) fn note(&mut self, case: TrafficCase, note: impl Into<String>) {
-        let place = TrafficCase::ALL.iter().position(|one| *one == case).unwrap_or(0);
+    pub(crate) fn note(&mut self, case: Topic, note: impl Into<String>) {
+        let place = Topic::ALL.iter().position(|one| *one == case).unwrap_or(0);
         if let Some((.., notes)) = self.records.get_mut(place) {
             notes.push(note.into());
         }
     }
 
-    pub(super) fn finish(self) -> Vec<CaseOutcome> {
+    /// Takes the record of one of the [`reply_cases`].
+    pub(crate) fn take_of_replies(&mut self, id: &str) -> Record {
+        let mut all = self.records.iter_mut();
+        let mine = all.find(|(case, ..)| reply_case_id(&case.id) == id);
+        mine.map(|(_, record, _)| std::mem::take(record)).unwrap_or_default()
+    }
+
+    /// The record of all checks of clients.
+    pub(crate) fn into_client_record(self) -> Record {
+        let mut all = Record::default();
+        let of_client = |case: &Case| case.subject == CaseSubject::CapturedClient;
+        let records = self.records.into_iter().filter(|(case, ..)| of_client(case));
+        records.for_each(|(_, record, _)| all.append(record));
+        all
+    }
+
+    pub(crate) fn finish(self) -> Vec<CaseOutcome> {
         let outcomes = self.records.into_iter().map(|(case, record, notes)| {
             let Record { judgements, checks } = record;
             let outcome = CaseOutcome::tried(case, judgements, checks, None::<Stop>);
@@ -241,15 +212,20 @@ impl CaseRecords {
 }
 
 /// The record of a case, and the frames that its next checks are about.
-#[derive(Debug)]
-pub(super) struct CaseRecord<'b> {
+pub(crate) struct TopicRecord<'b> {
     case: Option<&'b mut (Case, Record, Vec<String>)>,
-    observation: &'b Observation<'b>,
+    observation: &'b dyn Observation,
+    subject: Option<String>,
 }
 
-impl CaseRecord<'_> {
+impl TopicRecord<'_> {
+    /// Notes the variable or object that the following checks are about.
+    pub(crate) fn about(&mut self, name: impl Display) {
+        self.subject = Some(name.to_string());
+    }
+
     /// Records an inconclusive check: the bytes it needs were not captured.
-    pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
+    pub(crate) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
         if let Some((_, record, _)) = &mut self.case {
             let (verdict, expected) = (Verdict::Inconclusive, "all of it in the capture");
             let evidence = || Some(self.observation.evidence());
@@ -258,17 +234,17 @@ impl CaseRecord<'_> {
     }
 
     /// Whether this requirement is one of the case.
-    pub(super) fn knows(&self, requirement: &str) -> bool {
+    pub(crate) fn knows(&self, requirement: &str) -> bool {
         self.case.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
     }
 
     /// Records a check that passed.
-    pub(super) fn pass(&mut self, rule: impl Into<Rule>) {
+    pub(crate) fn pass(&mut self, rule: impl Into<Rule>) {
         self.check(rule.into(), true, "", "");
     }
 }
 
-impl Checks for CaseRecord<'_> {
+impl Checks for TopicRecord<'_> {
     fn check(
         &mut self,
         rules: impl Rules,
@@ -277,7 +253,11 @@ impl Checks for CaseRecord<'_> {
         found: impl Describe,
     ) -> bool {
         if let Some((_, record, _)) = &mut self.case {
-            record.add_all(rules, passed, expected, found, || Some(self.observation.evidence()));
+            let evidence = || {
+                let evidence = self.observation.evidence();
+                Some(Evidence { subject: self.subject.clone().or(evidence.subject), ..evidence })
+            };
+            record.add_all(rules, passed, expected, found, evidence);
         }
         passed
     }

@@ -2,20 +2,38 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::time::Duration;
 
+use ads_cnc::operation::Request;
 use ads_cnc::streaming::Checker;
 use ads_cnc::value::DataType;
 use ads_cnc::{Description, Descriptor};
 
-use crate::capture::findings::CaseRecords;
-use crate::capture::tally::count;
-use crate::capture::time::Time;
+use super::Observation;
+use super::topic::{Topic, TopicRecords};
+use crate::judge::{Checks as _, Describe, Rule, assumed};
 
 /// The state that the judgement of one exchange needs.
-pub(super) struct ExchangeContext<'j> {
-    pub(super) records: &'j mut CaseRecords,
-    pub(super) cnc: &'j mut ObservedCnc,
+pub(super) struct ExchangeJudge<'j> {
+    pub(super) records: &'j mut TopicRecords,
+    pub(super) cnc: &'j mut Knowledge,
     pub(super) budget: &'j mut MemoryBudget,
+}
+
+impl ExchangeJudge<'_> {
+    /// Judges a client's request for an index or name that, as a reply shows, does not exist. No
+    /// manual forbids such a request, so the rule is assumed.
+    pub(super) fn judge_nonexistent(
+        &mut self,
+        observation: &dyn Observation,
+        request: &Request<'_>,
+        rule: impl Into<Rule>,
+        expected: impl Describe,
+        found: impl Describe,
+    ) {
+        let topic = Topic::of_request(request.function());
+        self.records.on(topic, observation).check(assumed(rule), false, expected, found);
+    }
 }
 
 /// The memory left for names, objects and elements of all CNCs.
@@ -34,7 +52,7 @@ impl MemoryBudget {
         let left = self.left.checked_sub(bytes.saturating_add(512));
         match left {
             Some(left) => self.left = left,
-            None => count(&mut self.missed),
+            None => self.missed = self.missed.saturating_add(1),
         }
         left.is_some()
     }
@@ -42,7 +60,7 @@ impl MemoryBudget {
 
 /// The state of a CNC as captured so far.
 #[derive(Debug, Default)]
-pub(super) struct ObservedCnc {
+pub(super) struct Knowledge {
     pub(super) objects: Objects,
     pub(super) elements: ObservedElements,
     pub(super) parameters: ObservedParameters,
@@ -51,7 +69,7 @@ pub(super) struct ObservedCnc {
     pub(super) services: Services,
 }
 
-impl ObservedCnc {
+impl Knowledge {
     /// `is_lost`: requests to it before the capture began are possible.
     pub(super) fn new(is_lost: bool) -> Self {
         Self { streams: Streams::new(is_lost), services: Services::new(is_lost), ..Self::default() }
@@ -140,7 +158,7 @@ impl Streams {
 #[derive(Default)]
 pub(super) struct ObservedStream {
     /// The packet that was rejected last, and when.
-    pub(super) refused: Option<(Vec<u8>, Option<Time>)>,
+    pub(super) refused: Option<(Vec<u8>, Option<Duration>)>,
     /// Checks the program so far; `None` while its beginning is unknown.
     pub(super) checker: Option<Checker>,
 }
@@ -184,4 +202,12 @@ pub(super) struct ObservedInterface {
     /// A client that acts as the NC program wrote REQUEST_STATE != 0, and no RESPONSE_STATE was
     /// written since.
     pub(super) asked: bool,
+}
+
+/// A variable that a request is about.
+#[derive(Clone, Debug)]
+pub(crate) struct TargetVariable {
+    pub(crate) description: Description,
+    /// The indices that select an element; empty for the whole variable.
+    pub(crate) indices: Vec<u32>,
 }

@@ -1,19 +1,21 @@
 //! Objects of COM: numbers, descriptors and contents, compared across exchanges.
 
-use ads_cnc::DescriptorsRef;
+use ads_cnc::address::{Access, ComGroup, Group};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, ReadDescriptors, Reply, Request};
+use ads_cnc::value::DataType;
+use ads_cnc::{DescriptorRef, DescriptorsRef};
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
-use super::observed::{ExchangeContext, ObservedContent, ObservedList};
-use crate::judge::{Checks as _, Rule, assumed};
-use crate::suite::descriptor_holds_together;
+use super::Observation;
+use super::knowledge::{ExchangeJudge, ObservedContent, ObservedList};
+use super::topic::Topic;
+use crate::judge::{Checks, Rule, assumed, online};
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn objects(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -37,7 +39,7 @@ impl ExchangeContext<'_> {
                     let sized = u32::try_from(given) == Ok(known.size);
                     let expected = || format!("the {} bytes of its descriptor", known.size);
                     let found = || format!("{given} bytes of {}", known.name);
-                    let mut record = self.records.on(TrafficCase::CncCom, observation);
+                    let mut record = self.records.on(Topic::CncCom, observation);
                     record.check([COM_5, COM_2], sized, expected, found);
                 }
             }
@@ -49,12 +51,12 @@ impl ExchangeContext<'_> {
                     let expected = || format!("the {} bytes of {}", known.size, known.name);
                     let found = || format!("{given} bytes");
                     self.records
-                        .on(TrafficCase::ClientCom, observation)
+                        .on(Topic::ClientCom, observation)
                         .check(COM_5, sized, expected, found);
                 }
                 let passed = known.writable || reply.is_none();
                 let expected = || format!("an error number: {} may not be written", known.name);
-                let mut record = self.records.on(TrafficCase::CncCom, observation);
+                let mut record = self.records.on(Topic::CncCom, observation);
                 record.check(assumed(COM_2), passed, expected, "a success");
             }
             _ => {}
@@ -66,7 +68,7 @@ impl ExchangeContext<'_> {
         self.cnc.objects.contents.get(&place).cloned()
     }
 
-    fn count(&mut self, observation: &Observation<'_>, group: u32, count: u32) {
+    fn count(&mut self, observation: &dyn Observation, group: u32, count: u32) {
         let list = self.cnc.objects.lists.entry(group).or_default();
         if list.count.is_some_and(|known| known != count) {
             *list = ObservedList::default();
@@ -75,13 +77,13 @@ impl ExchangeContext<'_> {
         let judge_nonexistent = list.known.last_key_value().map_or(0, |(&last, _)| last);
         let passed = judge_nonexistent <= count;
         let found = || format!("{count} objects, but a descriptor of object {judge_nonexistent}");
-        let mut record = self.records.on(TrafficCase::CncCom, observation);
+        let mut record = self.records.on(Topic::CncCom, observation);
         record.check(COM_1, passed, "the number of objects", found);
     }
 
     fn descriptors(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         read: &ReadDescriptors,
         given: Option<DescriptorsRef<'_>>,
@@ -96,7 +98,7 @@ impl ExchangeContext<'_> {
             self.judge_nonexistent(observation, request, COM_2, expected, asked);
             let expected = || format!("an error number: there are {count} objects");
             let found = || format!("a descriptor of object {first}");
-            let mut record = self.records.on(TrafficCase::CncCom, observation);
+            let mut record = self.records.on(Topic::CncCom, observation);
             record.check(COM_2, given.is_none_or(|given| given.is_empty()), expected, found);
             return;
         }
@@ -112,20 +114,14 @@ impl ExchangeContext<'_> {
             let rule: Rule = if exact && asked <= left { COM_3.into() } else { assumed(COM_3) };
             let passed = u32::try_from(given.len()) == Ok(expected);
             let expected = || format!("{expected} descriptors from object {first} on");
-            self.records.on(TrafficCase::CncCom, observation).check(
-                rule,
-                passed,
-                expected,
-                given.len(),
-            );
+            self.records.on(Topic::CncCom, observation).check(rule, passed, expected, given.len());
         }
         let alone = given.len() == 1;
         for (index, object) in (first..).zip(given.iter()) {
             let owned = object.to_owned();
-            descriptor_holds_together(
-                &mut self.records.on(TrafficCase::CncCom, observation),
-                object,
-            );
+            let mut record = self.records.on(Topic::CncCom, observation);
+            record.about(object.name());
+            check_descriptor(&mut record, object);
             let list = self.cnc.objects.lists.entry(group).or_default();
             let other = list.ids.get(&object.id()).copied().filter(|other| *other != index);
             let found =
@@ -137,7 +133,7 @@ impl ExchangeContext<'_> {
             if known.is_some() || self.budget.take(0) {
                 list.known.insert(index, (owned, alone));
             }
-            let mut record = self.records.on(TrafficCase::CncCom, observation);
+            let mut record = self.records.on(Topic::CncCom, observation);
             record.check(COM_2, other.is_none(), "an ID no other object has", found);
             if let Some((known, was_alone)) = known {
                 // Descriptors read one by one and read in a range must be equal.
@@ -160,4 +156,30 @@ impl ExchangeContext<'_> {
             }
         }
     }
+}
+
+/// Checks a descriptor by itself.
+pub(crate) fn check_descriptor(record: &mut impl Checks, object: DescriptorRef<'_>) {
+    let name = object.name().to_string();
+    record.check(assumed(COM_2), !name.is_empty(), "an object with a name", "an empty name");
+    let type_name = object.type_name().to_string();
+    let listed = DataType::ALL.into_iter().any(|one| one.object_name() == type_name);
+    let found = || format!("{type_name:?} of {name}");
+    record.check(COM_2, listed, "one of the types of the manual", found);
+    if let Some(size) = object.type_size() {
+        let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
+        let expected = || format!("a multiple of the {size} bytes of {type_name}");
+        let found = || format!("size {} of {name}", object.size());
+        let is_printed = ["BOOL", "WORD", "DWORD"].contains(&type_name.as_str());
+        let rule = if is_printed { GEN_5.into() } else { online(GEN_5) };
+        record.check(rule, whole, expected, found);
+    }
+    let group = object.index_group();
+    let content =
+        matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
+    let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
+    record.check(assumed(COM_5), content, expected, || format!("group {group} of {name}"));
+    let access = object.write_access().0;
+    let expected = "write access 0 or 1";
+    record.check(assumed(COM_2), access <= 1, expected, || format!("{access} of {name}"));
 }

@@ -5,15 +5,16 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{CaseRecord, Observation, TrafficCase};
-use super::observed::{ExchangeContext, ObservedInterface, Services};
+use super::Observation;
+use super::knowledge::{ExchangeJudge, ObservedInterface, Services};
 use super::requests::name_of;
+use super::topic::{Topic, TopicRecord};
 use crate::judge::{Checks as _, assumed};
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn service(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -40,12 +41,12 @@ impl ExchangeContext<'_> {
         let interface = known.entry(group).or_insert_with(new);
         match (written, reply) {
             (Some(value), _) => {
-                let mut record = self.records.on(TrafficCase::ClientService, observation);
+                let mut record = self.records.on(Topic::ClientService, observation);
                 form(&mut record, variable, value);
                 interface.write(&mut record, variable, value);
             }
             (None, Reply::Value(value)) => {
-                let mut record = self.records.on(TrafficCase::CncService, observation);
+                let mut record = self.records.on(Topic::CncService, observation);
                 form(&mut record, variable, value.bytes);
                 interface.read(&mut record, variable, value.bytes);
             }
@@ -55,7 +56,7 @@ impl ExchangeContext<'_> {
 }
 
 /// A text has at most 128 bytes, a state is an UNS32.
-fn form(record: &mut CaseRecord<'_>, variable: ServiceVariable, value: &[u8]) {
+fn form(record: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
     let found = || format!("{length} bytes of {}", variable.name());
     match variable {
@@ -74,7 +75,7 @@ fn is_set(value: &[u8]) -> bool {
 }
 
 impl ObservedInterface {
-    fn read(&mut self, record: &mut CaseRecord<'_>, variable: ServiceVariable, value: &[u8]) {
+    fn read(&mut self, record: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::RequestState => {
                 if is_set(value) && self.answered {
@@ -92,7 +93,7 @@ impl ObservedInterface {
         }
     }
 
-    fn write(&mut self, record: &mut CaseRecord<'_>, variable: ServiceVariable, value: &[u8]) {
+    fn write(&mut self, record: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::Uuid => self.wrote_id = true,
             ServiceVariable::Request => self.wrote_request = true,

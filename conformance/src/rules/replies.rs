@@ -6,19 +6,20 @@ use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
-use super::super::findings::{CaseRecords, Observation, TrafficCase};
-use super::observed::ExchangeContext;
+use super::Observation;
+use super::knowledge::ExchangeJudge;
+use super::topic::{Topic, TopicRecords};
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::wire_service;
 
 /// Checks that apply to the headers of every reply.
 pub(super) fn headers(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     violations: &[Violation],
 ) {
-    let mut record = records.on(TrafficCase::CncFrames, observation);
+    let mut record = records.on(Topic::CncFrames, observation);
     for violation in violations {
         let expected = "the header of the answer to this request";
         record.check(violation.requirement, false, expected, &violation.what);
@@ -30,12 +31,12 @@ pub(super) fn headers(
 
 /// Judges the service's reply and returns it if it decodes.
 pub(super) fn service<'e>(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     exchange: &'e Exchange,
 ) -> Option<&'e AdsReply> {
     let clause = wire_service::clause(exchange.service);
-    let mut record = records.on(TrafficCase::CncServices, observation);
+    let mut record = records.on(Topic::CncServices, observation);
     match &exchange.outcome {
         Ok((answer, header)) => {
             record.pass(clause);
@@ -57,20 +58,20 @@ pub(super) fn service<'e>(
 
 /// An error reply may lack the fields that follow a success.
 fn short_error(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     answer: &AdsReply,
     header: &AmsHeader,
 ) {
     let is_error = !answer.ams_error.is_ok() || !answer.result.is_ok();
     if is_error && (answer.data.is_none() || header.data_length == 0) {
-        records.on(TrafficCase::CncFrames, observation).pass(ADS_6);
+        records.on(Topic::CncFrames, observation).pass(ADS_6);
     }
 }
 
 pub(super) fn judge(
-    context: &mut ExchangeContext<'_>,
-    observation: &Observation<'_>,
+    context: &mut ExchangeJudge<'_>,
+    observation: &dyn Observation,
     call: &Call<'_>,
     answer: &AdsReply,
 ) {
@@ -86,11 +87,11 @@ pub(super) fn judge(
             let rule =
                 if clause == VAR_24.as_str() { VAR_24.into() } else { assumed(Rule::of(clause)) };
             let case = match clause.get(..3) {
-                Some("COM") => TrafficCase::CncCom,
-                Some("SDA") => TrafficCase::CncSda,
-                Some("DYN") => TrafficCase::CncDyn,
-                Some("STM") => TrafficCase::CncStream,
-                _ => TrafficCase::CncVar,
+                Some("COM") => Topic::CncCom,
+                Some("SDA") => Topic::CncSda,
+                Some("DYN") => Topic::CncDyn,
+                Some("STM") => Topic::CncStream,
+                _ => Topic::CncVar,
             };
             let given = data.is_some_and(|data| !data.is_empty() || call.service == Service::Write);
             let mut record = context.records.on(case, observation);
@@ -106,8 +107,7 @@ pub(super) fn judge(
         None => None,
         Some(Ok(reply)) => {
             let spec = request.function().spec();
-            let mut record =
-                context.records.on(TrafficCase::of_reply(request.function()), observation);
+            let mut record = context.records.on(Topic::of_reply(request.function()), observation);
             let clauses = [Some(spec.clause), spec.reply.map(|stream| stream.layout().clause)];
             for clause in clauses.into_iter().flatten() {
                 if record.knows(clause) {
@@ -122,8 +122,7 @@ pub(super) fn judge(
             let field =
                 if error.kind() == ErrorKind::TooMany { Some(VAR_24.as_str()) } else { field };
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
-            let mut record =
-                context.records.on(TrafficCase::of_reply(request.function()), observation);
+            let mut record = context.records.on(Topic::of_reply(request.function()), observation);
             let clause = if record.knows(clause) { clause } else { spec.clause };
             record.check(Rule::of(clause), false, || format!("what {} gives", spec.name), error);
             return;
@@ -134,8 +133,8 @@ pub(super) fn judge(
 
 /// Judges a reply together with earlier ones.
 fn together(
-    context: &mut ExchangeContext<'_>,
-    observation: &Observation<'_>,
+    context: &mut ExchangeJudge<'_>,
+    observation: &dyn Observation,
     request: &Request<'_>,
     reply: Option<&Reply<'_>>,
     call: &Call<'_>,

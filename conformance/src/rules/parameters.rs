@@ -3,8 +3,9 @@
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
-use super::observed::{ExchangeContext, MemoryBudget, ObservedParameters};
+use super::Observation;
+use super::knowledge::{ExchangeJudge, MemoryBudget, ObservedParameters};
+use super::topic::Topic;
 use crate::judge::Checks as _;
 
 impl ObservedParameters {
@@ -18,10 +19,10 @@ impl ObservedParameters {
     }
 }
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn parameters(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -52,19 +53,14 @@ impl ExchangeContext<'_> {
         }
         let passed = index <= count || reply.is_none();
         let expected = || format!("an error number for index {index} of {count}");
-        self.records.on(TrafficCase::CncDyn, observation).check(
-            DYN_5,
-            passed,
-            expected,
-            "a success",
-        );
+        self.records.on(Topic::CncDyn, observation).check(DYN_5, passed, expected, "a success");
         let name = match reply {
             Some(Reply::DynamicName(name)) => name.name.text(),
             _ => return,
         };
         let prefix = kind.to_string();
         let of_kind = name.to_string().starts_with(&prefix);
-        let mut record = self.records.on(TrafficCase::CncDyn, observation);
+        let mut record = self.records.on(Topic::CncDyn, observation);
         record.check(DYN_2, of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
     }
 }

@@ -7,46 +7,46 @@ use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
-use super::super::findings::{CaseRecords, Observation, TrafficCase};
+use super::Observation;
+use super::topic::{Topic, TopicRecords};
 use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::values::until_nul;
 use crate::wire_service;
 
 /// Checks that apply to the headers of every request.
 pub(super) fn headers(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     header: &AmsHeader,
     again: Option<bool>,
 ) {
-    let mut record = records.on(TrafficCase::ClientFrames, observation);
+    let mut record = records.on(Topic::ClientFrames, observation);
     let flags = header.state_flags;
     let found = || format!("state flags {:#06x}", flags.0);
     record.check(ADS_5, flags == StateFlags::REQUEST, "state flags 0x0004", found);
-    let rule = assumed(ADS_5);
-    let none = header.error == AdsError::NO_ERROR;
+    let is_free = header.error == AdsError::NO_ERROR;
     let found = || format!("AMS error {:#x}", header.error);
-    record.check(rule, none, "no AMS error in a request", found);
+    record.check(ADS_5, is_free, "no AMS error in a request", found);
     if let Some(again) = again {
         let found = || format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
-        record.check(rule, !again, "an invoke ID of its own", found);
+        record.check(assumed(ADS_5), !again, "an invoke ID of its own", found);
     }
 }
 
 /// Judges a request; returns its address if no manual documents it.
 pub(super) fn judge(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     call: &Call<'_>,
 ) -> Option<String> {
     match call.dispatch() {
         Ok(request) => {
-            records.on(TrafficCase::ClientPorts, observation).pass(port_rule(call.port));
+            records.on(Topic::ClientPorts, observation).pass(port_rule(call.port));
             documented(records, observation, call, &request);
             None
         }
         Err(DispatchError::Stream(error)) => {
-            if let Some(function) = function_at(call, |_| true) {
+            if let Some(function) = function_at(call) {
                 let spec = function.spec();
                 let clause = error.field().spec().map(|spec| spec.clause);
                 let known = clause.filter(|id| requirement(id).is_some());
@@ -59,18 +59,25 @@ pub(super) fn judge(
                 };
                 let expected = || format!("what {} takes", spec.name);
                 records
-                    .on(TrafficCase::of_request(function), observation)
+                    .on(Topic::of_request(function), observation)
                     .check(rule, false, expected, error);
             }
             None
         }
         Err(refusal) => {
             let other = if call.port == AmsPort::COM { AmsPort::SDA } else { AmsPort::COM };
-            let elsewhere = Call { port: other, ..*call }.dispatch();
-            if let Ok(request) = elsewhere {
-                let spec = request.function().spec();
+            let elsewhere = Call { port: other, ..*call };
+            let is_elsewhere = match elsewhere.dispatch() {
+                Ok(_) => true,
+                Err(DispatchError::Stream(_) | DispatchError::Service { .. }) => {
+                    matches!(refusal, DispatchError::Group(_))
+                }
+                Err(_) => false,
+            };
+            if let Some(function) = function_at(&elsewhere).filter(|_| is_elsewhere) {
+                let spec = function.spec();
                 let expected = || format!("port {} for {}", spec.task.port(), spec.name);
-                let mut record = records.on(TrafficCase::ClientPorts, observation);
+                let mut record = records.on(Topic::ClientPorts, observation);
                 record.check(port_rule(other), false, expected, || format!("port {}", call.port));
                 return None;
             }
@@ -88,13 +95,12 @@ fn port_rule(port: AmsPort) -> Rule {
     if port == AmsPort::COM { GEN_4.into() } else { online(GEN_4) }
 }
 
-/// The function at a call's address whose service fits.
-fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Function> {
+/// The function at a call's address.
+pub(crate) fn function_at(call: &Call<'_>) -> Option<Function> {
     let group = call.index_group.parts()?;
     let mut all = Function::ALL.iter().copied().filter(|function| {
         let spec = function.spec();
-        let here = spec.group.contains(group) && spec.offset.contains(call.index_offset);
-        here && fits(spec.service)
+        spec.group.contains(group) && spec.offset.contains(call.index_offset)
     });
     // A function takes precedence over content at the same address (SDA-12).
     let first = all.clone().find(|function| !function.spec().is_content());
@@ -104,19 +110,19 @@ fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Functi
 /// Judges a call of a function by the wrong service. On the decoder channel it may be a read of all
 /// elements in turn, whose offsets collide with functions (SDA-12): it is counted only.
 fn wrong_service(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     call: &Call<'_>,
     refusal: DispatchError,
 ) -> Option<String> {
-    let function = function_at(call, |service| service != call.service)?;
+    let function = function_at(call)?;
     let spec = function.spec();
     let content = call.service == Service::Read || function == Function::WriteProgramStream;
     if content {
         let Call { port, service, index_group, index_offset, .. } = call;
         return Some(format!("{service} {index_group}, {index_offset} at {port}"));
     }
-    let mut record = records.on(TrafficCase::of_request(function), observation);
+    let mut record = records.on(Topic::of_request(function), observation);
     record.check(
         Rule::of(spec.clause),
         false,
@@ -128,14 +134,14 @@ fn wrong_service(
 
 /// Judges a request that the codec decodes.
 fn documented(
-    records: &mut CaseRecords,
-    observation: &Observation<'_>,
+    records: &mut TopicRecords,
+    observation: &dyn Observation,
     call: &Call<'_>,
     request: &Request<'_>,
 ) {
     let function = request.function();
     let spec = function.spec();
-    let case = TrafficCase::of_request(function);
+    let case = Topic::of_request(function);
     let mut record = records.on(case, observation);
     record.pass(Rule::of(spec.clause));
     if let Some(clause) = spec.request.map(|stream| stream.layout().clause)
@@ -153,7 +159,7 @@ fn documented(
     if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
-        let mut record = records.on(TrafficCase::ClientServices, observation);
+        let mut record = records.on(Topic::ClientServices, observation);
         let (expected, found) = (|| format!("room for {least} bytes"), || format!("for {asked}"));
         record.check(rule, asked >= least, expected, found);
     }

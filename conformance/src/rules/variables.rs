@@ -1,14 +1,17 @@
 //! Numbers, descriptions and handles of variables, compared across exchanges.
 
+use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{Call, Reply, Request};
-use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
+use ads_cnc::{
+    CncStr, Description, ExtendedReply, Synchronisation, Validity, VariableAccess, VariablePath,
+    VariableType,
+};
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
-use super::super::target::TargetVariable;
-use super::observed::{ChannelVariables, ExchangeContext, MemoryBudget, Variables};
-use crate::judge::{Checks as _, assumed};
-use crate::suite::holds_together;
+use super::Observation;
+use super::knowledge::{ChannelVariables, ExchangeJudge, MemoryBudget, TargetVariable, Variables};
+use super::topic::Topic;
+use crate::judge::{Checks, assumed};
 
 /// Maximum number of channels that are distinguished.
 const CHANNELS_MAX: usize = 512;
@@ -75,10 +78,10 @@ impl Variables {
     }
 }
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn variables(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -96,7 +99,7 @@ impl ExchangeContext<'_> {
                     let found = || format!("index {index}");
                     self.judge_nonexistent(observation, request, VAR_2, expected, found);
                     let expected = || format!("an error number for index {index} of {count}");
-                    let mut record = self.records.on(TrafficCase::CncVar, observation);
+                    let mut record = self.records.on(Topic::CncVar, observation);
                     record.check(VAR_2, none, expected, "a description");
                     return;
                 }
@@ -128,7 +131,7 @@ impl ExchangeContext<'_> {
                         && given.size == known.size
                         && given.dimensions.iter().eq(known.dimensions.iter().copied());
                     let found = || format!("{given:?}");
-                    let mut record = self.records.on(TrafficCase::CncVar, observation);
+                    let mut record = self.records.on(Topic::CncVar, observation);
                     record.check(VAR_28, same, || format!("as by index: {known:?}"), found);
                 }
             }
@@ -142,7 +145,7 @@ impl ExchangeContext<'_> {
 
     fn number(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         call: &Call<'_>,
         kind: String,
         number: u32,
@@ -161,25 +164,21 @@ impl ExchangeContext<'_> {
         if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
             let sum = g.saturating_add(e).saturating_add(a);
             let expected = || format!("{sum} variables of all kinds");
-            self.records.on(TrafficCase::CncVar, observation).check(
-                VAR_1,
-                all == sum,
-                expected,
-                all,
-            );
+            self.records.on(Topic::CncVar, observation).check(VAR_1, all == sum, expected, all);
         }
     }
 
     fn description(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         call: &Call<'_>,
         variable: Description,
         kind: String,
         index: u32,
     ) {
-        let mut record = self.records.on(TrafficCase::CncVar, observation);
-        holds_together(&mut record, &variable, &kind);
+        let mut record = self.records.on(Topic::CncVar, observation);
+        record.about(&variable.name.text);
+        check_description(&mut record, &variable, &kind);
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let name = variable.name.text.to_string();
         let handle = variable.handle.0;
@@ -202,13 +201,13 @@ impl ExchangeContext<'_> {
 
     fn handle(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         call: &Call<'_>,
         name: CncStr<'_>,
         handle: u32,
     ) {
         let text = name.to_string();
-        let mut record = self.records.on(TrafficCase::CncVar, observation);
+        let mut record = self.records.on(Topic::CncVar, observation);
         // V.CYC has no list in either edition; V.P, V.L and V.S have none in one of them.
         let barred = text.starts_with("V.CYC");
         let expected = "an error number: V.CYC has no handles";
@@ -226,8 +225,8 @@ impl ExchangeContext<'_> {
         channel.handle(handle, &text, self.budget);
     }
 
-    fn extended(&mut self, observation: &Observation<'_>, kind: &str, given: ExtendedReply) {
-        let mut record = self.records.on(TrafficCase::CncVar, observation);
+    fn extended(&mut self, observation: &dyn Observation, kind: &str, given: ExtendedReply) {
+        let mut record = self.records.on(Topic::CncVar, observation);
         match (kind, given.0) {
             ("V.E", Some(extended)) => {
                 let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
@@ -248,4 +247,47 @@ impl ExchangeContext<'_> {
             _ => {}
         }
     }
+}
+
+/// Checks a description by itself.
+pub(crate) fn check_description(record: &mut impl Checks, variable: &Description, kind: &str) {
+    let name = variable.name.text.to_string();
+    let of_kind = name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
+    record.check(VAR_3, of_kind, || format!("a name of {kind}"), || format!("{name:?}"));
+    let askable = name.chars().count() < TEXT_MAX;
+    record.check(VAR_9, askable, "a name of at most 255 characters", || format!("{name:?}"));
+    let readable = !name.chars().any(char::is_control);
+    record.check(assumed(GEN_3), readable, "a name of CP1252 characters", || format!("{name:?}"));
+    let known = variable.var_type.name().is_some();
+    let expected = "a type from 1 to 9";
+    record.check(VAR_5, known, expected, || format!("{} of {name}", variable.var_type.0));
+    let access = variable.access;
+    let known = matches!(access, VariableAccess::READ_ONLY | VariableAccess::READ_WRITE);
+    record.check(VAR_6, known, "access 1 or 2", || format!("{} of {name}", access.0));
+    let empty = variable.dimensions.contains(&0);
+    let found = || format!("{:?} of {name}", variable.dimensions);
+    record.check(VAR_4, !empty, "at least one element in each dimension", found);
+    record.check(VAR_7, !empty, "no dimension where there is no array", found);
+    let Description { var_type, access, .. } = variable;
+    // Invalid in this order, but valid when exchanged.
+    let exchanged = !(1..=2).contains(&access.0)
+        && VariableType(access.0).name().is_some()
+        && (1..=2).contains(&var_type.0);
+    let found = || format!("{} and {} of {name}", var_type.0, access.0);
+    record.check(VAR_4, !exchanged, "the type, and behind it the access", found);
+    let Some(size) = variable.var_type.element_size() else { return };
+    if variable.dimensions.is_empty() {
+        let one = variable.size < size.saturating_mul(2);
+        let found = || format!("{} bytes of {name}", variable.size);
+        // The dimensions may be missing.
+        record.check([VAR_7, VAR_4], one, "one element where there is no dimension", found);
+    }
+    let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
+    let expected =
+        || format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
+    let found = || format!("{} bytes of {name}", variable.size);
+    record.check(VAR_8, variable.size == whole, expected, found);
+    // A size in the wrong byte order usually exceeds every limit.
+    let plausible = variable.size <= 0x00FF_FFFF;
+    record.check(GEN_1, plausible, "a little-endian size", || format!("{:#x}", variable.size));
 }

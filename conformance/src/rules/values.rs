@@ -4,9 +4,10 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
-use super::super::target::TargetVariable;
-use super::observed::ExchangeContext;
+use super::Observation;
+use super::knowledge::ExchangeJudge;
+use super::knowledge::TargetVariable;
+use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.
@@ -30,10 +31,10 @@ impl TargetVariable {
     }
 }
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn values(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         _: &Call<'_>,
@@ -49,7 +50,7 @@ impl ExchangeContext<'_> {
         let dimensions = target.description.dimensions.len();
         let indices = target.indices.len();
         let fits = target.has_valid_index_count();
-        let mut record = self.records.on(TrafficCase::ClientVar, observation);
+        let mut record = self.records.on(Topic::ClientVar, observation);
         let found = || format!("{indices} indices of {name}");
         let rule = assumed(if by_handle { VAR_11 } else { VAR_20 });
         record.check(rule, fits, || format!("none, or {dimensions} indices"), found);
@@ -59,7 +60,8 @@ impl ExchangeContext<'_> {
             let expected = || format!("the {size} bytes of {name}");
             record.check(clause, sized, expected, || format!("{given} bytes"));
         }
-        let mut record = self.records.on(TrafficCase::CncVar, observation);
+        let mut record = self.records.on(Topic::CncVar, observation);
+        record.about(name);
         if !fits {
             let expected = || format!("an error number: {name} has {dimensions} dimensions");
             record.check(rule, reply.is_none(), expected, "a success");

@@ -7,8 +7,9 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
-use super::observed::ExchangeContext;
+use super::Observation;
+use super::knowledge::ExchangeJudge;
+use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed, online};
 
 /// Whether a type is one that the manual prints for elements.
@@ -22,10 +23,10 @@ fn size_rule(data_type: DataType) -> Rule {
     if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) }
 }
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn elements(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -41,7 +42,7 @@ impl ExchangeContext<'_> {
             return;
         }
         let element = all.entry(key).or_default();
-        let mut record = self.records.on(TrafficCase::CncSda, observation);
+        let mut record = self.records.on(Topic::CncSda, observation);
         match (request, reply) {
             (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
                 let name = text.text.text();
@@ -73,7 +74,7 @@ impl ExchangeContext<'_> {
                 let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length {
                     let expected = || format!("the {length} bytes of the element");
-                    let mut record = self.records.on(TrafficCase::ClientSda, observation);
+                    let mut record = self.records.on(Topic::ClientSda, observation);
                     record.check(SDA_8, given == length, expected, || format!("{given} bytes"));
                 }
                 return;
@@ -90,11 +91,11 @@ impl ExchangeContext<'_> {
 
     fn instance(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         find: &FindInstance,
         address: ObjectAddress,
     ) {
-        let mut record = self.records.on(TrafficCase::CncSda, observation);
+        let mut record = self.records.on(Topic::CncSda, observation);
         let class = find.class_group().class;
         let query = find.query();
         if address == ObjectAddress::NONE {

@@ -7,22 +7,23 @@ use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 use ads_cnc_vectors::ids::*;
 
-use super::super::findings::{Observation, TrafficCase};
-use super::ExchangeContext;
+use super::Observation;
+use super::knowledge::ExchangeJudge;
+use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed};
 
 /// After a rejected write, a client that is silent for this long has given up.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(30);
 
-impl ExchangeContext<'_> {
+impl ExchangeJudge<'_> {
     pub(super) fn stream(
         &mut self,
-        observation: &Observation<'_>,
+        observation: &dyn Observation,
         call: &Call<'_>,
         accepted: bool,
     ) {
         let data = call.data;
-        let mut record = self.records.on(TrafficCase::ClientStream, observation);
+        let mut record = self.records.on(Topic::ClientStream, observation);
         let length = data.len();
         let passed = length <= STREAM_PACKET_MAX;
         record.check(STM_2, passed, "at most 992 bytes", || format!("{length} bytes"));
@@ -51,7 +52,7 @@ impl ExchangeContext<'_> {
         let stream = self.cnc.streams.known.entry(call.index_group.get()).or_default();
         if let Some((refused, then)) = stream.refused.take() {
             let waited = match (now, then) {
-                (Some(now), Some(then)) => now.since(then),
+                (Some(now), Some(then)) => now.saturating_sub(then),
                 _ => Duration::ZERO,
             };
             if waited < RETRY_TIMEOUT {
@@ -84,7 +85,7 @@ impl ExchangeContext<'_> {
         } else if !accepted && passed && whole {
             stream.refused = Some((data.to_vec(), now));
         }
-        let mut record = self.records.on(TrafficCase::CncStream, observation);
+        let mut record = self.records.on(Topic::CncStream, observation);
         let expected = "an error number for more than 992 bytes";
         record.check(assumed(STM_2), passed || !accepted, expected, "a success");
     }

@@ -1,0 +1,69 @@
+//! Captured frames as the evidence of checks.
+
+use std::fmt::{self, Display};
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use super::frames::Span;
+use super::time::Time;
+use crate::exchange::Exchange;
+use crate::judge::Evidence;
+use crate::rules::Observation;
+
+/// Where in the capture a frame was seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Location {
+    pub(super) from: SocketAddr,
+    pub(super) to: SocketAddr,
+    pub(super) asked: Option<Span>,
+    pub(super) answered: Option<Span>,
+}
+
+impl Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let packets = |f: &mut fmt::Formatter<'_>, span: Span| {
+            match (span.first.packet, span.last.packet) {
+                (first, last) if first == last => write!(f, "packet {first}")?,
+                (first, last) => write!(f, "packets {first} to {last}")?,
+            }
+            span.last.time.map_or(Ok(()), |time| write!(f, " at {time}"))
+        };
+        if let Some(asked) = self.asked {
+            packets(f, asked)?;
+        }
+        if let Some(answered) = self.answered {
+            f.write_str(if self.asked.is_some() { ", answered in " } else { "" })?;
+            packets(f, answered)?;
+        }
+        let is_known = self.asked.or(self.answered).is_some();
+        write!(f, "{}{} to {}", if is_known { ", " } else { "" }, self.from, self.to)
+    }
+}
+
+/// The frames that a check is about.
+#[derive(Debug)]
+pub(super) enum CapturedFrames<'e> {
+    /// A request, and its reply if one was captured.
+    Exchange(&'e Exchange, Location),
+    /// Bytes that are not a frame, or not a complete one.
+    Bytes(&'e [u8], Location),
+}
+
+impl Observation for CapturedFrames<'_> {
+    fn time(&self) -> Option<Duration> {
+        let (Self::Exchange(_, location) | Self::Bytes(_, location)) = self;
+        location.asked?.last.time.map(Time::since_1970)
+    }
+
+    fn evidence(&self) -> Evidence {
+        match self {
+            Self::Exchange(exchange, location) => {
+                let evidence = Evidence::from(*exchange);
+                Evidence { call: format!("{}\n            {location}", evidence.call), ..evidence }
+            }
+            Self::Bytes(bytes, location) => {
+                Evidence { call: location.to_string(), sent: bytes.to_vec(), ..Evidence::default() }
+            }
+        }
+    }
+}
