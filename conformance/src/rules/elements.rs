@@ -1,7 +1,10 @@
 //! Instances and elements of SDA and GEO, compared across exchanges.
 
-use ads_cnc::CncStr;
-use ads_cnc::address::{Addressing, Attribute, AxisStride, Class, Group, IndexGroup, IndexOffset};
+use std::fmt::Display;
+
+use ads_cnc::address::{
+    Addressing, Attribute, AxisStride, Class, ClassGroup, Group, IndexGroup, IndexOffset,
+};
 use ads_cnc::operation::{Call, FindInstance, Reply, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
@@ -10,17 +13,64 @@ use ads_cnc_vectors::ids::*;
 use super::Observation;
 use super::knowledge::ExchangeJudge;
 use super::topic::Topic;
-use crate::judge::{Checks as _, Rule, assumed, online};
+use crate::judge::{Checks, Rule, assumed, online};
 
-/// Whether a type is one that the manual prints for elements.
-fn is_known(name: CncStr<'_>) -> bool {
-    let known = ["UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
-    known.iter().chain(&["BOOLEAN", "STRING"]).any(|known| name == *known)
+/// The type of an element with this name: one that variables have, or REAL32.
+pub(crate) fn element_type(name: &str) -> Option<DataType> {
+    let is_of_objects_only = |one: &DataType| matches!(one, DataType::Lint | DataType::Lword);
+    DataType::ALL.into_iter().find(|one| one.name() == name && !is_of_objects_only(one))
 }
 
-/// The size of BOOLEAN is stated in the manual, other sizes are assumed.
-fn size_rule(data_type: DataType) -> Rule {
-    if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) }
+/// The rule for a name that is not in the manual's list: a name of the same pattern with another
+/// width may continue the list; another name for a listed type breaks it.
+fn name_rule(name: &str) -> Rule {
+    let digits = ["UNS", "SGN", "REAL"].into_iter().find_map(|one| name.strip_prefix(one));
+    let is_alike = digits.is_some_and(|digits| {
+        digits.len() == 2 && digits.bytes().all(|byte| byte.is_ascii_digit())
+    });
+    if is_alike { assumed(SDA_7) } else { SDA_7.into() }
+}
+
+/// The rules for the length of an element of a type. The tables of dynamic parameters print the sizes
+/// of UNS32 and REAL64, an example that of BOOLEAN; the others are documented online. Either the type
+/// or the length is wrong.
+fn length_rules(data_type: DataType) -> [Rule; 3] {
+    let of_size = if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) };
+    match data_type {
+        DataType::Boolean | DataType::Uns32 | DataType::Real64 => {
+            [SDA_7.into(), SDA_8.into(), of_size]
+        }
+        _ => [online(SDA_7), online(SDA_8), of_size],
+    }
+}
+
+/// Checks the name of an element's type; returns the type, if it is one of the manual.
+pub(crate) fn check_type(
+    record: &mut impl Checks,
+    name: &str,
+    at: &impl Display,
+) -> Option<DataType> {
+    let data_type = element_type(name);
+    let found = || format!("{name:?} of {at}");
+    record.check(name_rule(name), data_type.is_some(), "one of the types of the manual", found);
+    data_type
+}
+
+/// Checks the length of an element of a type.
+pub(crate) fn check_length(
+    record: &mut impl Checks,
+    data_type: Option<DataType>,
+    length: u32,
+    at: &impl Display,
+) {
+    let found = || format!("{length} bytes of {at}");
+    if let Some((data_type, size)) = data_type.and_then(|one| Some((one, one.size()?))) {
+        let expected = || format!("the {size} bytes of {data_type}");
+        record.check(length_rules(data_type), length == size, expected, found);
+        record.check(SDA_8, length > 0, "a number of bytes", found);
+    } else {
+        record.check(assumed(SDA_8), length > 0, "a number of bytes", found);
+    }
 }
 
 impl ExchangeJudge<'_> {
@@ -42,14 +92,11 @@ impl ExchangeJudge<'_> {
             return;
         }
         let element = all.entry(key).or_default();
+        let at = format!("the element at {}, {}", call.index_group, call.index_offset);
         let mut record = self.records.on(Topic::CncSda, observation);
         match (request, reply) {
             (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
-                let name = text.text.text();
-                let found = || format!("{name:?}");
-                record.check(assumed(SDA_7), is_known(name), "a type of the manual", found);
-                record.check(SDA_7, !name.is_empty(), "the name of a type", found);
-                element.data_type = DataType::by_name(name);
+                element.data_type = check_type(&mut record, &text.text.text().to_string(), &at);
             }
             (Request::ReadElementLength(_), Some(Reply::ElementLength(length))) => {
                 element.length = Some(length.get());
@@ -83,10 +130,7 @@ impl ExchangeJudge<'_> {
         }
         // Compares length and type as soon as both are known.
         let (Some(data_type), Some(length)) = (element.data_type, element.length) else { return };
-        let Some(size) = data_type.size() else { return };
-        let found = || format!("a length of {length}");
-        let expected = || format!("the {size} bytes of {}", data_type.name());
-        record.check(size_rule(data_type), length == size, expected, found);
+        check_length(&mut record, Some(data_type), length, &at);
     }
 
     fn instance(
@@ -107,22 +151,59 @@ impl ExchangeJudge<'_> {
             record.check(ADR_5, false, "the group of a class", found);
             return;
         };
-        let of_class = group.class == class && group.attribute == Attribute::Content;
-        record.check(ADR_5, of_class, || format!("the content of {class:?}"), found);
+        let record = &mut self.records.on(Topic::CncSda, observation);
         // Queried by index, the returned rank may differ from the requested one.
-        if group.addressing == Addressing::Logical || class == Class::Spindle {
-            let same = u32::from(group.instance) == query.channel;
-            record.check(ADR_5, same, || format!("the group of instance {}", query.channel), found);
-        }
-        let of = |stride| IndexOffset::for_axis(stride, query.axis, 0).ok();
-        let (rule, expected) = match (class, query.axis) {
-            (_, 0) => (Rule::from(SDA_1), vec![Some(IndexOffset::new(0))]),
-            (Class::Decoder, _) => (Rule::from(ADR_7), vec![of(AxisStride::X10000)]),
-            _ => (assumed(ADR_7), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
-        };
-        let passed = expected.contains(&Some(address.index_offset));
-        record.check(rule, passed, || format!("the first element of axis {}", query.axis), found);
+        let is_by_number = find.class_group().addressing == Addressing::Logical;
+        let instance = (is_by_number || class == Class::Spindle).then_some(query.channel);
+        check_group(record, (class, instance), group);
+        check_offset(record, (class, query.channel, query.axis), address.index_offset);
     }
+}
+
+/// Checks the group of the address of an instance: of its class and number, if that is known.
+pub(crate) fn check_group(
+    record: &mut impl Checks,
+    (class, instance): (Class, Option<u32>),
+    group: ClassGroup,
+) {
+    let found = || format!("{} for the {class}", group.index_group());
+    let of_class = group.class == class && group.attribute == Attribute::Content;
+    record.check(ADR_5, of_class, || format!("the content group of the {class}"), found);
+    let Some(instance) = instance else { return };
+    let rule = if class == Class::Spindle { ADR_2 } else { ADR_5 };
+    let same = u32::from(group.instance) == instance;
+    record.check(rule, same, || format!("the group of instance {instance}"), found);
+    let logical = group.addressing == Addressing::Logical;
+    if class == Class::Spindle {
+        record.check(ADR_2, !logical, "a group without the logical bit", found);
+    } else {
+        record.check(ADR_5, logical, "a group with the logical bit, as asked", found);
+        if matches!(class, Class::Decoder | Class::Hld) {
+            record.check(SDA_3, logical, "a group as printed", found);
+        }
+    }
+}
+
+/// Checks the offset of the address of an instance, which is printed for the decoder and for one axis
+/// of the HLD.
+pub(crate) fn check_offset(
+    record: &mut impl Checks,
+    (class, channel, axis): (Class, u32, u32),
+    offset: IndexOffset,
+) {
+    let of = |stride| IndexOffset::for_axis(stride, axis, 0).ok();
+    let (rule, expected) = match (class, axis) {
+        (_, 0) => (Rule::from(SDA_1), vec![Some(IndexOffset::new(0))]),
+        (Class::Hld, 1) if channel == 0 => (Rule::from(SDA_3), vec![of(AxisStride::X1000)]),
+        (Class::Decoder, _) => (Rule::from(ADR_7), vec![of(AxisStride::X10000)]),
+        _ => (assumed(ADR_7), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
+    };
+    let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
+    let found = || format!("offset {offset} of the {class}, axis {axis}");
+    let swapped = Some(IndexOffset::new(offset.get().swap_bytes()));
+    let is_swapped = axis > 0 && expected.contains(&swapped);
+    record.check(SDA_1, !is_swapped, "the lowest byte of the offset first", found);
+    record.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 
 /// Index group and index offset of an element's content.
@@ -132,4 +213,27 @@ fn key(call: &Call<'_>) -> Option<(u32, u32)> {
     content.attribute = Attribute::Content;
     let group: IndexGroup = content.index_group();
     Some((group.get(), call.index_offset.get()))
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc_vectors::Level;
+
+    use super::*;
+
+    #[test]
+    fn a_name_of_another_width_may_be_a_type() {
+        for other in ["UNS64", "SGN64", "REAL80"] {
+            assert_eq!(name_rule(other).level, Some(Level::Info), "{other}");
+        }
+        for wrong in ["UNS8", "uns08", "DWORD", "BOOL", "LWORD", "", "UNS008", "REAL"] {
+            assert_eq!(
+                (name_rule(wrong).level, element_type(wrong)),
+                (Some(Level::Must), None),
+                "{wrong:?}"
+            );
+        }
+        let known = DataType::ALL.into_iter().filter(|one| element_type(one.name()) == Some(*one));
+        assert_eq!(known.count(), 10);
+    }
 }

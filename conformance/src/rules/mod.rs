@@ -24,12 +24,15 @@ use ads_cnc::operation::{Call, Request};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
+pub(crate) use self::elements::{
+    check_group, check_length, check_offset, check_type, element_type,
+};
 pub(crate) use self::knowledge::TargetVariable;
 use self::knowledge::{ExchangeJudge, Knowledge, MemoryBudget};
 pub(crate) use self::objects::check_descriptor;
 pub(crate) use self::requests::function_at;
 pub(crate) use self::topic::{Topic, TopicRecords, reply_cases};
-pub(crate) use self::variables::check_description;
+pub(crate) use self::variables::{check_description, check_extended};
 use crate::exchange::{Exchange, Violation};
 use crate::judge::Evidence;
 use crate::wire_service;

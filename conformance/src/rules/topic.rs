@@ -80,7 +80,7 @@ traffic_cases! {
         [GEN_5, COM_3] of "COM";
     CncSda: CapturedCnc, "cap-cnc-sda",
         "Instances, elements and their attributes hold together",
-        [SDA_2, ADR_5, ADR_7, GEN_5] of "SDA";
+        [SDA_2, SDA_3, ADR_2, ADR_5, ADR_7, GEN_5] of "SDA";
     CncDyn: CapturedCnc, "cap-cnc-dyn",
         "Dynamic parameters hold together", [DYN_5] of "DYN";
     CncVar: CapturedCnc, "cap-cnc-var",

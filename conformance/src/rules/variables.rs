@@ -3,8 +3,8 @@
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{
-    CncStr, Description, ExtendedReply, Synchronisation, Validity, VariableAccess, VariablePath,
-    VariableType,
+    CncStr, Description, ExtendedReply, Kind, Synchronisation, Validity, VariableAccess,
+    VariablePath, VariableType,
 };
 use ads_cnc_vectors::ids::*;
 
@@ -119,7 +119,14 @@ impl ExchangeJudge<'_> {
                 self.handle(observation, call, handle.name.text(), given.0);
             }
             (Request::DescribeExtended(describe), Some(Reply::Extended(given))) => {
-                self.extended(observation, &describe.kind.text().to_string(), *given);
+                let mut record = self.records.on(Topic::CncVar, observation);
+                let at = format!("index {} of {}", describe.index, describe.kind.text());
+                if describe.kind == Kind::V_E {
+                    check_extended(&mut record, given, &at);
+                } else if [Kind::V_G, Kind::V_A].contains(&describe.kind) {
+                    let expected = || format!("no data for {at}");
+                    record.check(VAR_16, given.0.is_none(), expected, "an extended description");
+                }
             }
             (Request::DescribeByName(describe), Some(Reply::DescriptionByName(given))) => {
                 let name = describe.name.text().to_string();
@@ -224,29 +231,20 @@ impl ExchangeJudge<'_> {
         record.check(rule, other.is_none(), || format!("a handle of {text} alone"), found);
         channel.handle(handle, &text, self.budget);
     }
+}
 
-    fn extended(&mut self, observation: &dyn Observation, kind: &str, given: ExtendedReply) {
-        let mut record = self.records.on(Topic::CncVar, observation);
-        match (kind, given.0) {
-            ("V.E", Some(extended)) => {
-                let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
-                let passed = known.contains(&extended.synchronisation);
-                let found = || format!("{:?}", extended.synchronisation);
-                record.check(VAR_15, passed, "a synchronisation of 1 or 2", found);
-                let known = [Validity::CHANNEL, Validity::GLOBAL];
-                let passed = known.contains(&extended.validity);
-                let found = || format!("{:?}", extended.validity);
-                record.check(VAR_15, passed, "a validity of 1 or 2", found);
-            }
-            ("V.E", None) => {
-                record.check(VAR_15, false, "an extended description", "no data");
-            }
-            ("V.G" | "V.A", given) => {
-                record.check(VAR_16, given.is_none(), "no data", "an extended description");
-            }
-            _ => {}
-        }
-    }
+/// Checks the extended description of a V.E.
+pub(crate) fn check_extended(record: &mut impl Checks, reply: &ExtendedReply, at: &str) {
+    let found = || format!("no data for {at}");
+    record.check(VAR_15, reply.0.is_some(), "an extended description", found);
+    let Some(extended) = reply.0 else { return };
+    let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
+    let passed = known.contains(&extended.synchronisation);
+    let found = || format!("{} for {at}", extended.synchronisation.0);
+    record.check(VAR_15, passed, "a synchronisation of 1 or 2", found);
+    let known = [Validity::CHANNEL, Validity::GLOBAL];
+    let found = || format!("{} for {at}", extended.validity.0);
+    record.check(VAR_15, known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
 /// Checks a description by itself.

@@ -10,6 +10,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Probe, Steady, attribute_reads, element_by_rank};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
+use crate::rules::element_type;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -18,13 +19,6 @@ pub(super) const CASES: &[CaseRow] = &[
     case("adr-attributes-by-index", &[ADR_1, ADR_12], Needs::Queries, by_index,
         "By number and by rank of the channel, an element has the same attributes"),
 ];
-
-/// Whether a name is one of the manual's types.
-fn is_type(name: &str) -> bool {
-    let types =
-        ["BOOLEAN", "UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
-    types.contains(&name) || name == "STRING"
-}
 
 fn text(text: &ElementText) -> String {
     text.text.text.to_string()
@@ -43,6 +37,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
                 let Some(other) = attribute.as_ref().map(text) else { continue };
                 // Types may have other names than in the manual, but a name of an element is not a
                 // type.
+                let is_type = |name| element_type(name).is_some();
                 let swapped = is_type(&other) && !is_type(&of_type);
                 let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
                 probe.check(ADR_6, !swapped, "the type at 0x200", found);

@@ -2,10 +2,7 @@
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByName, DescribeExtended};
-use ads_cnc::{
-    Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef, Validity,
-    VariableCount,
-};
+use ads_cnc::{Description, DescriptionByName, ExtendedReply, Kind, TextRef, VariableCount};
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{ItemKind, Probe, name_of};
@@ -13,6 +10,7 @@ use super::row::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;
+use crate::rules::check_extended;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -41,7 +39,7 @@ fn extended(probe: &mut Probe<'_>) -> Step {
                 let at = format!("index {index} of {name}");
                 if kind == Kind::V_E {
                     let reply: ExtendedReply = probe.read(VAR_15, request)?;
-                    of_external(probe, &reply, &at);
+                    check_extended(probe, &reply, &at);
                 } else {
                     of_others(probe, request, &at)?;
                 }
@@ -49,19 +47,6 @@ fn extended(probe: &mut Probe<'_>) -> Step {
         }
     }
     Ok(())
-}
-
-fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
-    let found = || format!("nothing for {at}");
-    probe.check(VAR_15, reply.0.is_some(), "an extended description", found);
-    let Some(extended) = reply.0 else { return };
-    let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
-    let found = || format!("{} for {at}", extended.synchronisation.0);
-    let passed = known.contains(&extended.synchronisation);
-    probe.check(VAR_15, passed, "a synchronisation of 1 or 2", found);
-    let known = [Validity::CHANNEL, Validity::GLOBAL];
-    let found = || format!("{} for {at}", extended.validity.0);
-    probe.check(VAR_15, known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
 /// The reply has no data; that it is a success is assumed.

@@ -12,12 +12,11 @@ use ads_cnc::{Decode, ErrorKind};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{
-    Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, type_and_length,
-};
+use super::kit::{Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, assumed};
 use crate::objects::decode_element_count;
+use crate::rules::{check_length, check_type};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -239,10 +238,11 @@ fn attributes_of(
         let found = || format!("{:?} of {at}", text(one));
         probe.check(assumed(GEN_3), readable, "CP1252 characters", found);
     }
-    let is_known = type_and_length(probe, &text(&ty), length.get(), &at);
+    let data_type = check_type(probe, &text(&ty), &at);
+    check_length(probe, data_type, length.get(), &at);
     let found = || format!("{} of {at}", flag.0);
     probe.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", found);
-    Ok((is_known, unit))
+    Ok((data_type.is_some(), unit))
 }
 
 fn content(probe: &mut Probe<'_>) -> Step {

@@ -6,7 +6,6 @@ mod counted;
 mod described_list;
 mod dynamic_variables;
 mod each_variable;
-mod element_type;
 mod instance;
 mod inventory;
 mod layout;
@@ -31,7 +30,6 @@ pub(crate) use counted::Counted;
 pub(crate) use described_list::DescribedList;
 pub(crate) use dynamic_variables::dynamic_among_variables;
 pub(crate) use each_variable::{each_array, each_variable};
-pub(crate) use element_type::type_and_length;
 pub(crate) use instance::Instance;
 pub(crate) use inventory::{
     INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads, element_by_rank, name_of,

@@ -3,41 +3,24 @@
 use std::collections::HashSet;
 
 use ads_cnc::Decode as _;
-use ads_cnc::address::{
-    Addressing, Attribute, AxisStride, Class, ClassGroup, ElementAddress, IndexOffset,
-};
+use ads_cnc::address::{Attribute, Class};
 use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::ids::*;
 
-use crate::judge::{Checks as _, Rule, Step, assumed};
+use crate::judge::{Checks as _, Step, assumed};
+use crate::rules::{check_group, check_offset};
 use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();
     for one in probe.instances()? {
-        let ClassGroup { addressing, class, attribute, instance } = one.first.class_group();
         let group = one.first.group(Attribute::Content);
-        let of_class = class == one.class && attribute == Attribute::Content;
-        let expected = || format!("the content group of the {}", one.class);
-        let found = || format!("{group} for {one}");
-        probe.check(ADR_5, of_class, expected, found);
-        let same = u32::from(instance) == one.channel;
-        let rule = if one.class == Class::Spindle { ADR_2 } else { ADR_5 };
-        probe.check(rule, same, || format!("the group of instance {}", one.channel), found);
-        if one.class == Class::Spindle {
-            let by_index = addressing == Addressing::Index;
-            probe.check(ADR_2, by_index, "a group without the logical bit", found);
-        } else {
-            let logical = addressing == Addressing::Logical;
-            probe.check(ADR_5, logical, "a group with the logical bit, as asked", found);
-            if matches!(one.class, Class::Decoder | Class::Hld) {
-                probe.check(SDA_3, logical, "a group as printed", found);
-            }
-        }
-        offset(probe, one.class, (one.channel, one.axis), one.first);
-        let own = seen.insert((group, one.first.index_offset()));
-        let found = || format!("{}, which another instance has too", found());
+        check_group(probe, (one.class, Some(one.channel)), one.first.class_group());
+        let offset = one.first.index_offset();
+        check_offset(probe, (one.class, one.channel, one.axis), offset);
+        let found = || format!("{group} and {offset} for {one}, as for another instance");
+        let own = seen.insert((group, offset));
         probe.check(SDA_1, own, "a place of its own", found);
     }
     // If several instances have the same address, the one after the last is not requested.
@@ -62,24 +45,6 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         probe.pass(GEN_6);
     }
     Ok(())
-}
-
-/// The offset of an instance: printed for the decoder and for one axis of the HLD.
-fn offset(probe: &mut Probe<'_>, class: Class, (channel, axis): (u32, u32), first: ElementAddress) {
-    let offset = first.index_offset();
-    let of = |stride| IndexOffset::for_axis(stride, axis, 0).ok();
-    let (rule, expected) = match (class, axis) {
-        (_, 0) => (Rule::from(SDA_1), vec![Some(IndexOffset::new(0))]),
-        (Class::Hld, 1) if channel == 0 => (Rule::from(SDA_3), vec![of(AxisStride::X1000)]),
-        (Class::Decoder, _) => (Rule::from(ADR_7), vec![of(AxisStride::X10000)]),
-        _ => (assumed(ADR_7), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
-    };
-    let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
-    let found = || format!("offset {offset} of the {}, axis {axis}", class);
-    let swapped = Some(IndexOffset::new(offset.get().swap_bytes()));
-    let is_swapped = axis > 0 && expected.contains(&swapped);
-    probe.check(SDA_1, !is_swapped, "the lowest byte of the offset first", found);
-    probe.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 
 pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
