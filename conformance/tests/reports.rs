@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs, process};
 
-use ads_cnc_conformance::report::{self, Report};
+use ads_cnc_conformance::report::{self, Detail, Display, Report};
 use common::Serve;
 use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
@@ -48,6 +48,7 @@ fn run(args: &[&str]) -> Value {
 
 const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
 const DEFECT: &str = "variable-description.size.flip";
+const VERBOSE: Display = Display { detail: Detail::Verbose, color: false };
 
 /// A report with all that one can have: failures with bytes, waivers, a selection.
 fn everything(folder: &Folder) -> Value {
@@ -121,9 +122,9 @@ fn each_protocol_is_where_its_own_is() {
         assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
         let read = Report::from_json(&report.to_string()).unwrap();
         let mut text = Vec::new();
-        report::print(&read, false, &mut text).unwrap();
+        report::print(&read, Display::default(), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail, ")), "{text}");
+        assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail ({id}), ")), "{text}");
     }
 }
 
@@ -250,7 +251,7 @@ fn text_stays_text() {
         make(&report, &mut text).unwrap();
         String::from_utf8(text).unwrap()
     };
-    let shown = made(|report, out| report::print(report, true, out));
+    let shown = made(|report, out| report::print(report, VERBOSE, out));
     for text in [shown, made(report::to_markdown), made(report::to_html), made(report::to_junit)] {
         assert!(!text.contains(|one: char| one.is_control() && one != '\n'), "{text}");
         assert!(!text.contains("\u{202e}") && !text.contains("\n# A heading"), "{text}");
@@ -309,7 +310,7 @@ fn no_text_of_a_foreign_report_acts() {
         };
         let (markdown, junit) = (made(report::to_markdown), made(report::to_junit));
         let (html, json) = (made(report::to_html), made(report::to_json));
-        let shown = made(|report, out| report::print(report, true, out));
+        let shown = made(|report, out| report::print(report, VERBOSE, out));
         for text in [&shown, &markdown, &junit, &html, &json, &made(report::to_badge)] {
             let acts = |one: char| one.is_control() && one != '\n' || one == '\u{202e}';
             assert!(!text.contains(acts), "{path}: {text:?}");

@@ -81,7 +81,9 @@ fn what_is_nowhere_is_no_success() {
     for args in [&["run", "--only", "VRA"][..], &["run", "--only", "VAR", "--only", "DYN-99"]] {
         let output = ads_cnc(args);
         assert_eq!(output.status.code(), Some(3), "{args:?}");
-        assert!(String::from_utf8(output.stderr).unwrap().contains("no case is called"));
+        assert!(
+            String::from_utf8(output.stderr).unwrap().contains("no case or requirement is called")
+        );
     }
     let output = ads_cnc(&["run", "--edition", "fr-1.0"]);
     assert_eq!(output.status.code(), Some(2));

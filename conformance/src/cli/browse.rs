@@ -168,7 +168,7 @@ impl Browse {
                         }
                     });
                 let (objects, notes) = (objects.collect(), found.notes.clone());
-                let report = ObjectsReport::new(session.target(), objects, notes);
+                let report = ObjectsReport::new(session, objects, notes);
                 json::write(&report, &mut out)
             }
             format => {

@@ -66,7 +66,7 @@ error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {
-        self.target.end(self.run(), |error| self.name.advice(error))
+        self.target.end(self.run(), |error| self.name.advice(error, &self.target, &self.model))
     }
 
     fn run(&self) -> Result<Exit, ToolError> {
@@ -77,7 +77,7 @@ impl Get {
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = if self.json {
             let one = ObjectReport::read(&object, &Ok(bytes.clone()));
-            let report = ObjectsReport::new(session.target(), vec![one], Vec::new());
+            let report = ObjectsReport::new(&session, vec![one], Vec::new());
             json::write(&report, &mut out)
         } else if self.hex {
             show(&hex::dump(&bytes), "", &mut out)

@@ -1,9 +1,11 @@
 //! The command line of `ads-cnc`.
 
+mod again;
 mod browse;
 mod check;
 mod client;
 mod completions;
+mod display;
 mod executed;
 mod explain;
 mod get;
@@ -30,9 +32,11 @@ mod testee;
 
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::judge::Exit;
+use crate::text::nearest;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
 #[derive(Debug, Parser)]
@@ -81,7 +85,8 @@ impl Subcommands {
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => {
+        Err(mut error) => {
+            suggest(&mut error);
             // Help and version come as errors with the exit code 0.
             let code = u8::try_from(error.exit_code()).unwrap_or(Exit::Usage.code());
             let _unprinted = error.print();
@@ -89,6 +94,40 @@ pub fn main() -> ExitCode {
         }
     };
     cli.run()
+}
+
+/// Adds the nearest subcommands or options to an error about an unknown one.
+fn suggest(error: &mut clap::Error) {
+    if !matches!(error.kind(), ErrorKind::InvalidSubcommand | ErrorKind::UnknownArgument) {
+        return;
+    }
+    let unknown = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    let tool = Cli::command();
+    if let Some(word) = unknown(ContextKind::InvalidSubcommand) {
+        let names: Vec<&str> = tool.get_subcommands().map(clap::Command::get_name).collect();
+        add(error, ContextKind::SuggestedSubcommand, nearest(&word, names));
+    } else if let Some(word) =
+        unknown(ContextKind::InvalidArg).filter(|word| word.starts_with("--"))
+    {
+        let name = std::env::args().nth(1).unwrap_or_default();
+        let of = tool.find_subcommand(name).unwrap_or(&tool);
+        let options = of.get_arguments().filter_map(clap::Arg::get_long);
+        let options: Vec<String> = options.map(|option| format!("--{option}")).collect();
+        add(error, ContextKind::SuggestedArg, nearest(&word, options.iter().map(String::as_str)));
+    }
+}
+
+fn add(error: &mut clap::Error, kind: ContextKind, names: Vec<&str>) {
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let value = match (kind, names.as_slice()) {
+        (_, []) => return,
+        (ContextKind::SuggestedArg, [name, ..]) => ContextValue::String(name.clone()),
+        _ => ContextValue::Strings(names),
+    };
+    error.insert(kind, value);
 }
 
 impl Cli {

@@ -52,7 +52,7 @@ const fn meaning(exit: Exit) -> &'static str {
     }
 }
 
-fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
+pub(super) fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
     let word = |value: &serde_json::Value| match value {
         serde_json::Value::Null => "not given".to_owned(),
         serde_json::Value::String(text) => text.clone(),

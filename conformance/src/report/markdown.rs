@@ -114,7 +114,7 @@ fn html(text: &str) -> String {
 }
 
 /// Escapes Markdown.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -111,8 +111,10 @@ Exit codes: 0 ended by a signal, --once or --answers; 1 the CNC refuses; 2 wrong
 connection, or lost; 4 refused for safety; 70 internal error.";
 
 fn uuid(text: &str) -> Result<ServiceId, String> {
-    ServiceId::new(text)
-        .map_err(|error| format!("{error}: 8, 4, 4, 4 and 12 hex digits are needed"))
+    ServiceId::new(text).map_err(|_| {
+        "8, 4, 4, 4 and 12 hex digits are needed, as 560AACBF-6335-44A9-895A-8B27F3ED5E47"
+            .to_owned()
+    })
 }
 
 impl ServiceArguments {

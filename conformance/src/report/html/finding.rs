@@ -79,8 +79,9 @@ pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
 }
 
 fn evidence(evidence: &EvidenceReport) -> EvidenceView {
-    let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
-        evidence;
+    let EvidenceReport {
+        call, result, sent, received, expected, frame_sent, frame_received, ..
+    } = evidence;
     // With the same fields, the expected ones are shown below the received ones.
     let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
         let places = |bytes: &BytesReport| -> Vec<usize> {
