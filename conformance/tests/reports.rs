@@ -393,6 +393,33 @@ fn profiles_and_waivers_do_not_act() {
     assert!(!folder.read("html").contains("<img") && !folder.read("markdown").contains("<img"));
 }
 
+/// A statement has each clause once for each subject; a comparison fails on what fails newly.
+#[test]
+fn statements_and_comparisons_are_made_of_reports() {
+    let folder = Folder::new("statement");
+    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    fs::write(&now, everything(&folder).to_string()).unwrap();
+    fs::write(&before, run(&["--only", "VAR", "--seed", "7"]).to_string()).unwrap();
+    for form in ["statement.md", "statement.html"] {
+        let file = folder.path(form);
+        assert_eq!(ads_cnc(&["report", &now, "--statement", &file]).status.code(), Some(0));
+        let text = folder.read(form);
+        for part in ["Conformance statement", "VAR-8", "not met", "verified", "seed 7"] {
+            assert!(text.contains(part), "{form}: {part}");
+        }
+    }
+    let against = |one: &str, other: &str| {
+        let output = ads_cnc(&["report", one, "--against", other]);
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (code, shown) = against(&now, &before);
+    assert!(code == Some(1) && shown.contains("\nnewly failing     VAR-4    codec  "), "{shown}");
+    let (code, shown) = against(&before, &now);
+    assert!(code == Some(0) && shown.contains("\nmended            VAR-4    codec  "), "{shown}");
+    let (code, shown) = against(&now, &now);
+    assert!(code == Some(0) && shown.contains("\n0 newly failing, 0 mended, "), "{shown}");
+}
+
 /// A row that takes much of a page may be parted, or the page before it stays empty.
 #[test]
 fn long_rows_are_parted_in_print() {
@@ -424,9 +451,10 @@ fn html_needs_nothing_else() {
     let mut html = Vec::new();
     report::to_html(&report, &mut html).unwrap();
     let html = String::from_utf8(html).unwrap();
-    for outside in ["http://", "https://", "src=", "href=", "url(", "@import", "{{", "{%"] {
+    for outside in ["http://", "https://", "src=", "url(", "@import", "{{", "{%"] {
         assert!(!html.contains(outside), "{outside}");
     }
+    assert_eq!(html.matches("href=").count(), html.matches("href=\"#").count());
     let (before, script) = html.split_once("<script>").unwrap();
     assert!(script.contains("</script>\n</body>"));
     for fact in [

@@ -3,9 +3,13 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use super::console::list;
 use super::model::{Report, RequirementReport};
 use crate::judge::{CaseSubject, Verdict};
 use crate::text::plural;
+
+/// Maximum number of cases that a line names.
+const CASES_MAX: usize = 3;
 
 /// How a verdict has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,23 +63,25 @@ fn judged(report: &Report) -> Judged<'_> {
 /// Writes what has changed since an earlier report, what fails newly last; returns whether there is any.
 pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result<bool> {
     let (new, old) = (judged(now), judged(before));
-    let mut changes: Vec<_> = new
-        .keys()
-        .chain(old.keys().filter(|key| !new.contains_key(*key)))
-        .filter_map(|key| Some((Change::of(old.get(key).copied(), new.get(key).copied())?, *key)))
-        .collect();
-    changes.sort_unstable();
+    let mut changes: BTreeMap<(Change, &str, CaseSubject), Vec<String>> = BTreeMap::new();
+    for key in new.keys().chain(old.keys().filter(|key| !new.contains_key(*key))) {
+        let (before, now) = (old.get(key).copied(), new.get(key).copied());
+        let Some(change) = Change::of(before, now) else { continue };
+        let (subject, requirement, case) = *key;
+        let [was, is] = [before, now].map(|one| one.map_or("not there", |one| one.verdict.name()));
+        let cases = changes.entry((change, requirement, subject)).or_default();
+        cases.push(format!("{case} ({was} -> {is})"));
+    }
     writeln!(out, "before   {}, {}, seed {}", before.time, before.target.name, before.seed)?;
     writeln!(out, "now      {}, {}, seed {}", now.time, now.target.name, now.seed)?;
-    for (change, (subject, requirement, case)) in &changes {
-        let verdict = |all: &Judged<'_>| {
-            let found = all.get(&(*subject, *requirement, *case));
-            found.map_or("not there", |one| one.verdict.name())
-        };
-        let (was, is) = (verdict(&old), verdict(&new));
-        writeln!(out, "{:<16}  {requirement:<7}  {subject}  {case}: {was} -> {is}", change.name())?;
+    for ((change, requirement, subject), cases) in &changes {
+        let (change, cases) = (change.name(), list(cases.iter().map(String::as_str), CASES_MAX));
+        writeln!(out, "{change:<16}  {requirement:<7}  {subject}  {cases}")?;
     }
-    let number = |wanted: Change| changes.iter().filter(|(change, _)| *change == wanted).count();
+    let number = |wanted: Change| {
+        let all = changes.iter().filter(|((change, ..), _)| *change == wanted);
+        all.map(|(_, cases)| cases.len()).sum::<usize>()
+    };
     let failing = number(Change::NewlyFailing);
     writeln!(
         out,

@@ -311,7 +311,7 @@ fn brief(group: &Group<'_>, display: Display, out: &mut dyn Write) -> io::Result
 }
 
 /// The number of the other checks of a group.
-fn alike(group: &Group<'_>) -> String {
+pub(super) fn alike(group: &Group<'_>) -> String {
     match group.checks().saturating_sub(1) {
         0 => String::new(),
         more => format!(" and {more} alike"),
@@ -319,7 +319,7 @@ fn alike(group: &Group<'_>) -> String {
 }
 
 /// What was expected and found, of which subject.
-fn sentence(failure: &FailureReport, most: usize) -> String {
+pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     let [expected, found] = [&failure.expected, &failure.found].map(|text| shorten(text, most));
     let subject = failure.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref());
     let subject = subject.map_or_else(String::new, |subject| format!("{subject}: "));
@@ -344,7 +344,7 @@ fn block(
     let sources = if failure.sources.is_empty() {
         "in no document: assumed".to_owned()
     } else {
-        list(failure.sources.iter().map(String::as_str), NAMES_MAX)
+        failure.sources.join("; ")
     };
     writeln!(out, "{verdict}  {clauses}  {sources}")?;
     let clause = wrap(&failure.clause, WIDTH);
@@ -383,7 +383,7 @@ fn block(
 }
 
 /// The first names of a list, and the number of the others.
-fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) -> String {
+pub(super) fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) -> String {
     let mut names: Vec<&str> = names.into_iter().collect();
     let more = names.len().saturating_sub(most);
     names.truncate(most);

@@ -83,6 +83,7 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     }
     for (cause, failure, case) in followers {
         let group = all.iter_mut().filter(|group| group.is_failure());
+        let group = group.filter(|group| group.subject() == Some(case.subject));
         let mut group = group.filter(|group| group.requirements.contains(&cause));
         if let Some(group) = group.next() {
             group.followers.insert((failure.requirement.as_str(), case.id.as_str()));
@@ -123,6 +124,11 @@ impl<'r> Group<'r> {
     /// The clause with most checks.
     pub(super) fn requirement(&self) -> &'r str {
         self.requirements.first().copied().unwrap_or_default()
+    }
+
+    /// The subject of its cases.
+    pub(super) fn subject(&self) -> Option<CaseSubject> {
+        self.checks.first().map(|(case, _)| case.subject)
     }
 
     /// The number of checks.
