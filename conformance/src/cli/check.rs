@@ -20,7 +20,7 @@ use crate::text::Moment;
 /// The heading of these options in the help.
 const TRAFFIC: &str = "Traffic";
 
-/// Judge captured traffic by the same requirements: what clients sent and what CNCs answered.
+/// Judge captured traffic by the same requirements
 ///
 /// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them. TCP
 /// connections are put together in both directions, requests are paired with their replies, and
@@ -175,8 +175,39 @@ impl CheckArguments {
         self.write(&report, &checked, &extracted)
     }
 
-    fn read(&self) -> Result<Checked, capture::FileError> {
-        let ports = match (self.any_port, self.port.is_empty()) {
+    /// Reads the usual port; if no AMS frame is there, all others.
+    fn read(&self) -> Result<Checked, String> {
+        let checked = self.read_ports(self.any_port).map_err(|error| self.explain(&error))?;
+        if checked.tally.frames > 0 || self.any_port || !self.port.is_empty() {
+            return Ok(checked);
+        }
+        let all = self.read_ports(true).map_err(|error| self.explain(&error))?;
+        if all.tally.frames == 0 {
+            return Ok(checked);
+        }
+        print_error(format_args!(
+            "no AMS frame at TCP port {AMS_TCP_PORT}: the connections at other ports are judged, as \
+             with --any-port"
+        ));
+        Ok(all)
+    }
+
+    /// The error, and what to do about a compressed file.
+    fn explain(&self, error: &capture::FileError) -> String {
+        let mut start = [0; 4];
+        let read = File::open(&self.file).and_then(|mut file| file.read_exact(&mut start));
+        let unpack = match start {
+            _ if read.is_err() => return error.to_string(),
+            [0x1F, 0x8B, ..] => "gzip -dk",
+            [0x28, 0xB5, 0x2F, 0xFD] => "zstd -dk",
+            [0xFD, b'7', b'z', b'X'] => "xz -dk",
+            _ => return error.to_string(),
+        };
+        format!("the file is compressed; unpack it first: {unpack} {}", self.file.display())
+    }
+
+    fn read_ports(&self, any: bool) -> Result<Checked, capture::FileError> {
+        let ports = match (any, self.port.is_empty()) {
             (true, _) => Ports::Any,
             (false, true) => Ports::Of(vec![AMS_TCP_PORT]),
             (false, false) => Ports::Of(self.port.clone()),

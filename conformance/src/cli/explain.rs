@@ -24,7 +24,7 @@ use crate::text::did_you_mean;
 /// Maximum number of bytes taken: several of the longest frames.
 const INPUT_MAX: u64 = 0x100_0000;
 
-/// Explains bytes field by field: offset, bytes, field, value, clause, meaning.
+/// Explain bytes field by field
 ///
 /// --stream, --group and --offset, or --frame tell what the bytes are; without, they have to be
 /// AMS/TCP frames. Bytes that are cut or wrong are shown up to the fault.
@@ -115,6 +115,18 @@ enum ServiceName {
     ReadWrite,
 }
 
+/// Whether the bytes begin as pcap or pcapng does.
+fn is_capture(bytes: &[u8]) -> bool {
+    let starts = [
+        [0xD4, 0xC3, 0xB2, 0xA1],
+        [0xA1, 0xB2, 0xC3, 0xD4],
+        [0x4D, 0x3C, 0xB2, 0xA1],
+        [0xA1, 0xB2, 0x3C, 0x4D],
+        [0x0A, 0x0D, 0x0D, 0x0A],
+    ];
+    starts.iter().any(|start| bytes.starts_with(start))
+}
+
 impl Explain {
     /// Explains the bytes and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
@@ -173,6 +185,10 @@ impl Explain {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {
                 let bytes = read_file(file)?;
+                if is_capture(&bytes) {
+                    let name = file.display();
+                    return Err(format!("{name} is a capture: ads-cnc check {name} judges it"));
+                }
                 if !self.hex {
                     return Ok(Some(bytes));
                 }

@@ -15,7 +15,7 @@ use crate::session::ToolError;
 use crate::text::{hex, json};
 use crate::values::{lines, plain};
 
-/// Reads a variable, a parameter, an object or an element by its name.
+/// Read a variable, a parameter, an object or an element by its name
 ///
 /// A variable is typed by its description: asked for by name, and on CNCs that do not describe that,
 /// by going through the descriptions of its kind. A COM object or an element is looked for in the

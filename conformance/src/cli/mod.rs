@@ -33,12 +33,12 @@ mod testee;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::judge::Exit;
 use crate::text::nearest;
 
-/// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
+/// Judge, simulate and inspect the ADS interface of ISG and TwinCAT CNCs
 #[derive(Debug, Parser)]
 #[command(name = "ads-cnc", version)]
 struct Cli {
@@ -53,7 +53,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Subcommands {
-    /// Start the simulated CNC and serve it over AMS/TCP until interrupted.
+    /// Serve a simulated CNC over AMS/TCP
     Serve(serve::Args),
     Run(Box<run::Run>),
     Report(report::ReportArgs),
@@ -71,6 +71,33 @@ enum Subcommands {
     Client(client::ClientArguments),
 }
 
+/// The subcommands by what they do, as the help lists them.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Judge", &["run", "check", "report", "requirements"]),
+    ("Simulate", &["serve"]),
+    ("Inspect, reading only", &["browse", "get", "explain"]),
+    ("Act on a CNC", &["set", "stream", "service"]),
+    ("Try the suite itself", &["selftest", "testee", "client", "completions"]),
+];
+
+/// The command line, with the help by groups.
+fn command() -> clap::Command {
+    let command = Cli::command();
+    let mut template = "{about}\n\n{usage-heading} {usage}\n".to_owned();
+    for (group, names) in GROUPS {
+        template.push_str(&format!("\n{group}:\n"));
+        for name in names {
+            let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            template.push_str(&format!("  {name:<13} {about}\n"));
+        }
+    }
+    template.push_str(
+        "\nOptions:\n{options}\n\nWithout a command: run. ads-cnc COMMAND --help says more.",
+    );
+    command.help_template(template)
+}
+
 impl Subcommands {
     /// The filter of --log, or the default of the command.
     fn log(&self) -> Option<log::Filter> {
@@ -83,7 +110,8 @@ impl Subcommands {
 
 /// Runs the tool with the arguments of the process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let parsed = command().try_get_matches().and_then(|found| Cli::from_arg_matches(&found));
+    let cli = match parsed {
         Ok(cli) => cli,
         Err(mut error) => {
             suggest(&mut error);
@@ -156,5 +184,21 @@ impl Cli {
             // `run` with its default options: the suite against the simulated CNC.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn the_help_has_every_subcommand_once() {
+        let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        grouped.sort_unstable();
+        let command = Cli::command();
+        let all: BTreeSet<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        assert_eq!(grouped, all.into_iter().collect::<Vec<_>>());
     }
 }

@@ -9,7 +9,7 @@ use super::report_output::{ReportFormats, is_stdout, lost, show, write};
 use crate::judge::Exit;
 use crate::report::{self, Report};
 
-/// Make other forms of a report that `run --json` wrote; without any, show it
+/// Show a JSON report, write it in other formats, or compare it with an earlier one
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  ads-cnc run --json report.json\n  \
     ads-cnc report report.json --html report.html --junit report.xml\n  \

@@ -7,8 +7,7 @@ use crate::judge::{Exit, names};
 use crate::matrix::{self, RequirementRow};
 use crate::text::did_you_mean;
 
-/// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
-/// the suite, tests of the simulated CNC and fuzz targets
+/// Print requirements: text, sources, rulings, vectors, cases and tests
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  ads-cnc requirements VAR-11\n  \
     ads-cnc requirements VAR --format json\n\n\

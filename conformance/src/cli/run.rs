@@ -41,7 +41,7 @@ mod target;
 /// The heading of these options in the help.
 const SELECTION: &str = "Selection";
 
-/// Runs the conformance suite against the simulated CNC, against a device, or against a client.
+/// Judge a device, a codec, a client or the simulated CNC by the requirements
 ///
 /// Without --target a simulated CNC is started on this machine and judged together with the codec.
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
@@ -323,7 +323,8 @@ impl Run {
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
         // A write of these changes what other cases expect of the simulated CNC.
-        let unwritten = profile.unwritten.iter().chain(kept.iter()).cloned().collect();
+        let new = kept.iter().filter(|name| !profile.unwritten.contains(name));
+        let unwritten = profile.unwritten.iter().chain(new).cloned().collect();
         Ok(Profile { edition, unwritten, ..profile })
     }
 

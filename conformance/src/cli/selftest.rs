@@ -14,7 +14,7 @@ use crate::process::progress::Counts;
 use crate::selftest;
 use crate::selftest::detection::Scope;
 
-/// Tries the suite on itself: it must catch every seeded defect, and fail no correct implementation
+/// Try the suite on itself: seeded defects must fail, correct implementations pass
 ///
 /// Codecs with a defect are put to the vectors, CNCs with a defect to the cases over the wire,
 /// clients with a defect to the scenarios. A defect counts as caught when a requirement that it

@@ -22,7 +22,7 @@ use crate::objects::{Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, ToolError};
 use crate::values::{Type, parse, plain};
 
-/// Writes a variable, an object or an element by its name, reads it back and shows both.
+/// Write a variable, an object or an element by its name, and read it back
 ///
 /// A machine may move. A device is written to only what a file for --allow-write names: this
 /// variable, object or element, on this device, for the time the file says; without, the write is

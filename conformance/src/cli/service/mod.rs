@@ -33,8 +33,7 @@ use response::ServiceResponse;
 /// Maximum number of consecutive failed writes.
 const FAILED_WRITES_MAX: u32 = 5;
 
-/// Answers the requests of NC programs, as a service of the Service Interface: a command is run for
-/// each.
+/// Answer requests of NC programs by a command (Service Interface)
 ///
 /// The command gets the request on stdin; what it writes to stdout is the response, and its exit
 /// code the response state.
