@@ -48,7 +48,7 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
     let block = shown.split("\n\n").find(|block| block.starts_with("FAIL  VAR-8  "));
     let block = block.unwrap_or_else(|| panic!("{shown}"));
     for part in [
-        "ads-en 1.05 §4.3.2, ads-de 1.051 §4.3.2",
+        "ads-en 1.05 §4.3.2; ads-de 1.051 §4.3.2",
         "\n  The size of a description is the whole variable's in bytes",
         "\n  var-descriptions: V.G.NP[0].V: expected ",
         "; found ",

@@ -82,7 +82,13 @@ impl NameArgs {
             let short = name.trim_end_matches(axis).trim_end_matches('.');
             return Some(format!("with --axis the name goes without the axis: {short}"));
         }
-        if is_variable && let Some(found) = self.look_for(target, model) {
+        // The axis would make the name one part longer.
+        let lacks_axis =
+            name.starts_with("V.A.") && name.split('.').count() == 3 && self.axis.is_none();
+        if is_variable
+            && !lacks_axis
+            && let Some(found) = self.look_for(target, model)
+        {
             return Some(found);
         }
         let browse = format!("{browse} shows what there is");
@@ -96,11 +102,7 @@ impl NameArgs {
                      4.1). {browse}"
                 )
             }
-            // The axis would make the name one part longer.
-            _ if name.starts_with("V.A.")
-                && name.split('.').count() == 3
-                && self.axis.is_none() =>
-            {
+            _ if lacks_axis => {
                 format!("of which axis? --axis PLACE says it, or {name}.X with its name. {browse}")
             }
             _ => browse,
@@ -118,6 +120,10 @@ fn is_like_variable(name: &str) -> bool {
 impl NameArgs {
     /// The channels if this one is not there, or the nearest names.
     fn look_for(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
+        // A second session would overwrite the capture of the first one.
+        if target.capture().is_some() {
+            return None;
+        }
         let session = model.open(target).ok()?;
         let mut session = session.with_deadline(Deadline::after(COMPARING_MAX));
         let channel = self.channel.channel;
@@ -131,6 +137,9 @@ impl NameArgs {
         let found = walk(&mut session, &options, &mut |_| {}).ok()?;
         let names: Vec<String> =
             found.objects.iter().map(|object| object.name.to_string()).collect();
+        if names.contains(&self.name) {
+            return None;
+        }
         let (base, indices) = match self.name.split_once('[') {
             Some((base, rest)) => (base, format!("[{rest}")),
             None => (self.name.as_str(), String::new()),

@@ -28,7 +28,7 @@ pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < width => {
+            Some(line) if line.chars().chain(word.chars()).count() < width => {
                 line.push(' ');
                 line.push_str(word);
             }

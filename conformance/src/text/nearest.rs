@@ -46,26 +46,29 @@ pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n s
 
 /// The number of characters to insert, delete, replace or swap with the next.
 fn distance(one: &[char], other: &[char]) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=other.len()).collect();
-    for (row, a) in one.iter().enumerate() {
-        let mut next = vec![row + 1];
-        for (column, b) in other.iter().enumerate() {
-            let at =
-                |line: &[usize], column: usize| line.get(column).copied().unwrap_or(usize::MAX);
-            let mut best = at(&last, column).saturating_add(usize::from(a != b));
-            best = best.min(at(&last, column + 1).saturating_add(1));
-            best = best.min(at(&next, column).saturating_add(1));
-            let swapped = row > 0
-                && column > 0
-                && one.get(row - 1) == Some(b)
-                && other.get(column - 1) == Some(a);
-            if swapped {
-                best = best.min(at(&before, column - 1).saturating_add(1));
-            }
-            next.push(best);
+    // The distances of the parts of `other` to the part of `one` two characters ago and one ago.
+    let (mut before, mut last): (Vec<usize>, Vec<usize>) =
+        (Vec::new(), (0..=other.len()).collect());
+    let mut previous = None;
+    for a in one {
+        let at = |line: &[usize], place: usize| line.get(place).copied().unwrap_or(usize::MAX);
+        let more = |distance: usize| distance.saturating_add(1);
+        let mut next = vec![more(at(&last, 0))];
+        let mut left = None;
+        for (place, b) in other.iter().enumerate() {
+            let replaced = at(&last, place).saturating_add(usize::from(a != b));
+            let deleted = more(at(&last, place.saturating_add(1)));
+            let inserted = more(at(&next, place));
+            let is_swapped = left == Some(a) && previous == Some(b);
+            let swapped = match place.checked_sub(1).filter(|_| is_swapped) {
+                Some(place) => more(at(&before, place)),
+                None => usize::MAX,
+            };
+            next.push(replaced.min(deleted).min(inserted).min(swapped));
+            left = Some(b);
         }
         before = std::mem::replace(&mut last, next);
+        previous = Some(a);
     }
     last.last().copied().unwrap_or_default()
 }
