@@ -543,7 +543,8 @@ fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
     let totals = report.subjects.iter().map(|one| {
         let counts = named_counts(&one.totals, one.waived, |verdict| {
             let all = one.areas.iter().flat_map(|area| &area.requirements);
-            let failed = all.filter(|one| one.verdict == verdict && verdict.fails_run());
+            let is_named = verdict.fails_run() && verdict != Verdict::Interrupted;
+            let failed = all.filter(|one| is_named && one.verdict == verdict);
             list(failed.map(|one| one.requirement.as_str()), NAMES_MAX)
         });
         format!("{}: {counts}", one.subject)
