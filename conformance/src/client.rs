@@ -19,6 +19,7 @@ use ads_cnc_vectors::ids::*;
 use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
 use crate::gate::{Gate, Permit};
 use crate::net::{LocalPeers, Wire};
+use crate::process::progress;
 use crate::text::Moment;
 use crate::wire_service::{decode_reply, service_of};
 
@@ -223,6 +224,7 @@ impl Client {
         let bytes = frame(header, call)?;
         let Exchange { received, violations, .. } = exchange;
         let came = self.deliver(&bytes, header, received, violations)?;
+        progress::requests(1);
         exchange.outcome = came.and_then(|got| {
             let data = exchange.received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
             answer(header, got, data).map(|answer| (answer, got))

@@ -20,12 +20,13 @@ use std::fmt::Write as _;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
-use ads_cnc_vectors::{Given, Requirement, requirements, sequences, vectors};
+use ads_cnc_vectors::{Given, Requirement, errata, requirements, sequences, vectors};
 use serde::Serialize;
 
 use crate::clients;
 use crate::judge::Needs;
 use crate::suite;
+use crate::text::wrap;
 
 pub use sections::to_sections;
 pub use simulated::{SEQUENCES, SIMULATOR_CHECKS};
@@ -38,6 +39,11 @@ pub struct RequirementRow {
     pub id: String,
     /// In a few words.
     pub title: String,
+    /// What is required.
+    pub text: String,
+    /// What belongs to it on another basis.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartRow>,
     /// Stated, derived, …
     pub basis: String,
     /// Must, should or info.
@@ -49,6 +55,9 @@ pub struct RequirementRow {
     pub sources: Vec<String>,
     /// Errata (contradictions between the manuals) that concern it.
     pub errata: Vec<String>,
+    /// What was decided about each of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rulings: Vec<RulingRow>,
     /// Vectors and sequences that must decode.
     pub accepted: Vec<String>,
     /// Vectors and sequences that must be rejected.
@@ -60,6 +69,22 @@ pub struct RequirementRow {
     pub tests: Vec<&'static str>,
     /// Fuzz targets that reach its bytes.
     pub fuzz_targets: BTreeSet<&'static str>,
+}
+
+/// A part of a requirement.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PartRow {
+    pub text: String,
+    pub basis: String,
+    pub level: String,
+}
+
+/// What was decided about an erratum.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct RulingRow {
+    pub erratum: String,
+    pub title: String,
+    pub ruling: String,
 }
 
 /// All requirements in the catalogue's order.
@@ -104,6 +129,16 @@ fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRo
     RequirementRow {
         id: requirement.id.clone(),
         title: requirement.title.clone(),
+        text: requirement.text.clone(),
+        parts: requirement
+            .parts
+            .iter()
+            .map(|part| PartRow {
+                text: part.text.clone(),
+                basis: format!("{:?}", part.basis).to_lowercase(),
+                level: format!("{:?}", part.level).to_lowercase(),
+            })
+            .collect(),
         basis: format!("{:?}", requirement.basis).to_lowercase(),
         level: format!("{:?}", requirement.level).to_lowercase(),
         excluded: requirement.excluded.clone(),
@@ -116,6 +151,7 @@ fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRo
             })
             .collect(),
         errata: requirement.errata.clone(),
+        rulings: requirement.errata.iter().filter_map(|id| ruling(id)).collect(),
         accepted,
         rejected,
         cases: judging.map(|case| case.id.clone()).collect(),
@@ -124,36 +160,53 @@ fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRo
     }
 }
 
+fn ruling(id: &str) -> Option<RulingRow> {
+    let found = errata().iter().find(|one| one.id == id)?;
+    let (title, ruling) = (found.title.clone(), found.ruling.clone());
+    Some(RulingRow { erratum: id.to_owned(), title, ruling })
+}
+
+/// Width of the text of a requirement.
+const WIDTH: usize = 88;
+
 fn joined(names: &BTreeSet<&str>, between: &str) -> String {
     names.iter().copied().collect::<Vec<_>>().join(between)
 }
 
 /// As text: each requirement with its lists below it.
 pub fn to_text(rows: &[RequirementRow]) -> String {
+    fn paragraph(out: &mut String, name: &str, words: &str) {
+        for (place, line) in wrap(words, WIDTH).iter().enumerate() {
+            let name = if place == 0 { name } else { "" };
+            let _ = writeln!(out, "  {name:<8}  {line}");
+        }
+    }
+
     let mut text = String::new();
     for row in rows {
         // Writing to a String does not fail.
         let _ = writeln!(text, "{}  {} ({}, {})", row.id, row.title, row.level, row.basis);
+        paragraph(&mut text, "text", &row.text);
+        for part in &row.parts {
+            let PartRow { text: words, basis, level } = part;
+            paragraph(&mut text, "part", &format!("{words} ({level}, {basis})"));
+        }
+        for RulingRow { erratum, title, ruling } in &row.rulings {
+            paragraph(&mut text, "ruling", &format!("{erratum} {title}: {ruling}"));
+        }
         if let Some(why) = &row.excluded {
-            let _ = writeln!(text, "  excluded  {why}");
+            paragraph(&mut text, "excluded", why);
         }
         for (name, list) in [
             ("sources", &row.sources),
-            ("errata", &row.errata),
             ("accepted", &row.accepted),
             ("rejected", &row.rejected),
             ("cases", &row.cases),
         ] {
-            if !list.is_empty() {
-                let _ = writeln!(text, "  {name:<8}  {}", list.join(", "));
-            }
+            paragraph(&mut text, name, &list.join(", "));
         }
-        if !row.tests.is_empty() {
-            let _ = writeln!(text, "  tests     {}", row.tests.join(", "));
-        }
-        if !row.fuzz_targets.is_empty() {
-            let _ = writeln!(text, "  fuzzed    {}", joined(&row.fuzz_targets, ", "));
-        }
+        paragraph(&mut text, "tests", &row.tests.join(", "));
+        paragraph(&mut text, "fuzzed", &joined(&row.fuzz_targets, ", "));
     }
     text
 }

@@ -45,6 +45,23 @@ fn one_that_stays_passes_everything() {
     assert!(report["frames"].as_u64().unwrap() > 200);
 }
 
+/// What does not answer hello, or misspells an action there, is told in a few lines.
+#[test]
+fn one_that_does_not_begin_is_told_shortly() {
+    let hello = r#"{"protocol":1,"client":{"name":"x"},"actions":["read-by-nam"]}"#;
+    for (option, command, parts) in [
+        ("--client", format!("echo '{hello}'"), ["\"read-by-nam\"", "did you mean read-by-name"]),
+        ("--client", "echo gone >&2; exit 7".to_owned(), ["exit status: 7", "its stderr: gone"]),
+        ("--testee", "echo gone >&2; exit 7".to_owned(), ["exit status: 7", "--check-protocol"]),
+    ] {
+        let output = ads_cnc(&["run", option, &command]);
+        let shown = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{shown}");
+        assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
+        assert!(shown.lines().count() <= 8, "{shown}");
+    }
+}
+
 #[test]
 fn one_that_is_started_for_each_action_passes() {
     let (code, report) = run("--once", &["--only", "VAR-14", "--only", "STM"]);

@@ -7,9 +7,10 @@ use std::process::Command;
 fn the_readme_has_every_command_and_no_other() {
     let help = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).arg("--help").output().unwrap();
     let help = String::from_utf8(help.stdout).unwrap();
-    let commands = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let (commands, _) = help.split_once("\nOptions:").unwrap();
+    let indented = commands.lines().filter_map(|line| line.strip_prefix("  "));
     let commands: BTreeSet<&str> =
-        commands.lines().filter_map(|line| line.split_whitespace().next()).collect();
+        indented.filter_map(|line| line.split_whitespace().next()).collect();
     let readme = include_str!("../README.md");
     let row = |line: &'static str| line.strip_prefix("| `ads-cnc ")?.split('`').next();
     let named: BTreeSet<&str> = readme.lines().filter_map(row).collect();

@@ -262,7 +262,7 @@ fn what_cannot_be_restored_is_said_everywhere() {
         assert!(line.starts_with(&format!("LEFT CHANGED: {what}")), "{said}");
         let (was, is) = line.split_once(", was ").unwrap().1.split_once(", is ").unwrap();
         assert!(was != is && is != "not known", "{line}");
-        assert_eq!(shown.lines().next(), Some(line));
+        assert!(shown.lines().any(|shown| shown == line), "{shown}");
         let report = bench.report();
         assert_eq!(report["exit_code"], 6);
         let left = &report["left_changed"][0];
@@ -284,7 +284,7 @@ fn what_cannot_be_restored_is_said_everywhere() {
         assert!(badge.starts_with(&named) && badge.contains(&front(was)), "{badge}");
         // The forms that are made later are the same.
         let again = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["report", &json]).output();
-        assert_eq!(text(&again.unwrap().stdout).lines().next(), Some(line));
+        assert!(text(&again.unwrap().stdout).lines().any(|shown| shown == line));
     }
 }
 

@@ -49,6 +49,33 @@ fn what_is_not_claimed_is_not_applicable() {
     assert_eq!(report["profile"]["name"], "panel");
 }
 
+/// The printed profile, unedited, raises nothing on the simulated CNC; of a device it has the channels
+/// and axes, and passes there.
+#[test]
+fn a_printed_profile_passes() {
+    let ads_cnc =
+        |args: &[&str]| Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap();
+    let printed = |args: &[&str]| {
+        let output = ads_cnc(&[&["run", "--print-profile"], args].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let example = claiming(&printed(&[]));
+    for seed in ["1", "2", "3"] {
+        let file = example.0.to_str().unwrap();
+        let output = ads_cnc(&["run", "--profile", file, "--only", "VAR", "--seed", seed]);
+        assert_eq!(output.status.code(), Some(0), "{seed}: {output:?}");
+    }
+    let serve = Serve::start(&[]);
+    let filled = printed(&["--target", &serve.addr, "--net-id", &serve.net_id]);
+    for line in ["channels = [1, 2, 6]", "absent-channel = 3", "platform-axes = 5", "spindles = 2"]
+    {
+        assert!(filled.lines().any(|one| one == line), "{filled}");
+    }
+    let (output, _) = run(&[], &claiming(&filled));
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
+
 #[test]
 fn what_is_claimed_must_work() {
     // One channel, one spindle and one axis more than there are.

@@ -99,10 +99,9 @@ fn tools_and_options_are_those_that_there_are() {
         String::from_utf8(help.stdout).unwrap()
     };
     let overview = help(&["--help"]);
-    let (_, tools) = overview.split_once("Commands:\n").unwrap();
-    let (tools, _) = tools.split_once("\n\n").unwrap();
-    let tools: Vec<&str> =
-        tools.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
+    let (tools, _) = overview.split_once("\nOptions:").unwrap();
+    let tools = tools.lines().filter_map(|line| line.strip_prefix("  "));
+    let tools: Vec<&str> = tools.map(|line| line.split_whitespace().next().unwrap()).collect();
     assert!(tools.len() > 10, "{tools:?}");
     let options: String = tools.iter().map(|tool| help(&[tool, "--help"])).collect();
     let is_option = |word: &str| options.split(|c: char| !is_word(c)).any(|option| option == word);

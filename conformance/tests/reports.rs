@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs, process};
 
-use ads_cnc_conformance::report::{self, Report};
+use ads_cnc_conformance::report::{self, Detail, Display, Report};
 use common::Serve;
 use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
@@ -48,6 +48,7 @@ fn run(args: &[&str]) -> Value {
 
 const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
 const DEFECT: &str = "variable-description.size.flip";
+const VERBOSE: Display = Display { detail: Detail::Verbose, color: false };
 
 /// A report with all that one can have: failures with bytes, waivers, a selection.
 fn everything(folder: &Folder) -> Value {
@@ -121,9 +122,9 @@ fn each_protocol_is_where_its_own_is() {
         assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
         let read = Report::from_json(&report.to_string()).unwrap();
         let mut text = Vec::new();
-        report::print(&read, false, &mut text).unwrap();
+        report::print(&read, Display::default(), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail, ")), "{text}");
+        assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail ({id}), ")), "{text}");
     }
 }
 
@@ -250,7 +251,7 @@ fn text_stays_text() {
         make(&report, &mut text).unwrap();
         String::from_utf8(text).unwrap()
     };
-    let shown = made(|report, out| report::print(report, true, out));
+    let shown = made(|report, out| report::print(report, VERBOSE, out));
     for text in [shown, made(report::to_markdown), made(report::to_html), made(report::to_junit)] {
         assert!(!text.contains(|one: char| one.is_control() && one != '\n'), "{text}");
         assert!(!text.contains("\u{202e}") && !text.contains("\n# A heading"), "{text}");
@@ -309,7 +310,7 @@ fn no_text_of_a_foreign_report_acts() {
         };
         let (markdown, junit) = (made(report::to_markdown), made(report::to_junit));
         let (html, json) = (made(report::to_html), made(report::to_json));
-        let shown = made(|report, out| report::print(report, true, out));
+        let shown = made(|report, out| report::print(report, VERBOSE, out));
         for text in [&shown, &markdown, &junit, &html, &json, &made(report::to_badge)] {
             let acts = |one: char| one.is_control() && one != '\n' || one == '\u{202e}';
             assert!(!text.contains(acts), "{path}: {text:?}");
@@ -392,6 +393,33 @@ fn profiles_and_waivers_do_not_act() {
     assert!(!folder.read("html").contains("<img") && !folder.read("markdown").contains("<img"));
 }
 
+/// A statement has each clause once for each subject; a comparison fails on what fails newly.
+#[test]
+fn statements_and_comparisons_are_made_of_reports() {
+    let folder = Folder::new("statement");
+    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    fs::write(&now, everything(&folder).to_string()).unwrap();
+    fs::write(&before, run(&["--only", "VAR", "--seed", "7"]).to_string()).unwrap();
+    for form in ["statement.md", "statement.html"] {
+        let file = folder.path(form);
+        assert_eq!(ads_cnc(&["report", &now, "--statement", &file]).status.code(), Some(0));
+        let text = folder.read(form);
+        for part in ["Conformance statement", "VAR-8", "not met", "verified", "seed 7"] {
+            assert!(text.contains(part), "{form}: {part}");
+        }
+    }
+    let against = |one: &str, other: &str| {
+        let output = ads_cnc(&["report", one, "--against", other]);
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (code, shown) = against(&now, &before);
+    assert!(code == Some(1) && shown.contains("\nnewly failing     VAR-4    codec  "), "{shown}");
+    let (code, shown) = against(&before, &now);
+    assert!(code == Some(0) && shown.contains("\nmended            VAR-4    codec  "), "{shown}");
+    let (code, shown) = against(&now, &now);
+    assert!(code == Some(0) && shown.contains("\n0 newly failing, 0 mended, "), "{shown}");
+}
+
 /// A row that takes much of a page may be parted, or the page before it stays empty.
 #[test]
 fn long_rows_are_parted_in_print() {
@@ -423,9 +451,10 @@ fn html_needs_nothing_else() {
     let mut html = Vec::new();
     report::to_html(&report, &mut html).unwrap();
     let html = String::from_utf8(html).unwrap();
-    for outside in ["http://", "https://", "src=", "href=", "url(", "@import", "{{", "{%"] {
+    for outside in ["http://", "https://", "src=", "url(", "@import", "{{", "{%"] {
         assert!(!html.contains(outside), "{outside}");
     }
+    assert_eq!(html.matches("href=").count(), html.matches("href=\"#").count());
     let (before, script) = html.split_once("<script>").unwrap();
     assert!(script.contains("</script>\n</body>"));
     for fact in [

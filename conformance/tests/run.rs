@@ -45,13 +45,15 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
     let output = ads_cnc(&["run", "--defect", "variable-description.size.flip"]);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{shown}");
-    let block = shown.split("\n\n").find(|block| block.starts_with("FAIL  var-descriptions"));
+    let block = shown.split("\n\n").find(|block| block.starts_with("FAIL  VAR-8  "));
     let block = block.unwrap_or_else(|| panic!("{shown}"));
     for part in [
-        "\n  VAR-8     must: ",
         "ads-en 1.05 §4.3.2; ads-de 1.051 §4.3.2",
-        "\n  expected  ",
-        "\n  found     ",
+        "\n  The size of a description is the whole variable's in bytes",
+        "\n  var-descriptions: V.G.NP[0].V: expected ",
+        "; found ",
+        " alike in ",
+        "\n  again: ads-cnc run --defect variable-description.size.flip --only var-descriptions --seed ",
         "\n  sent      ReadWrite 0x122301, 0x45 at port 552",
         "V.G·              kind",
         "\n  received  ",
@@ -320,7 +322,7 @@ fn broken_frames_fail_in_every_selection() {
     let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
     let output = ads_cnc(&[&["run", "--only", "com-count"][..], &target].concat());
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
-    assert!(text(&output.stdout).contains("FAIL  ads-every-frame"), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("\n  ads-every-frame: "), "{}", text(&output.stdout));
 }
 
 /// Exit code for a report that cannot be written.

@@ -24,7 +24,7 @@ const VALUE_MAX: usize = 48;
 /// Maximum number of bytes of a content that is read; `get` reads more.
 const CONTENT_MAX: u32 = 0x1_0000;
 
-/// Lists every object of the COM task and every element of SDA and GEO, or all variables.
+/// List objects and elements, or all variables
 ///
 /// Nothing is written, and no more is asked than what there is has to be asked for: descriptors in
 /// ranges, channels by their number until all are found, axes and spindles until one is not there.
@@ -168,7 +168,7 @@ impl Browse {
                         }
                     });
                 let (objects, notes) = (objects.collect(), found.notes.clone());
-                let report = ObjectsReport::new(session.target(), objects, notes);
+                let report = ObjectsReport::new(session, objects, notes);
                 json::write(&report, &mut out)
             }
             format => {

@@ -1,22 +1,26 @@
 //! `ads-cnc check`: captured traffic.
 
 use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::display::DisplayArgs;
 use super::message::print_error;
+use super::progress::Watch;
 use super::report_output::Reports;
 use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
 use crate::edition::Edition;
 use crate::judge::{Case, Exit, Selection};
+use crate::process::progress;
 use crate::report::{self, About, Report, TargetReport};
 use crate::text::Moment;
 
 /// The heading of these options in the help.
 const TRAFFIC: &str = "Traffic";
 
-/// Judge captured traffic by the same requirements: what clients sent and what CNCs answered.
+/// Judge captured traffic by the same requirements
 ///
 /// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them. TCP
 /// connections are put together in both directions, requests are paired with their replies, and
@@ -54,6 +58,9 @@ pub(super) struct CheckArguments {
 
     #[command(flatten)]
     reports: Reports,
+
+    #[command(flatten)]
+    display: DisplayArgs,
 }
 
 const EXIT_CODES: &str = "\
@@ -88,6 +95,26 @@ What is taken out of vectors:
 Exit codes, the first that holds:
   70 internal error, 2 wrong usage or no capture, 1 a fail, 5 a waiver that does not hold, 3 nothing
   judged or something inconclusive, 0. Warnings and differences leave 0.";
+
+const KIB: u64 = 1024;
+
+/// A file whose read bytes are counted for the progress.
+#[derive(Debug)]
+struct CountedRead {
+    file: File,
+    /// Number of bytes that are no whole KiB yet.
+    odd: u64,
+}
+
+impl Read for CountedRead {
+    fn read(&mut self, buf: &mut [u8]) -> io::Result<usize> {
+        let len = self.file.read(buf)?;
+        self.odd = self.odd.saturating_add(u64::try_from(len).unwrap_or(u64::MAX));
+        progress::steps(usize::try_from(self.odd / KIB).unwrap_or(usize::MAX));
+        self.odd %= KIB;
+        Ok(len)
+    }
+}
 
 impl CheckArguments {
     /// Reads and judges the file and writes the reports.
@@ -133,6 +160,8 @@ impl CheckArguments {
             found: None,
             waivers,
             frames: usize::try_from(checked.tally.frames).unwrap_or(usize::MAX),
+            again: None,
+            times: Vec::new(),
             left_changed: Vec::new(),
         };
         let report = Report::new(about, &outcomes, &left_out);
@@ -146,18 +175,53 @@ impl CheckArguments {
         self.write(&report, &checked, &extracted)
     }
 
-    fn read(&self) -> Result<Checked, capture::FileError> {
-        let ports = match (self.any_port, self.port.is_empty()) {
+    /// Reads the usual port; if no AMS frame is there, all others.
+    fn read(&self) -> Result<Checked, String> {
+        let checked = self.read_ports(self.any_port).map_err(|error| self.explain(&error))?;
+        if checked.tally.frames > 0 || self.any_port || !self.port.is_empty() {
+            return Ok(checked);
+        }
+        let all = self.read_ports(true).map_err(|error| self.explain(&error))?;
+        if all.tally.frames == 0 {
+            return Ok(checked);
+        }
+        print_error(format_args!(
+            "no AMS frame at TCP port {AMS_TCP_PORT}: the connections at other ports are judged, as \
+             with --any-port"
+        ));
+        Ok(all)
+    }
+
+    /// The error, and what to do about a compressed file.
+    fn explain(&self, error: &capture::FileError) -> String {
+        let mut start = [0; 4];
+        let read = File::open(&self.file).and_then(|mut file| file.read_exact(&mut start));
+        let unpack = match start {
+            _ if read.is_err() => return error.to_string(),
+            [0x1F, 0x8B, ..] => "gzip -dk",
+            [0x28, 0xB5, 0x2F, 0xFD] => "zstd -dk",
+            [0xFD, b'7', b'z', b'X'] => "xz -dk",
+            _ => return error.to_string(),
+        };
+        format!("the file is compressed; unpack it first: {unpack} {}", self.file.display())
+    }
+
+    fn read_ports(&self, any: bool) -> Result<Checked, capture::FileError> {
+        let ports = match (any, self.port.is_empty()) {
             (true, _) => Ports::Any,
             (false, true) => Ports::Of(vec![AMS_TCP_PORT]),
             (false, false) => Ports::Of(self.port.clone()),
         };
         let vectors = self.extract_vectors.as_ref().map(|_| Collector::new(self.keep_texts));
-        capture::check(File::open(&self.file)?, CaptureOptions { ports, vectors })
+        let file = File::open(&self.file)?;
+        let all = file.metadata().map_or(0, |about| about.len() / KIB);
+        progress::begin(usize::try_from(all).unwrap_or(usize::MAX));
+        let _watch = Watch::start("KiB");
+        capture::check(CountedRead { file, odd: 0 }, CaptureOptions { ports, vectors })
     }
 
     /// Writes the vectors; returns a line for each file.
-    fn extract(&self, checked: &Checked) -> std::io::Result<Vec<String>> {
+    fn extract(&self, checked: &Checked) -> io::Result<Vec<String>> {
         let (Some(place), Some(vectors)) = (&self.extract_vectors, &checked.vectors) else {
             return Ok(Vec::new());
         };
@@ -172,7 +236,7 @@ impl CheckArguments {
             let lines = checked.tally.lines();
             lines.iter().chain(extracted).try_for_each(|line| writeln!(out, "  {line}"))?;
             writeln!(out)?;
-            report::print(report, false, out)
+            report::print(report, self.display.display(), out)
         })
     }
 }

@@ -14,7 +14,7 @@ use crate::clients::{
 };
 use crate::judge::Exit;
 
-/// Answers the protocol of `run --client` with this project's client, on stdin and stdout.
+/// Answer the protocol of `run --client` with this project's client
 ///
 /// A client to try the suite with, and an example: it goes to this machine only. See
 /// conformance/adapters/CLIENTS.md.

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use super::message::print_error;
 use crate::judge::Exit;
 
-/// Writes a script that lets a shell complete what is typed.
+/// Write a script that completes the command line in a shell
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Completions {

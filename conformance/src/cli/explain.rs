@@ -1,7 +1,7 @@
 //! `ads-cnc explain`: bytes field by field.
 
 use std::fs::File;
-use std::io::{self, BufWriter, IsTerminal as _, Read, Write as _};
+use std::io::{self, BufWriter, Read, Write as _};
 use std::path::{Path, PathBuf};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -11,6 +11,7 @@ use ads_cnc::operation::Service;
 use ads_cnc::value::DataType;
 use clap::{Args, ValueEnum};
 
+use super::display::Color;
 use super::message::print_error;
 use super::name::number;
 use crate::explain::{
@@ -18,11 +19,12 @@ use crate::explain::{
     looks_like_frame, parse_hex, print, type_by_name,
 };
 use crate::judge::Exit;
+use crate::text::did_you_mean;
 
 /// Maximum number of bytes taken: several of the longest frames.
 const INPUT_MAX: u64 = 0x100_0000;
 
-/// Explains bytes field by field: offset, bytes, field, value, clause, meaning.
+/// Explain bytes field by field
 ///
 /// --stream, --group and --offset, or --frame tell what the bytes are; without, they have to be
 /// AMS/TCP frames. Bytes that are cut or wrong are shown up to the fault.
@@ -113,11 +115,16 @@ enum ServiceName {
     ReadWrite,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Color {
-    Auto,
-    Always,
-    Never,
+/// Whether the bytes begin as pcap or pcapng does.
+fn is_capture(bytes: &[u8]) -> bool {
+    let starts = [
+        [0xD4, 0xC3, 0xB2, 0xA1],
+        [0xA1, 0xB2, 0xC3, 0xD4],
+        [0x4D, 0x3C, 0xB2, 0xA1],
+        [0xA1, 0xB2, 0x3C, 0x4D],
+        [0x0A, 0x0D, 0x0D, 0x0A],
+    ];
+    starts.iter().any(|start| bytes.starts_with(start))
 }
 
 impl Explain {
@@ -150,7 +157,8 @@ impl Explain {
     fn subject(&self, bytes: Option<&[u8]>) -> Result<ExplainSubject, String> {
         if let Some(name) = &self.stream {
             return Stream::by_name(name).map(ExplainSubject::Stream).ok_or_else(|| {
-                format!("no stream is called {name}; ads-cnc explain --list shows all")
+                let near = did_you_mean(name, Stream::all().map(|stream| stream.layout().name));
+                format!("no stream is called {name}{near}\nads-cnc explain --list shows all")
             });
         }
         let place = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {
@@ -177,6 +185,10 @@ impl Explain {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {
                 let bytes = read_file(file)?;
+                if is_capture(&bytes) {
+                    let name = file.display();
+                    return Err(format!("{name} is a capture: ads-cnc check {name} judges it"));
+                }
                 if !self.hex {
                     return Ok(Some(bytes));
                 }
@@ -191,17 +203,7 @@ impl Explain {
     }
 
     fn paint(&self) -> Paint {
-        let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        // Older consoles of Windows print escape sequences as text; newer ones and emulators set a
-        // variable.
-        let takes = !cfg!(windows) || ["WT_SESSION", "ANSICON", "TERM"].into_iter().any(set);
-        let colour = match self.color {
-            Color::Always => true,
-            Color::Never => false,
-            Color::Auto => takes && !dumb && !set("NO_COLOR") && io::stdout().is_terminal(),
-        };
-        if colour { Paint::Colour } else { Paint::Plain }
+        if self.color.is_on() { Paint::Colour } else { Paint::Plain }
     }
 
     fn list(&self) -> Result<Exit, (Exit, String)> {

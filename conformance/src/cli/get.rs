@@ -15,7 +15,7 @@ use crate::session::ToolError;
 use crate::text::{hex, json};
 use crate::values::{lines, plain};
 
-/// Reads a variable, a parameter, an object or an element by its name.
+/// Read a variable, a parameter, an object or an element by its name
 ///
 /// A variable is typed by its description: asked for by name, and on CNCs that do not describe that,
 /// by going through the descriptions of its kind. A COM object or an element is looked for in the
@@ -66,7 +66,7 @@ error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {
-        self.target.end(self.run(), |error| self.name.advice(error))
+        self.target.end(self.run(), |error| self.name.advice(error, &self.target, &self.model))
     }
 
     fn run(&self) -> Result<Exit, ToolError> {
@@ -77,7 +77,7 @@ impl Get {
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = if self.json {
             let one = ObjectReport::read(&object, &Ok(bytes.clone()));
-            let report = ObjectsReport::new(session.target(), vec![one], Vec::new());
+            let report = ObjectsReport::new(&session, vec![one], Vec::new());
             json::write(&report, &mut out)
         } else if self.hex {
             show(&hex::dump(&bytes), "", &mut out)

@@ -9,6 +9,7 @@ use crate::judge::Exit;
 pub(super) fn print_error(why: impl std::fmt::Display) {
     // The text may quote a device, a file or a testee.
     let why = crate::text::escape_lines(&why.to_string());
+    super::progress::clear();
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
 }
 

@@ -1,9 +1,11 @@
 //! The command line of `ads-cnc`.
 
+mod again;
 mod browse;
 mod check;
 mod client;
 mod completions;
+mod display;
 mod executed;
 mod explain;
 mod get;
@@ -30,11 +32,13 @@ mod testee;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::judge::Exit;
+use crate::text::nearest;
 
-/// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
+/// Judge, simulate and inspect the ADS interface of ISG and TwinCAT CNCs
 #[derive(Debug, Parser)]
 #[command(name = "ads-cnc", version)]
 struct Cli {
@@ -49,7 +53,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Subcommands {
-    /// Start the simulated CNC and serve it over AMS/TCP until interrupted.
+    /// Serve a simulated CNC over AMS/TCP
     Serve(serve::Args),
     Run(Box<run::Run>),
     Report(report::ReportArgs),
@@ -67,6 +71,33 @@ enum Subcommands {
     Client(client::ClientArguments),
 }
 
+/// The subcommands by what they do, as the help lists them.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Judge", &["run", "check", "report", "requirements"]),
+    ("Simulate", &["serve"]),
+    ("Inspect, reading only", &["browse", "get", "explain"]),
+    ("Act on a CNC", &["set", "stream", "service"]),
+    ("Try the suite itself", &["selftest", "testee", "client", "completions"]),
+];
+
+/// The command line, with the help by groups.
+fn command() -> clap::Command {
+    let command = Cli::command();
+    let mut template = "{about}\n\n{usage-heading} {usage}\n".to_owned();
+    for (group, names) in GROUPS {
+        template.push_str(&format!("\n{group}:\n"));
+        for name in names {
+            let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            template.push_str(&format!("  {name:<13} {about}\n"));
+        }
+    }
+    template.push_str(
+        "\nOptions:\n{options}\n\nWithout a command: run. ads-cnc COMMAND --help says more.",
+    );
+    command.help_template(template)
+}
+
 impl Subcommands {
     /// The filter of --log, or the default of the command.
     fn log(&self) -> Option<log::Filter> {
@@ -79,9 +110,11 @@ impl Subcommands {
 
 /// Runs the tool with the arguments of the process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let parsed = command().try_get_matches().and_then(|found| Cli::from_arg_matches(&found));
+    let cli = match parsed {
         Ok(cli) => cli,
-        Err(error) => {
+        Err(mut error) => {
+            suggest(&mut error);
             // Help and version come as errors with the exit code 0.
             let code = u8::try_from(error.exit_code()).unwrap_or(Exit::Usage.code());
             let _unprinted = error.print();
@@ -89,6 +122,40 @@ pub fn main() -> ExitCode {
         }
     };
     cli.run()
+}
+
+/// Adds the nearest subcommands or options to an error about an unknown one.
+fn suggest(error: &mut clap::Error) {
+    if !matches!(error.kind(), ErrorKind::InvalidSubcommand | ErrorKind::UnknownArgument) {
+        return;
+    }
+    let unknown = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    let tool = Cli::command();
+    if let Some(word) = unknown(ContextKind::InvalidSubcommand) {
+        let names: Vec<&str> = tool.get_subcommands().map(clap::Command::get_name).collect();
+        add(error, ContextKind::SuggestedSubcommand, nearest(&word, names));
+    } else if let Some(word) =
+        unknown(ContextKind::InvalidArg).filter(|word| word.starts_with("--"))
+    {
+        let name = std::env::args().nth(1).unwrap_or_default();
+        let of = tool.find_subcommand(name).unwrap_or(&tool);
+        let options = of.get_arguments().filter_map(clap::Arg::get_long);
+        let options: Vec<String> = options.map(|option| format!("--{option}")).collect();
+        add(error, ContextKind::SuggestedArg, nearest(&word, options.iter().map(String::as_str)));
+    }
+}
+
+fn add(error: &mut clap::Error, kind: ContextKind, names: Vec<&str>) {
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let value = match (kind, names.as_slice()) {
+        (_, []) => return,
+        (ContextKind::SuggestedArg, [name, ..]) => ContextValue::String(name.clone()),
+        _ => ContextValue::Strings(names),
+    };
+    error.insert(kind, value);
 }
 
 impl Cli {
@@ -117,5 +184,21 @@ impl Cli {
             // `run` with its default options: the suite against the simulated CNC.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn the_help_has_every_subcommand_once() {
+        let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        grouped.sort_unstable();
+        let command = Cli::command();
+        let all: BTreeSet<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        assert_eq!(grouped, all.into_iter().collect::<Vec<_>>());
     }
 }

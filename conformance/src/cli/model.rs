@@ -22,8 +22,12 @@ pub(super) struct ModelArgs {
     edition: Option<Edition>,
 
     /// Version that the CNC claims to be, whatever the model says: V4.29.0 for one.
-    #[arg(long, help_heading = MODEL, value_name = "VERSION")]
+    #[arg(long, help_heading = MODEL, value_name = "VERSION", value_parser = cnc_version)]
     cnc_version: Option<CncVersion>,
+}
+
+fn cnc_version(text: &str) -> Result<CncVersion, String> {
+    CncVersion::new(text).map_err(|_| "three or four numbers are needed, as V4.29.0".to_owned())
 }
 
 impl ModelArgs {

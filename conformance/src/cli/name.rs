@@ -1,17 +1,21 @@
 //! Options of the tools that take a name.
 
 use std::io;
+use std::time::Duration;
 
 use ads_cnc::address::ChannelAxis;
 use ads_cnc::operation::Function;
 use ads_cnc::value::DataType;
 use clap::Args;
 
-use super::target::ChannelArgs;
+use super::model::ModelArgs;
+use super::target::{ChannelArgs, TargetArgs};
+use crate::deadline::Deadline;
 use crate::explain::type_by_name;
 use crate::named::Lookup;
-use crate::objects::{Object, Pattern};
+use crate::objects::{Object, Options, Pattern, channels_of, walk};
 use crate::session::ToolError;
+use crate::text::nearest;
 
 /// Which value is meant.
 #[derive(Args, Clone, Debug)]
@@ -54,16 +58,40 @@ impl NameArgs {
     }
 
     /// Advice for the user if the name was not found.
-    pub(super) fn advice(&self, error: &ToolError) -> Option<String> {
-        error.ads_error()?;
+    pub(super) fn advice(
+        &self,
+        error: &ToolError,
+        target: &TargetArgs,
+        model: &ModelArgs,
+    ) -> Option<String> {
+        let is_variable = is_like_variable(&self.name);
+        if !(error.ads_error().is_some() || is_variable && matches!(error, ToolError::Unable(_))) {
+            return None;
+        }
         if self.name.starts_with("V.CYC.") {
             return Some("V.CYC variables are known by their names only: no CNC lists them".into());
         }
         let (name, channel) = (&self.name, self.channel.channel.number());
         let part = name.split(['[', '.']).nth(2).unwrap_or(name);
-        let browse = format!(
-            "ads-cnc browse --variables --channel {channel} --filter \"{part}\" shows what there is"
-        );
+        let device = target.as_options();
+        let browse =
+            format!("ads-cnc browse{device} --variables --channel {channel} --filter \"{part}\"");
+        if let (true, [_, _, _, axis]) =
+            (self.axis.is_some(), name.split('.').collect::<Vec<_>>().as_slice())
+        {
+            let short = name.trim_end_matches(axis).trim_end_matches('.');
+            return Some(format!("with --axis the name goes without the axis: {short}"));
+        }
+        // The axis would make the name one part longer.
+        let lacks_axis =
+            name.starts_with("V.A.") && name.split('.').count() == 3 && self.axis.is_none();
+        if is_variable
+            && !lacks_axis
+            && let Some(found) = self.look_for(target, model)
+        {
+            return Some(found);
+        }
+        let browse = format!("{browse} shows what there is");
         Some(match error {
             ToolError::Ads { function: Function::WriteByName, .. }
                 if ["V.P.", "V.L.", "V.S."].iter().any(|kind| name.starts_with(kind)) =>
@@ -74,15 +102,56 @@ impl NameArgs {
                      4.1). {browse}"
                 )
             }
-            // The axis would make the name one part longer.
-            _ if name.starts_with("V.A.")
-                && name.split('.').count() == 3
-                && self.axis.is_none() =>
-            {
+            _ if lacks_axis => {
                 format!("of which axis? --axis PLACE says it, or {name}.X with its name. {browse}")
             }
             _ => browse,
         })
+    }
+}
+
+/// How long the names of a CNC are compared with one that it does not have.
+const COMPARING_MAX: Duration = Duration::from_secs(5);
+
+fn is_like_variable(name: &str) -> bool {
+    name.get(..2).is_some_and(|start| start.eq_ignore_ascii_case("V."))
+}
+
+impl NameArgs {
+    /// The channels if this one is not there, or the nearest names.
+    fn look_for(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
+        // A second session would overwrite the capture of the first one.
+        if target.capture().is_some() {
+            return None;
+        }
+        let session = model.open(target).ok()?;
+        let mut session = session.with_deadline(Deadline::after(COMPARING_MAX));
+        let channel = self.channel.channel;
+        let channels = channels_of(&mut session).ok()?;
+        if !channels.contains(&channel) {
+            let there: Vec<String> = channels.iter().map(|one| one.number().to_string()).collect();
+            let number = channel.number();
+            return Some(format!("there is no channel {number}; channels: {}", there.join(", ")));
+        }
+        let options = Options { channels: vec![channel], variables: true, ..Options::default() };
+        let found = walk(&mut session, &options, &mut |_| {}).ok()?;
+        let names: Vec<String> =
+            found.objects.iter().map(|object| object.name.to_string()).collect();
+        if names.contains(&self.name) {
+            return None;
+        }
+        let (base, indices) = match self.name.split_once('[') {
+            Some((base, rest)) => (base, format!("[{rest}")),
+            None => (self.name.as_str(), String::new()),
+        };
+        let whole = nearest(&self.name, names.iter().map(String::as_str));
+        let near = if whole.is_empty() {
+            let near = nearest(base, names.iter().map(String::as_str));
+            near.into_iter().map(|name| format!("{name}{indices}")).collect()
+        } else {
+            whole.into_iter().map(str::to_owned).collect::<Vec<_>>()
+        };
+        (!near.is_empty()).then(|| format!("did you mean {}?", near.join(" or ")))
     }
 }
 

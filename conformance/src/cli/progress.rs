@@ -1,7 +1,13 @@
 //! Progress on the terminal.
 
 use std::io::{self, IsTerminal as _, Write as _};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+
+use crate::process::progress::{Counts, counts};
+use crate::text::plural;
 
 /// The line of a terminal changes at most this often.
 pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
@@ -64,5 +70,100 @@ impl ProgressLine {
 impl Drop for ProgressLine {
     fn drop(&mut self) {
         self.clear();
+    }
+}
+
+/// Number of characters that [`Watch`] has on the last line of the terminal.
+static SHOWN: AtomicUsize = AtomicUsize::new(0);
+
+/// Clears the line of [`Watch`], before another text is written.
+pub(super) fn clear() {
+    let width = SHOWN.swap(0, Ordering::Relaxed);
+    if width > 0 {
+        let _unseen = write!(io::stderr(), "\r{:width$}\r", "");
+    }
+}
+
+/// A run that takes less shows no progress.
+const SHORT_RUN: Duration = Duration::from_secs(1);
+
+/// The time between two lines if stderr is no terminal.
+pub(super) const LOG_INTERVAL: Duration = Duration::from_secs(10);
+
+/// Shows the counts of a run on stderr until it is dropped.
+#[derive(Debug)]
+pub(super) struct Watch {
+    thread: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Watch {
+    /// Starts it; `unit` is the name of a step.
+    pub(super) fn start(unit: &'static str) -> Self {
+        let live = io::stderr().is_terminal();
+        let (stop, stopped) = mpsc::channel();
+        let shows = move || {
+            let begin = Instant::now();
+            let (first, later) =
+                if live { (SHORT_RUN, UPDATE_INTERVAL) } else { (LOG_INTERVAL, LOG_INTERVAL) };
+            let mut wait = first;
+            while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                wait = later;
+                let text = progress_text(counts(), unit, begin.elapsed());
+                if live {
+                    let text: String = text.chars().take(WIDTH).collect();
+                    let width = SHOWN.swap(text.chars().count(), Ordering::Relaxed);
+                    let _unseen = write!(io::stderr(), "\r{text:<width$}");
+                } else {
+                    let _unseen = writeln!(io::stderr(), "{text}");
+                }
+            }
+            clear();
+        };
+        // A run must not fail because its progress cannot be shown.
+        let thread = thread::Builder::new().name("progress".to_owned()).spawn(shows).ok();
+        Self { thread: thread.map(|thread| (stop, thread)) }
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        if let Some((stop, thread)) = self.thread.take() {
+            drop(stop);
+            let _panicked = thread.join();
+        }
+    }
+}
+
+pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> String {
+    let Counts { all, done, failed, requests } = counts;
+    let mut text = format!("{done} of {all} {unit}");
+    if requests > 0 {
+        text.push_str(&format!(", {}", plural(requests, "request")));
+    }
+    if failed > 0 {
+        text.push_str(&format!(", {failed} failed"));
+    }
+    let (done, left) = (u32::try_from(done).unwrap_or(u32::MAX), all.saturating_sub(done));
+    let left = elapsed.checked_div(done).map(|each| each * u32::try_from(left).unwrap_or(0));
+    text.push_str(&format!(", {} s", elapsed.as_secs()));
+    match left {
+        Some(left) if !left.is_zero() => text + &format!(", about {} s left", left.as_secs()),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_says_what_is_left() {
+        let counts = Counts { all: 20, done: 5, failed: 1, requests: 300 };
+        assert_eq!(
+            progress_text(counts, "cases", Duration::from_secs(10)),
+            "5 of 20 cases, 300 requests, 1 failed, 10 s, about 30 s left"
+        );
+        let counts = Counts { all: 20, done: 0, failed: 0, requests: 0 };
+        assert_eq!(progress_text(counts, "cases", Duration::from_secs(3)), "0 of 20 cases, 3 s");
     }
 }

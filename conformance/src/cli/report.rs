@@ -1,19 +1,23 @@
 //! `ads-cnc report`: other forms of a report that was written as JSON.
 
 use std::io::{self, Read as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use super::display::DisplayArgs;
 use super::message::print_error;
-use super::report_output::{ReportFormats, is_stdout, lost, show};
+use super::report_output::{ReportFormats, is_stdout, lost, show, write};
 use crate::judge::Exit;
 use crate::report::{self, Report};
 
-/// Make other forms of a report that `run --json` wrote; without any, show it
+/// Show a JSON report, write it in other formats, or compare it with an earlier one
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  ads-cnc run --json report.json\n  \
     ads-cnc report report.json --html report.html --junit report.xml\n  \
-    ads-cnc run --json - | ads-cnc report - --markdown -\n\n\
-    Exit codes: 0 written, whatever the report says, 2 wrong usage or no report, 70 internal error")]
+    ads-cnc run --json - | ads-cnc report - --markdown -\n  \
+    ads-cnc report report.json --statement statement.html\n  \
+    ads-cnc report report.json --against yesterday.json\n\n\
+    Exit codes: 0 written, whatever the report says; 1 something fails newly (--against); 2 wrong usage \
+    or no report; 70 internal error")]
 pub(super) struct ReportArgs {
     /// The report; - is stdin
     file: PathBuf,
@@ -21,37 +25,65 @@ pub(super) struct ReportArgs {
     #[command(flatten)]
     forms: ReportFormats,
 
-    /// Show the cases made of vectors one by one
-    #[arg(long, short)]
-    verbose: bool,
+    /// Write a conformance statement: for each clause whether it is claimed and verified; as HTML if
+    /// the name of the file ends so, otherwise as Markdown
+    #[arg(long, value_name = "FILE")]
+    statement: Option<PathBuf>,
+
+    /// Compare with an earlier report: what fails newly, what is mended, what is judged newly
+    #[arg(long, value_name = "EARLIER")]
+    against: Option<PathBuf>,
+
+    #[command(flatten)]
+    display: DisplayArgs,
 }
 
 impl ReportArgs {
     pub(super) fn execute(&self) -> Exit {
-        let report = match self.forms.check(None).and_then(|()| self.read()) {
-            Ok(report) => report,
+        let files = self.forms.check(self.statement.as_deref()).and_then(|()| {
+            let before = self.against.as_deref().map(read).transpose()?;
+            Ok((read(&self.file)?, before))
+        });
+        let (report, before) = match files {
+            Ok(files) => files,
             Err(why) => {
                 print_error(why);
                 return Exit::Usage;
             }
         };
-        let written = if self.forms.is_empty() {
-            show(|out| report::print(&report, self.verbose, out))
+        let mut fails_newly = false;
+        let statement = self.statement.as_deref().map_or(Ok(()), |file| {
+            let is_html = file.extension().is_some_and(|extension| extension == "html");
+            let make = if is_html { report::to_statement_html } else { report::to_statement };
+            write(file, |out| make(&report, out))
+        });
+        let compared = before.as_ref().map_or(Ok(()), |before| {
+            show(|out| {
+                fails_newly = report::compare(&report, before, out)?;
+                Ok(())
+            })
+        });
+        let is_done = self.statement.is_some() || self.against.is_some();
+        let written = if self.forms.is_empty() && is_done {
+            Ok(())
+        } else if self.forms.is_empty() {
+            show(|out| report::print(&report, self.display.display(), out))
         } else {
             self.forms.write(&report)
         };
-        written.map_or_else(lost, |()| Exit::Success)
+        let exit = if fails_newly { Exit::Failure } else { Exit::Success };
+        statement.and(compared).and(written).map_or_else(lost, |()| exit)
     }
+}
 
-    fn read(&self) -> Result<Report, String> {
-        let failed = |why: String| format!("{}: {why}", self.file.display());
-        let mut text = String::new();
-        let read = if is_stdout(&self.file) {
-            io::stdin().lock().read_to_string(&mut text).map(|_| ())
-        } else {
-            std::fs::read_to_string(&self.file).map(|read| text = read)
-        };
-        read.map_err(|error| failed(error.to_string()))?;
-        Report::from_json(&text).map_err(|error| failed(format!("no report: {error}")))
-    }
+fn read(file: &Path) -> Result<Report, String> {
+    let failed = |why: String| format!("{}: {why}", file.display());
+    let mut text = String::new();
+    let read = if is_stdout(file) {
+        io::stdin().lock().read_to_string(&mut text).map(|_| ())
+    } else {
+        std::fs::read_to_string(file).map(|read| text = read)
+    };
+    read.map_err(|error| failed(error.to_string()))?;
+    Report::from_json(&text).map_err(|error| failed(format!("no report: {error}")))
 }

@@ -5,15 +5,19 @@ use std::io::{self, Write as _};
 use super::message::print_error;
 use crate::judge::{Exit, names};
 use crate::matrix::{self, RequirementRow};
+use crate::text::did_you_mean;
 
-/// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
-/// the suite, tests of the simulated CNC and fuzz targets
+/// Print requirements: text, sources, rulings, vectors, cases and tests
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  ads-cnc requirements --only VAR\n  \
-    ads-cnc requirements --only VAR-11 --format json\n\n\
+#[command(after_help = "Examples:\n  ads-cnc requirements VAR-11\n  \
+    ads-cnc requirements VAR --format json\n\n\
     Exit codes: 0 printed, 2 wrong usage, 3 no requirement matches, 70 internal error")]
 pub(super) struct Requirements {
-    /// As for run: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
+    /// An area (VAR), a requirement (VAR-11), a case by its ID [default: all requirements]
+    #[arg(value_name = "AREA|ID", conflicts_with = "only")]
+    wanted: Vec<String>,
+
+    /// The same as an option, as for run; repeatable
     #[arg(long, value_name = "AREA|ID")]
     only: Vec<String>,
 
@@ -36,7 +40,17 @@ impl Requirements {
         let mut rows = matrix::matrix();
         rows.retain(|row| self.matches(row));
         if rows.is_empty() {
-            print_error(format_args!("no requirement is {}", self.only.join(" or ")));
+            let rows = matrix::matrix();
+            let ids = rows.iter().flat_map(|row| {
+                let id = row.id.as_str();
+                let area = id.split('-').next().unwrap_or(id);
+                [area, id].into_iter().chain(row.cases.iter().map(String::as_str))
+            });
+            let ids: Vec<&str> = ids.collect();
+            for word in self.wanted.iter().chain(&self.only) {
+                let near = did_you_mean(word, ids.iter().copied());
+                print_error(format_args!("no requirement, area or case is called {word}{near}"));
+            }
             return Exit::Nothing;
         }
         let text = match self.format {
@@ -70,6 +84,7 @@ impl Requirements {
                 || has(only, &row.accepted, "vec-")
                 || has(only, &row.rejected, "vec-")
         };
-        self.only.is_empty() || self.only.iter().any(named)
+        let wanted = || self.wanted.iter().chain(&self.only);
+        wanted().next().is_none() || wanted().any(named)
     }
 }

@@ -7,13 +7,19 @@
     deny(clippy::unwrap_used)
 )]
 
+use std::borrow::Cow;
+use std::ffi::OsString;
 use std::io::{self, Write as _};
 use std::path::PathBuf;
+use std::time::Instant;
 
 use clap::Args;
 
+use super::again::again;
+use super::display::DisplayArgs;
 use super::list;
 use super::message::print_error;
+use super::progress::Watch;
 use super::report_output::{Reports, show, write};
 use super::run_client::ClientArgs;
 use super::run_testee;
@@ -35,7 +41,7 @@ mod target;
 /// The heading of these options in the help.
 const SELECTION: &str = "Selection";
 
-/// Runs the conformance suite against the simulated CNC, against a device, or against a client.
+/// Judge a device, a codec, a client or the simulated CNC by the requirements
 ///
 /// Without --target a simulated CNC is started on this machine and judged together with the codec.
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
@@ -107,16 +113,16 @@ pub(super) struct Run {
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
 
-    /// Write a profile to be filled in, with a comment on everything in it
-    #[arg(long, exclusive = true)]
+    /// Write a profile to be filled in, with a comment on everything in it; with --target, filled in
+    /// with what the device answers
+    #[arg(long, conflicts_with_all = ["testee", "client", "client_listen", "profile", "defect", "only", "list"])]
     print_profile: bool,
 
     #[command(flatten)]
     reports: Reports,
 
-    /// Show the cases made of vectors one by one
-    #[arg(long, short)]
-    verbose: bool,
+    #[command(flatten)]
+    display: DisplayArgs,
 
     /// Switch on a defect of the simulated CNC and of the codec's cases (see serve --list-defects)
     #[arg(long, value_name = "ID", conflicts_with = "target")]
@@ -169,6 +175,10 @@ fn print_left_changed(changes: &Changes) -> bool {
     !left.is_empty()
 }
 
+fn lossy(argument: OsString) -> String {
+    argument.to_string_lossy().into_owned()
+}
+
 /// Why there is no report.
 enum Stopped {
     Usage(String),
@@ -192,7 +202,18 @@ impl Run {
     /// Runs the suite and writes its reports.
     pub(super) fn execute(&self) -> Exit {
         if self.print_profile {
-            let printed = show(|out| out.write_all(profile::EXAMPLE.as_bytes()));
+            let text = if self.target.is_device() {
+                match self.profile_of_device() {
+                    Ok(text) => text,
+                    Err(error) => {
+                        print_error(&error);
+                        return error.exit();
+                    }
+                }
+            } else {
+                profile::EXAMPLE.to_owned()
+            };
+            let printed = show(|out| out.write_all(text.as_bytes()));
             return printed.map_or_else(super::report_output::lost, |()| Exit::Success);
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
@@ -298,9 +319,13 @@ impl Run {
         } else {
             Profile::DEVICE
         };
+        let kept = if self.is_simulated() { without.unwritten.clone() } else { Cow::default() };
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
-        Ok(Profile { edition, ..profile })
+        // A write of these changes what other cases expect of the simulated CNC.
+        let new = kept.iter().filter(|name| !profile.unwritten.contains(name));
+        let unwritten = profile.unwritten.iter().chain(new).cloned().collect();
+        Ok(Profile { edition, unwritten, ..profile })
     }
 
     const fn is_simulated(&self) -> bool {
@@ -329,16 +354,15 @@ impl Run {
         let edition = self.edition.map(Edition::name);
         let timeout = self.target.timeout();
         let cases = plan.cases.clone();
-        let judged = run_testee::run(
-            command,
-            timeout,
-            cases,
-            seed,
-            edition.as_deref(),
-            self.deadline.begin(),
-        );
+        let begin = Instant::now();
+        let judged = {
+            let _watch = Watch::start("questions");
+            let deadline = self.deadline.begin();
+            run_testee::run(command, timeout, cases, seed, edition.as_deref(), deadline)
+        };
+        let times = vec![(CaseSubject::Testee, begin.elapsed())];
         let (outcomes, left_out) = plan.finish(judged.outcomes);
-        let about = self.about(judged.target, seed, waivers);
+        let about = About { times, ..self.about(judged.target, seed, waivers) };
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
@@ -381,11 +405,16 @@ impl Run {
         interrupt: &Interrupt,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let judged = self.client.judge(&plan, self.deadline.begin(), interrupt);
+        let begin = Instant::now();
+        let judged = {
+            let _watch = (!self.client.waits()).then(|| Watch::start("cases"));
+            self.client.judge(&plan, self.deadline.begin(), interrupt)
+        };
+        let times = vec![(CaseSubject::Client, begin.elapsed())];
         let judged = judged.map_err(Stopped::Usage)?;
         let (outcomes, left_out) = plan.finish(judged.outcomes);
         let about = self.about(judged.target, seed, waivers);
-        Ok(Report::new(About { frames: judged.frames, ..about }, &outcomes, &left_out))
+        Ok(Report::new(About { frames: judged.frames, times, ..about }, &outcomes, &left_out))
     }
 
     fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {
@@ -399,11 +428,13 @@ impl Run {
             found: None,
             waivers,
             frames: 0,
+            again: Some(again(std::env::args_os().skip(1).map(lossy))),
+            times: Vec::new(),
             left_changed: Vec::new(),
         }
     }
 
     fn write(&self, report: &Report) -> Exit {
-        self.reports.write(report, |out| report::print(report, self.verbose, out))
+        self.reports.write(report, |out| report::print(report, self.display.display(), out))
     }
 }

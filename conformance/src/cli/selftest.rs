@@ -1,18 +1,20 @@
 //! `ads-cnc selftest`: the suite tried on itself.
 
-use std::io::{self, IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::sync::Mutex;
+use std::time::Instant;
 
 use clap::Args;
 
 use super::message::print_error;
+use super::progress::{LOG_INTERVAL, ProgressLine, UPDATE_INTERVAL, progress_text};
 use super::report_output::{is_stdout, lost, show, write};
 use crate::judge::{Exit, any_seed};
+use crate::process::progress::Counts;
 use crate::selftest;
 use crate::selftest::detection::Scope;
 
-/// Tries the suite on itself: every seeded defect has to be caught, everybody right left in peace.
+/// Try the suite on itself: seeded defects must fail, correct implementations pass
 ///
 /// Codecs with a defect are put to the vectors, CNCs with a defect to the cases over the wire,
 /// clients with a defect to the scenarios. A defect counts as caught when a requirement that it
@@ -53,14 +55,13 @@ pub(super) struct SelfTestArguments {
 
 impl SelfTestArguments {
     pub(super) fn execute(&self) -> Exit {
-        let terminal = io::stderr().is_terminal();
-        let last = Mutex::new(0_usize);
+        let (begin, line) = (Instant::now(), Mutex::new(ProgressLine::new()));
         let tell = |done: usize, all: usize| {
-            let mut last = last.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            if terminal && (done == all || done >= *last + 10) {
-                *last = done;
-                let end = if done == all { "\n" } else { "" };
-                let _unseen = write!(io::stderr(), "\r{done} of {all}{end}");
+            let mut line = line.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let due = if line.live { UPDATE_INTERVAL } else { LOG_INTERVAL };
+            if line.is_due(due) {
+                let counts = Counts { all, done, failed: 0, requests: 0 };
+                line.show(&progress_text(counts, "defects", begin.elapsed()));
             }
         };
         let seed = self.seed.unwrap_or_else(any_seed);
@@ -71,6 +72,7 @@ impl SelfTestArguments {
             Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
+        line.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clear();
         if let Some(folder) = &self.renew {
             let table = &test.detection.table;
             let files = [("detection.tsv", table.to_text()), ("detection.md", table.to_markdown())];
@@ -85,7 +87,7 @@ impl SelfTestArguments {
         let json = |file: &PathBuf| {
             write(file, |out| {
                 serde_json::to_writer_pretty(&mut *out, &test)?;
-                writeln!(out)
+                out.write_all(b"\n")
             })
         };
         let written = self.json.as_ref().map_or(Ok(()), json);

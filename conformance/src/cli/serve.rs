@@ -11,6 +11,7 @@ use ads_cnc::ads::AmsNetId;
 use super::executed::{self, ExecutedTo};
 use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
+use super::target::net_id;
 use crate::faults::{self, Faulty, Seed};
 use crate::judge::Exit;
 use crate::net;
@@ -20,6 +21,7 @@ use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfi
 use crate::simulator::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
+use crate::text::did_you_mean;
 
 /// The end of the help.
 const AFTER_HELP: &str = "\
@@ -38,8 +40,8 @@ the making of at most 64 KiB, and a thread's stack of 1 MiB. A frame that is lon
 does not hold together ends its own connection, as the log says. So does a new connection without
 a whole request for 10 s, and one that leaves a frame unfinished for 10 s.
 
-Exit codes: 0 ended by a signal; 2 wrong usage, and a model that is refused; 70 internal error, and an
-address that cannot be listened on.";
+Exit codes: 0 ended by a signal; 2 wrong usage, a model that is refused, and an address that cannot be
+listened on; 70 internal error.";
 
 /// The help states these limits.
 const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
@@ -58,7 +60,7 @@ pub(super) struct Args {
     allow_remote: bool,
 
     /// AMS NetId to answer for.
-    #[arg(long, value_name = "ID", default_value_t = NET_ID)]
+    #[arg(long, value_name = "ID", default_value_t = NET_ID, value_parser = net_id)]
     net_id: AmsNetId,
 
     /// Seconds after which a connection without another request ends; 0 for never.
@@ -91,14 +93,15 @@ pub(super) struct Args {
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// List all defects and end: ID, the requirements it breaks, and what it does; separated by tabs.
-    #[arg(long)]
-    list_defects: bool,
+    /// List the defects, or those whose ID or requirements contain this, and end: ID, the requirements
+    /// it breaks, and what it does; separated by tabs.
+    #[arg(long, value_name = "PART", num_args = 0..=1, default_missing_value = "")]
+    list_defects: Option<String>,
 }
 
 pub(super) fn serve(args: &Args) -> ExitCode {
-    if args.list_defects {
-        return list_defects();
+    if let Some(part) = &args.list_defects {
+        return list_defects(part);
     }
     if args.print_model {
         return print_model();
@@ -138,7 +141,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     }
     let server = match start(args.listen, faulty, args.options()) {
         Ok(server) => server,
-        Err(why) => return exit_with_error(Exit::Internal, why),
+        Err(why) => return exit_with_error(Exit::Usage, why),
     };
     let line = format!("listening on {}, AMS NetId {}\n", server.addr(), server.net_id());
     let mut out = io::stdout().lock();
@@ -238,9 +241,16 @@ fn print_model() -> ExitCode {
     }
 }
 
-fn list_defects() -> ExitCode {
+fn list_defects(part: &str) -> ExitCode {
     let mut out = io::stdout().lock();
-    for seed in faults::all() {
+    let fits = |seed: &&Seed| {
+        seed.id.contains(part) || seed.requirements.iter().any(|id| id.eq_ignore_ascii_case(part))
+    };
+    let mut listed = faults::all().iter().filter(fits).peekable();
+    if listed.peek().is_none() {
+        return exit_with_error(Exit::Usage, unknown_defect(part));
+    }
+    for seed in listed {
         let broken = seed.requirements.join(" ");
         if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
             // A broken pipe: the reader has seen enough.
@@ -253,12 +263,13 @@ fn list_defects() -> ExitCode {
 /// The defect with this ID, if an ID is given.
 pub(super) fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
     let Some(id) = id else { return Ok(None) };
-    faults::by_id(id).cloned().map(Some).ok_or_else(|| {
-        let all = faults::all();
-        // One ID of each stream or area, as examples.
-        let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
-        some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());
-        let (some, all) = (some.join("\n  "), all.len());
-        format!("no defect has the ID {id}; some that there are:\n  {some}\nserve --list-defects shows all {all}")
-    })
+    faults::by_id(id).cloned().map(Some).ok_or_else(|| unknown_defect(id))
+}
+
+fn unknown_defect(id: &str) -> String {
+    let all = faults::all().iter().map(|seed| seed.id.as_str());
+    let near = did_you_mean(id, all);
+    format!(
+        "no defect has the ID {id}{near}\nserve --list-defects PART shows those that contain PART"
+    )
 }

@@ -22,7 +22,7 @@ use crate::objects::{Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, ToolError};
 use crate::values::{Type, parse, plain};
 
-/// Writes a variable, an object or an element by its name, reads it back and shows both.
+/// Write a variable, an object or an element by its name, and read it back
 ///
 /// A machine may move. A device is written to only what a file for --allow-write names: this
 /// variable, object or element, on this device, for the time the file says; without, the write is
@@ -71,7 +71,7 @@ impl Set {
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |error| match error {
             ToolError::NotSent => Some("with --type TYPE the write itself is shown".to_owned()),
-            error => self.name.advice(error),
+            error => self.name.advice(error, &self.target, &self.model),
         })
     }
 
@@ -120,7 +120,7 @@ impl Set {
         self.show(&object, &ty, old.as_deref(), new.as_deref())?;
         if session.is_simulated() {
             print_error(
-                "the simulated CNC ends here and keeps nothing; --target writes to one that stays",
+                "written to a temporary simulated CNC, which is gone now; --target writes to a running one",
             );
         }
         Ok(judge(&ty, &bytes, new.as_deref()))

@@ -4,8 +4,8 @@ use std::fmt;
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Once};
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
@@ -51,11 +51,11 @@ pub(super) struct TargetArgs {
     target: Option<String>,
 
     /// AMS NetId of the device
-    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target")]
+    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     net_id: Option<AmsNetId>,
 
     /// AMS NetId to ask as; the device needs a route to it [default: this machine's address and .1.1]
-    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target")]
+    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     source_net_id: Option<AmsNetId>,
 
     /// How long to wait for a connection and for an answer, in milliseconds
@@ -64,11 +64,11 @@ pub(super) struct TargetArgs {
         value_parser = clap::value_parser!(u64).range(1..))]
     timeout: Option<u64>,
 
-    /// The most requests in a second [default: as fast as they are answered]
+    /// Limit of requests per second [default: as fast as they are answered]
     #[arg(long, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
     rate: Option<Duration>,
 
-    /// A file that says what may be written, on whom and until when; nothing may be without
+    /// File that names what may be written, on which device and until when; without it nothing is
     #[arg(long, help_heading = TARGET, value_name = "FILE")]
     allow_write: Option<PathBuf>,
 
@@ -170,7 +170,10 @@ impl TargetArgs {
         match (self.is_device() || self.has_file(), self.dry_run) {
             (true, _) => self.open_or(cnc),
             (false, true) => Session::dry_simulated(simulator_gate(entry)),
-            (false, false) => self.recorded(Session::simulated(cnc()?, simulator_gate(entry))?),
+            (false, false) => {
+                tell_simulated();
+                self.recorded(Session::simulated(cnc()?, simulator_gate(entry))?)
+            }
         }
     }
 
@@ -213,11 +216,25 @@ impl TargetArgs {
     ) -> Result<Session, ToolError> {
         let gate = self.gate()?;
         match (self.device()?, self.dry_run) {
-            (None, false) => self.recorded(Session::simulated(cnc()?, gate)?),
+            (None, false) => {
+                tell_simulated();
+                self.recorded(Session::simulated(cnc()?, gate)?)
+            }
             (None, true) => Session::dry_simulated(gate),
             (Some(target), false) => self.recorded(Session::connect(target, gate)?),
             (Some(target), true) => Session::dry(target, gate),
         }
+    }
+
+    /// The options of the device as a hint repeats them; empty for the simulated CNC.
+    pub(super) fn as_options(&self) -> String {
+        let mut options = String::new();
+        let ids = [("--net-id", self.net_id), ("--source-net-id", self.source_net_id)];
+        options.extend(self.target.iter().map(|target| format!(" --target {target}")));
+        for (name, id) in ids {
+            options.extend(id.iter().map(|id| format!(" {name} {id}")));
+        }
+        options
     }
 
     /// The file of the capture.
@@ -262,13 +279,22 @@ impl TargetArgs {
         let usage = |why: String| ToolError::Usage(why);
         let net_id = self.net_id.ok_or_else(|| usage("--target needs --net-id".to_owned()))?;
         Ok(Some(Target {
-            addr: resolve(host).map_err(|error| usage(format!("{host}: {error}")))?,
+            addr: resolve(host).map_err(|error| match error.kind() {
+                io::ErrorKind::InvalidInput => usage(format!("{host}: {error}")),
+                _ => ToolError::NoAnswer(format!("{host}: {error}")),
+            })?,
             net_id,
             source: self.source_net_id,
             timeout: self.timeout.map_or(TIMEOUT, Duration::from_millis),
             pace: self.rate.unwrap_or_default(),
         }))
     }
+}
+
+/// Says that the answers are not those of a machine.
+fn tell_simulated() {
+    static TOLD: Once = Once::new();
+    TOLD.call_once(|| print_error("simulated CNC, no machine: --target is not given"));
 }
 
 /// The default model of the simulated CNC.
@@ -290,8 +316,18 @@ pub(super) fn simulator_gate(entry: Entry) -> Gate {
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {
-    let number = text.parse().map_err(|_| "a number is needed".to_owned())?;
-    Channel::new(number).map_err(|error| error.to_string())
+    let odd = || "channels are numbered from 1 to 255".to_owned();
+    Channel::new(text.parse().map_err(|_| odd())?).map_err(|_| odd())
+}
+
+pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
+    text.parse().map_err(|_| {
+        let hint = match text.parse::<IpAddr>() {
+            Ok(IpAddr::V4(_)) => format!("; did you mean {text}.1.1?"),
+            _ => String::new(),
+        };
+        format!("six numbers from 0 to 255 with dots are needed, as 192.0.2.10.1.1{hint}")
+    })
 }
 
 /// Parses requests per second; returns the time between two.

@@ -9,7 +9,7 @@ use super::serve::find_defect;
 use crate::judge::Exit;
 use crate::testee::{Answer, CodecTestee, Miniature, MiniatureAction, Reply, TesteeCommand};
 
-/// Answers the protocol of `run --testee` with this project's codec, on stdin and stdout.
+/// Answer the protocol of `run --testee` with this project's codec
 ///
 /// A testee to try an adapter's counterpart with, and an example of all answers: one JSON object a
 /// line. See conformance/adapters/README.md.

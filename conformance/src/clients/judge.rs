@@ -17,9 +17,9 @@ use super::script::ScenarioScript;
 use super::test_server::{RecordedExchange, TestServer};
 use super::{ClientDefect, ClientUnderTest, ReferenceClient, ordering, request_match, scenarios};
 use crate::judge::{
-    Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Record, Rule, Stop, Verdict, caught,
+    Body, CLIENT, Case, CaseOutcome, CaseSubject, HELLO, Needs, Record, Rule, Stop, Verdict, caught,
 };
-use crate::process::interrupt;
+use crate::process::{interrupt, progress};
 use crate::simulator::Cnc;
 
 /// Maximum number of consecutive scenarios without an answer; after them the rest is not tried.
@@ -60,16 +60,18 @@ pub fn judge(
                 |one: &Scenario| CaseOutcome::untried(one.case(), verdict, why.to_owned());
             let mut outcomes: Vec<CaseOutcome> = scenarios.iter().map(untried).collect();
             if over.is_none() {
-                protocol.check(Rule::CLIENT, false, None, "an answer to hello", || reaction);
+                protocol.check(Rule::CLIENT, false, None, HELLO, || reaction);
                 outcomes.push(protocol_outcome(protocol));
             }
             return JudgedClient { hello: None, outcomes, requests };
         }
     };
     protocol.check(Rule::CLIENT, true, None, "", "");
-    let mut outcomes = Vec::new();
+    let mut outcomes: Vec<CaseOutcome> = Vec::new();
     let mut lost = 0_usize;
+    progress::begin(scenarios.len());
     for scenario in scenarios {
+        progress::step(outcomes.last().is_some_and(|last| last.verdict().fails_run()));
         let case = scenario.case();
         if interrupt::is_requested() {
             outcomes.push(CaseOutcome::interrupted(case));
@@ -201,6 +203,7 @@ fn play(
     }
     let stop = judge_reaction(scenario, &script, &reaction, exchanges.last(), &mut findings);
     let stop = stop.or(beyond.stop());
+    progress::requests(exchanges.len());
     let is_lost = matches!(
         reaction,
         ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Broken(_)

@@ -2,12 +2,14 @@
 
 use std::time::Duration;
 
+use super::action::VOCABULARY;
 use super::message::{
     ActionResult, ClientHello, ClientReaction, CncAddress, PROTOCOL, action_command, environment,
 };
 use super::{Action, ClientUnderTest};
 use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, cut};
+use crate::text::did_you_mean;
 
 /// The name of the scenario that asks for hello.
 const HELLO: &str = "hello";
@@ -75,6 +77,21 @@ impl ClientProcess {
     }
 }
 
+/// Rejects a hello with an action that does not exist: its cases would not be applicable, and a
+/// misspelt word would not be noticed.
+fn known_actions(hello: &ClientHello) -> Result<(), ClientReaction> {
+    let words = || VOCABULARY.iter().map(|word| word.name);
+    match hello.actions.iter().find(|one| !words().any(|word| word == one.as_str())) {
+        None => Ok(()),
+        Some(word) => {
+            let near = did_you_mean(word, words());
+            Err(ClientReaction::Garbled(format!(
+                "its hello names {word:?}, which is no action{near}"
+            )))
+        }
+    }
+}
+
 impl ClientUnderTest for ClientProcess {
     fn over(&self) -> Option<String> {
         self.process.over()
@@ -88,7 +105,7 @@ impl ClientUnderTest for ClientProcess {
                 ClientReaction::Garbled(format!("{error} in the hello {}", cut(&line)))
             })
             .and_then(|hello| match hello.protocol {
-                PROTOCOL => Ok(hello),
+                PROTOCOL => known_actions(&hello).map(|()| hello),
                 other => {
                     let why = format!("it speaks protocol {other}, not {PROTOCOL}");
                     Err(ClientReaction::Garbled(why))

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 pub const PROTOCOL: u32 = 1;
 
-use crate::text::{hex::compact, shorten};
+use crate::text::{did_you_mean, hex::compact, shorten};
 
 /// A line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -136,7 +136,25 @@ pub struct Capabilities {
     pub editions: Vec<String>,
 }
 
+/// The ops of the protocol.
+pub(crate) const OPS: [&str; 4] = ["decode", "encode", "packets", "check"];
+
 impl Capabilities {
+    /// What is wrong with a name among the ops or streams that does not exist.
+    pub(crate) fn misspelt(&self) -> Option<String> {
+        let is_op = |op: &&String| !OPS.contains(&op.as_str());
+        if let Some(op) = self.ops.iter().find(is_op) {
+            return Some(format!("{op:?} is no op{}", did_you_mean(op, OPS)));
+        }
+        let streams = || {
+            let vectors = ads_cnc_vectors::vectors().iter().map(|vector| vector.stream.as_str());
+            vectors.chain(["nc-text", "nc-check"])
+        };
+        let is_unknown = |name: &&String| !streams().any(|stream| stream == name.as_str());
+        let name = self.streams.iter().find(is_unknown)?;
+        Some(format!("no vector has the stream {name:?}{}", did_you_mean(name, streams())))
+    }
+
     /// Whether it claims this op for this stream.
     pub fn claim(&self, op: &str, stream: &str) -> bool {
         let is_text = matches!(op, "packets" | "check");

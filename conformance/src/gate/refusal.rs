@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::net::IpAddr;
+use std::time::Duration;
 
 use ads_cnc::address::IndexGroup;
 use ads_cnc::ads::{AmsNetId, AmsPort, Command, StateFlags};
@@ -121,6 +122,11 @@ impl fmt::Display for Ambiguity {
     }
 }
 
+/// The end of the permission that an advice shows.
+fn tomorrow() -> Moment {
+    Moment::now().after(Duration::from_secs(24 * 3600))
+}
+
 impl Refusal {
     pub(super) const fn needing(reason: Reason, needed: Option<Entry>) -> Self {
         Self { reason, needed }
@@ -132,7 +138,8 @@ impl Refusal {
             (Reason::NoFile(_, target), Some(entry)) => format!(
                 "If nothing can come to harm, allow it in a file for --allow-write:\n\n\
                  target = \"{target}\"\n\
-                 expires = …  # a date and time such as 2026-05-04T17:30:00+02:00\n\n{entry}"
+                 expires = {}  # nothing is written from then on\n\n{entry}",
+                tomorrow()
             ),
             (Reason::NoEntry(_), Some(entry)) => {
                 format!("If nothing can come to harm, add to the file of --allow-write:\n\n{entry}")
@@ -154,8 +161,9 @@ impl Refusal {
             (Reason::NoMalformed(target), _) => format!(
                 "If nothing can come to harm, permit it in a file for --allow-write:\n\n\
                  target = \"{target}\"\n\
-                 expires = …  # a date and time such as 2026-05-04T17:30:00+02:00\n\
-                 malformed = true"
+                 expires = {}  # nothing is written from then on\n\
+                 malformed = true",
+                tomorrow()
             ),
             (Reason::Ambiguous(Function::WriteObject, Ambiguity::Shared(_)), _) => {
                 "An object that shares its address with another one cannot be written.".to_owned()

@@ -1,6 +1,7 @@
 //! The terms of a judgement: case, check, evidence, outcome, verdict, plan, waiver. No module here
 //! opens a file or a socket.
 
+mod areas;
 mod case;
 mod cause;
 mod check;
@@ -12,6 +13,7 @@ mod vectors;
 mod verdict;
 mod waivers;
 
+pub use areas::about;
 pub use case::{Body, Case, CaseSubject, Needs};
 pub(crate) use cause::{attribute, follows};
 pub(crate) use check::{Checks, IfPresent, OrStop, Record, TEXT_MAX, applicable};
@@ -32,3 +34,6 @@ pub const TESTEE: &str = "TESTEE";
 
 /// The ID of the rules of the client protocol, which are not in the catalogue.
 pub const CLIENT: &str = "CLIENT";
+
+/// What is expected of a testee or client first; without it nothing else is judged.
+pub const HELLO: &str = "an answer to hello";

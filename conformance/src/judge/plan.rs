@@ -7,6 +7,7 @@ use ads_cnc_vectors::{Source, requirement};
 
 use super::{Body, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
+use crate::text::did_you_mean;
 
 /// The selection of cases.
 ///
@@ -22,7 +23,7 @@ use crate::edition::Edition;
 ///
 /// let only = vec!["VRA".to_owned()];
 /// let nothing = Selection { edition: None, only }.plan(suite::cases(), 1).unwrap_err();
-/// assert_eq!(nothing.to_string(), "no case is called VRA or judges it");
+/// assert_eq!(nothing.to_string(), "no case or requirement is called VRA - did you mean VAR?");
 /// # Ok::<(), Unmatched>(())
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -36,8 +37,12 @@ pub struct Selection {
 
 /// A word that selects nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no case is called {0} or judges it")]
-pub struct Unmatched(String);
+#[error("no case or requirement is called {word}{near}")]
+pub struct Unmatched {
+    word: String,
+    /// The nearest names.
+    near: String,
+}
 
 /// The selected cases in order, and the others.
 #[derive(Clone, Debug)]
@@ -80,7 +85,11 @@ impl Selection {
             !cases.iter().any(|case| word.eq_ignore_ascii_case(&case.id) || judges(case))
         });
         if let Some(word) = unmatched {
-            return Err(Unmatched(word.clone()));
+            let requirements = || cases.iter().flat_map(|case| case.requirements.iter().copied());
+            let areas = requirements().filter_map(|id| Some(id.split_once('-')?.0));
+            let names = cases.iter().map(|case| case.id.as_str());
+            let near = did_you_mean(word, areas.chain(requirements()).chain(names));
+            return Err(Unmatched { word: word.clone(), near });
         }
         cases.sort_by_cached_key(|case| (case.needs == Needs::Frames, order(seed, &case.id)));
         let mut plan = Plan {

@@ -9,6 +9,7 @@ use ads_cnc_vectors::{Document, Requirement, documents, requirements};
 
 use super::types::{self, AREAS};
 use super::{RequirementRow, joined};
+use crate::judge::about;
 
 const HEAD: &str = "| section | requirements | functions | types | vectors | cases | fuzz targets |\n\
                     |---|---|---|---|---|---|---|\n";
@@ -58,7 +59,7 @@ fn areas(rows: &[RequirementRow]) -> String {
             text,
             "| {} | {} | {} | {} | {} | {} | {} | {} |",
             one.area,
-            one.about,
+            about(one.area),
             one.chapters,
             one.modules,
             found.ids.len(),

@@ -24,33 +24,27 @@ ads_cnc::streams! { types }
 /// An area of requirements.
 pub(super) struct Area {
     pub(super) area: &'static str,
-    pub(super) about: &'static str,
     /// Its main chapters.
     pub(super) chapters: &'static str,
     /// Its modules in the codec.
     pub(super) modules: &'static str,
 }
 
-const fn area(
-    area: &'static str,
-    about: &'static str,
-    chapters: &'static str,
-    modules: &'static str,
-) -> Area {
-    Area { area, about, chapters, modules }
+const fn area(area: &'static str, chapters: &'static str, modules: &'static str) -> Area {
+    Area { area, chapters, modules }
 }
 
 pub(super) const AREAS: &[Area] = &[
-    area("GEN", "bytes, texts, tasks", "ads 1, 2", "`text`, `operation::Task`"),
-    area("ADR", "index groups and offsets", "ads 1, 2", "`address`"),
-    area("COM", "objects of the COM task", "ads 2.1", "`Descriptor`, `Content`"),
-    area("SDA", "elements of SDA and GEO", "ads 2.2", "`sda`"),
-    area("DYN", "P, V.L, V.P, V.S by index", "ads 3", "`dynamic`"),
-    area("VAR", "V. variables", "ads 4", "`Description`, `Handle`, `Value`, `value`"),
-    area("ADS", "services and headers", "ads 5", "`ads`"),
-    area("STM", "data streaming", "stream 2, 3, 4, 5", "`streaming`"),
-    area("SVC", "Service Interface", "service 1, 2, 3", "`service`"),
-    area("OBJ", "lists of objects", "ads 1", "`operation::ObjectList`"),
+    area("GEN", "ads 1, 2", "`text`, `operation::Task`"),
+    area("ADR", "ads 1, 2", "`address`"),
+    area("COM", "ads 2.1", "`Descriptor`, `Content`"),
+    area("SDA", "ads 2.2", "`sda`"),
+    area("DYN", "ads 3", "`dynamic`"),
+    area("VAR", "ads 4", "`Description`, `Handle`, `Value`, `value`"),
+    area("ADS", "ads 5", "`ads`"),
+    area("STM", "stream 2, 3, 4, 5", "`streaming`"),
+    area("SVC", "service 1, 2, 3", "`service`"),
+    area("OBJ", "ads 1", "`operation::ObjectList`"),
 ];
 
 #[cfg(test)]

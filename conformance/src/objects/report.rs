@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::Object;
-use crate::client::Target;
+use crate::session::Session;
 use crate::text::hex;
 use crate::values::value_of;
 
@@ -16,6 +16,9 @@ pub struct ObjectsReport {
     pub target: String,
     /// Its AMS NetId.
     pub net_id: String,
+    /// Whether it is a simulated CNC that this process started.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub simulated: bool,
     pub objects: Vec<ObjectReport>,
     /// Notes about objects that could not be read.
     pub notes: Vec<String>,
@@ -23,9 +26,10 @@ pub struct ObjectsReport {
 
 impl ObjectsReport {
     /// The report of a target.
-    pub fn new(target: &Target, objects: Vec<ObjectReport>, notes: Vec<String>) -> Self {
+    pub fn new(session: &Session, objects: Vec<ObjectReport>, notes: Vec<String>) -> Self {
+        let (target, simulated) = (session.target(), session.is_simulated());
         let (target, net_id) = (target.addr.to_string(), target.net_id.to_string());
-        Self { format: 1, target, net_id, objects, notes }
+        Self { format: 1, target, net_id, simulated, objects, notes }
     }
 }
 

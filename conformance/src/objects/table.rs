@@ -65,7 +65,10 @@ const VARIABLE: &[Column] = &[
     },
 ];
 
-/// Writes rows with heads, each column as wide as its longest cell.
+/// Maximum width of a column; a longer cell moves the rest of its own row only.
+const WIDTH_MAX: usize = 40;
+
+/// Writes rows with heads, each column as wide as its longest cell, up to [`WIDTH_MAX`].
 pub fn table(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
@@ -74,7 +77,7 @@ pub fn table(
     let mut widths: Vec<usize> = heads.iter().map(|head| head.len()).collect();
     for row in rows.clone() {
         for (width, cell) in widths.iter_mut().zip(&row) {
-            *width = (*width).max(cell.chars().count());
+            *width = (*width).max(cell.chars().count().min(WIDTH_MAX));
         }
     }
     let heads: Vec<String> = heads.iter().map(|head| head.to_uppercase()).collect();

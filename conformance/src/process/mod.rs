@@ -3,6 +3,7 @@
 
 pub(crate) mod interrupt;
 mod lines;
+pub(crate) mod progress;
 mod subprocess;
 
 use std::io;

@@ -73,6 +73,32 @@ impl Profile {
     }
 }
 
+impl Profile {
+    /// [`EXAMPLE`] with what this profile claims of ports, channels, axes and spindles.
+    pub fn filled(&self) -> String {
+        let places: Vec<[u32; 2]> =
+            self.empty_places.iter().map(|&(channel, place)| [channel, place]).collect();
+        let axes = Some(self.platform_axes).filter(|axes| *axes > 0);
+        let values = [
+            ("ports", Some(format!("{:?}", self.ports))),
+            ("channels", Some(format!("{:?}", self.channels))),
+            ("absent-channel", self.absent_channel.map(|number| number.to_string())),
+            ("platform-axes", axes.map(|axes| axes.to_string())),
+            ("spindles", self.spindles.map(|spindles| spindles.to_string())),
+            ("empty-places", Some(format!("{places:?}"))),
+        ];
+        let line = |line: &str| {
+            let key = line.trim_start_matches("# ").split(" = ").next().unwrap_or_default();
+            let value = values.iter().find(|(name, _)| *name == key);
+            match value.and_then(|(name, value)| Some((name, value.as_ref()?))) {
+                Some((name, value)) => format!("{name} = {value}\n"),
+                None => format!("{line}\n"),
+            }
+        };
+        EXAMPLE.lines().map(line).collect()
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 struct ProfileFile {

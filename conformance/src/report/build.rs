@@ -1,5 +1,7 @@
 //! Builds the report from the outcomes of a run.
 
+use std::time::Duration;
+
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
 use super::model::{
@@ -35,6 +37,10 @@ pub struct About {
     /// Known failures.
     pub waivers: Waivers,
     pub frames: usize,
+    /// The command that runs the same again.
+    pub again: Option<String>,
+    /// How long the cases of each subject took.
+    pub times: Vec<(CaseSubject, Duration)>,
     /// Values that were changed and not restored.
     pub left_changed: Vec<LeftChanged>,
 }
@@ -52,6 +58,8 @@ impl Report {
             found,
             waivers,
             frames,
+            again,
+            times,
             left_changed,
         } = about;
         let waivers = waivers.apply(outcomes, left_out, time);
@@ -73,7 +81,11 @@ impl Report {
             .into_iter()
             .filter_map(|subject| {
                 let mine: Vec<_> = cases.iter().filter(|case| case.subject == subject).collect();
-                (!mine.is_empty()).then(|| of_subject(subject, &mine, &only))
+                let time = times.iter().find(|(one, _)| *one == subject);
+                let milliseconds =
+                    time.map(|(_, time)| u64::try_from(time.as_millis()).unwrap_or(u64::MAX));
+                (!mine.is_empty())
+                    .then(|| SubjectReport { milliseconds, ..of_subject(subject, &mine, &only) })
             })
             .collect();
         Self {
@@ -90,6 +102,7 @@ impl Report {
             profile: profile.as_ref().map(ProfileReport::from),
             found,
             waivers,
+            again,
             exit_code: tally.exit().code(),
             checks: outcomes.iter().map(|outcome| outcome.checks).sum(),
             frames,
@@ -137,7 +150,7 @@ fn of_subject(subject: CaseSubject, cases: &[&CaseReport], only: &[String]) -> S
     }
     let all: Vec<_> = areas.iter().flat_map(|area| &area.requirements).cloned().collect();
     let waived = all.iter().filter(|one| one.waived).count();
-    SubjectReport { subject, totals: totals(&all), waived, areas }
+    SubjectReport { subject, totals: totals(&all), waived, milliseconds: None, areas }
 }
 
 fn totals(requirements: &[RequirementReport]) -> Totals {
@@ -251,6 +264,7 @@ impl From<&Evidence> for EvidenceReport {
         let (received, expected) = (received.as_deref(), expected.as_deref());
         Self {
             call: evidence.call.clone(),
+            subject: evidence.subject.clone(),
             result: evidence.result.clone(),
             sent: (!sent.is_empty()).then(|| BytesReport::new(*request_stream, sent, None, values)),
             received: received.map(|bytes| reply(bytes, expected)),
@@ -301,6 +315,8 @@ mod tests {
                 found: None,
                 waivers: Waivers::default(),
                 frames: 0,
+                again: None,
+                times: Vec::new(),
                 left_changed: Vec::new(),
             };
             let all: Vec<CaseOutcome> =

@@ -1,28 +1,126 @@
 //! The report as text.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
-use super::BytesReport;
-use super::lines::{lines, marked};
-use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals};
-use crate::judge::{CaseSubject, Exit, Verdict, WaiverReport};
+use anstyle::{AnsiColor, Style};
 
-/// Writes the report. `verbose` shows the cases made of vectors one by one.
-pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
-    report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
-    head(report, out)?;
-    for subject in &report.subjects {
-        cases(report, subject.subject, verbose, out)?;
-    }
-    for case in &report.cases {
-        failures(case, out)?;
-    }
-    areas(report, out)?;
-    waivers(&report.waivers, out)?;
-    tail(report, out)
+use super::BytesReport;
+use super::groups::{Group, groups};
+use super::lines::{lines, marked};
+use super::model::{
+    CaseReport, EvidenceReport, FailureReport, Report, SubjectReport, TargetReport, Totals,
+};
+use crate::judge::{CLIENT, CaseSubject, Exit, HELLO, TESTEE, Verdict, WaiverReport};
+use crate::text::{plural, shorten, wrap};
+
+/// How much of a report is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detail {
+    /// The last line.
+    Quiet,
+    /// A line for each part, and each failure once.
+    #[default]
+    Normal,
+    /// Also every case and every requirement.
+    Verbose,
 }
 
+/// How a report is shown on the console.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Display {
+    pub detail: Detail,
+    pub color: bool,
+}
+
+/// Width of wrapped text.
+const WIDTH: usize = 98;
+/// Maximum number of failed clauses in normal detail.
+const GROUPS_MAX: usize = 6;
+/// Maximum number of lines of bytes in normal detail, and of those before a wrong byte.
+const BYTES_MAX: usize = 9;
+const BEFORE_MARK: usize = 2;
+/// Maximum number of lines of a clause in normal detail.
+const CLAUSE_MAX: usize = 3;
+/// Maximum number of characters of an expected and of an actual result in normal detail.
+const RESULT_MAX: usize = 160;
+/// Maximum number of names in a list, and of reasons why cases were not run.
+const NAMES_MAX: usize = 5;
+const REASONS_MAX: usize = 4;
+
+/// Writes the report.
+pub fn print(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let verbose = match display.detail {
+        Detail::Quiet => return last_line(report, display, out),
+        detail => detail == Detail::Verbose,
+    };
+    head(report, out)?;
+    if let Some(failure) = unanswered(report) {
+        unstarted(report, failure, display, out)?;
+        return last_line(report, display, out);
+    }
+    for subject in &report.subjects {
+        if verbose {
+            cases(report, subject.subject, out)?;
+        }
+    }
+    if verbose {
+        areas(report, out)?;
+    }
+    parts(report, out)?;
+    waivers(&report.waivers, out)?;
+    blocks(report, display, out)?;
+    report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
+    tail(report, display, out)
+}
+
+/// The failure of a testee or client that did not answer its first line, so that nothing was judged.
+fn unanswered(report: &Report) -> Option<&FailureReport> {
+    let mut all = report.cases.iter().flat_map(|case| &case.failures);
+    all.find(|one| [TESTEE, CLIENT].contains(&one.requirement.as_str()) && one.expected == HELLO)
+}
+
+/// What a testee or client did instead of answering, the likely cause and the next command.
+fn unstarted(
+    report: &Report,
+    failure: &FailureReport,
+    display: Display,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let (kind, protocol) = match failure.requirement.as_str() {
+        TESTEE => ("testee", "README.md"),
+        _ => ("client", "CLIENTS.md"),
+    };
+    let verdict = display.verdict(failure.verdict, failure.waived);
+    let found = failure.found.trim_start_matches("a crash: ");
+    let garbled = found.strip_prefix("no answer of the protocol: ");
+    let said = match garbled {
+        Some(why) => format!("the {kind}'s answer to hello is wrong: {why}"),
+        None => format!("the {kind} did not answer hello: {found}"),
+    };
+    writeln!(out, "{verdict}  {}", shorten(&said, RESULT_MAX.saturating_mul(2)))?;
+    let stderr = report.target.stderr.as_deref().unwrap_or_default();
+    let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
+    if let Some(last) = last {
+        writeln!(out, "  its stderr: {}", shorten(last, RESULT_MAX))?;
+    }
+    let cause = if garbled.is_some() {
+        "Nothing else was run."
+    } else if found.contains("within") {
+        "Is each line flushed (in Python: print(..., flush=True)), with a line feed at its end?"
+    } else if found.contains("127") {
+        "Is the command spelt as the shell finds it, from this folder?"
+    } else {
+        "Does the command run by itself, from this folder?"
+    };
+    let next = match (&report.again, kind) {
+        (Some(again), "testee") => format!("{again} --check-protocol shows each line"),
+        _ => format!("the protocol is in conformance/adapters/{protocol}"),
+    };
+    writeln!(out, "  {cause} {next}")
+}
+
+/// The head of a report: what was asked.
 fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
@@ -80,10 +178,11 @@ pub(super) const fn heading(subject: CaseSubject) -> &'static str {
     }
 }
 
-/// The cases of a subject; those of vectors on one line per stream.
-fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
+/// The cases of a subject, those of vectors by stream.
+fn cases(report: &Report, who: CaseSubject, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(who))?;
-    let mine = || report.cases.iter().filter(|case| case.subject == who);
+    let sorted = report.sorted();
+    let mine = || sorted.iter().copied().filter(|case| case.subject == who);
     let mut streams: BTreeMap<&str, Vec<&CaseReport>> = BTreeMap::new();
     for case in mine() {
         if let Some(stream) = &case.stream {
@@ -92,34 +191,75 @@ fn cases(report: &Report, who: CaseSubject, verbose: bool, out: &mut dyn Write) 
     }
     let width = streams.keys().map(|stream| stream.len()).max().unwrap_or_default();
     for (stream, cases) in streams {
-        let mut totals = Totals::new();
-        for case in &cases {
-            let number = totals.entry(case.verdict).or_default();
-            *number += 1;
-        }
         let waived = cases.iter().filter(|case| case.waived).count();
-        writeln!(out, "  {stream:<width$}  {}", counts(&totals, waived))?;
-        if verbose {
-            cases.iter().try_for_each(|case| line(case, out))?;
-        }
+        writeln!(out, "  {stream:<width$}  {}", counts(&of_cases(&cases), waived))?;
+        cases.iter().try_for_each(|case| line(case, out))?;
     }
-    let mut others: Vec<&CaseReport> = mine().filter(|case| case.stream.is_none()).collect();
-    // The cases ran in random order; the report lists them by requirement.
-    let places = places(report, who);
-    others.sort_by_key(|case| {
-        let first = case.requirements.first().map(|one| one.requirement.as_str());
-        (first.and_then(|id| places.get(id)), case.id.as_str())
-    });
-    others.into_iter().try_for_each(|case| line(case, out))?;
+    mine().filter(|case| case.stream.is_none()).try_for_each(|case| line(case, out))?;
     writeln!(out)
 }
 
-/// The position of each requirement in the catalogue.
-fn places(report: &Report, who: CaseSubject) -> BTreeMap<&str, usize> {
-    let mine = report.subjects.iter().filter(|one| one.subject == who);
-    let all = mine.flat_map(|one| &one.areas).flat_map(|area| &area.requirements);
-    all.enumerate().map(|(place, one)| (one.requirement.as_str(), place)).collect()
+fn of_cases(cases: &[&CaseReport]) -> Totals {
+    let mut totals = Totals::new();
+    for case in cases {
+        let number = totals.entry(case.verdict).or_default();
+        *number += 1;
+    }
+    totals
 }
+
+/// A line for each subject, with the reasons why cases were not judged.
+fn parts(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let width = report.subjects.iter().map(|one| one.subject.name().len()).max();
+    let width = width.unwrap_or_default();
+    for SubjectReport { subject, milliseconds, .. } in &report.subjects {
+        let mine: Vec<&CaseReport> =
+            report.cases.iter().filter(|case| case.subject == *subject).collect();
+        let waived = mine.iter().filter(|case| case.waived).count();
+        let counts = counts(&of_cases(&mine), waived);
+        let number = plural(mine.len(), "case");
+        let time = milliseconds.map_or_else(String::new, |all| {
+            let (seconds, tenths) = (all / 1000, all % 1000 / 100);
+            format!("   {seconds}.{tenths} s")
+        });
+        writeln!(out, "  {subject:<width$}  {number:>10}   {counts}{time}")?;
+        reasons(&mine, out)?;
+    }
+    writeln!(out)
+}
+
+/// Why cases were not judged, the commonest reason first.
+fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
+    let mut all: BTreeMap<(Verdict, &str), (usize, BTreeSet<&str>)> = BTreeMap::new();
+    for case in cases {
+        if let Some(note) = &case.note {
+            // A client that lacks several actions gives one reason for all of them.
+            let lacks = note.strip_prefix(LACKS);
+            let (number, names) =
+                all.entry((case.verdict, lacks.map_or(note.as_str(), |_| LACKS))).or_default();
+            *number += 1;
+            names.extend(lacks);
+        }
+    }
+    let mut all: Vec<_> = all.into_iter().collect();
+    all.sort_by_key(|(_, (number, _))| std::cmp::Reverse(*number));
+    let more = all.len().saturating_sub(REASONS_MAX);
+    for ((verdict, note), (number, names)) in all.into_iter().take(REASONS_MAX) {
+        let names = names.into_iter().collect::<Vec<_>>().join(", ");
+        writeln!(
+            out,
+            "    {number} {verdict}: {}",
+            shorten(&format!("{note}{names}"), RESULT_MAX)
+        )?;
+    }
+    match more {
+        0 => Ok(()),
+        _ => writeln!(out, "    and {} (-v shows all)", plural(more, "other reason")),
+    }
+}
+
+/// The note of a case whose action a client does not have.
+const LACKS: &str = "the client has no ";
 
 fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     let requirements: Vec<&str> =
@@ -137,17 +277,139 @@ pub(super) fn worded(verdict: Verdict, waived: bool) -> String {
     if waived { format!("{verdict}, waived") } else { verdict.to_string() }
 }
 
-/// Each check that did not pass, with requirements and bytes.
-fn failures(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
-    for all in case.findings() {
-        if let Some(failure) = all.first() {
-            let verdict = worded(failure.verdict, failure.waived).to_uppercase();
-            writeln!(out, "{verdict}  {}: {}", case.id, case.title)?;
-            finding(&all, out)?;
-            writeln!(out)?;
-        }
+/// The checks that did not pass: those that fail nobody on a line each, then those that fail.
+fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let all = groups(report);
+    let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
+        all.iter().partition(|group| group.is_failure());
+    for group in &others {
+        brief(group, display, out)?;
+    }
+    if !others.is_empty() {
+        writeln!(out)?;
+    }
+    let most = if display.detail == Detail::Verbose { usize::MAX } else { GROUPS_MAX };
+    if let Some(more) = failed.get(most..).filter(|more| !more.is_empty()) {
+        let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
+        let number = plural(more.len(), "other failure");
+        writeln!(out, "{number} (-v shows all): {}\n", list(names, usize::MAX))?;
+    }
+    for group in failed.into_iter().take(most) {
+        block(report, group, display, out)?;
+        writeln!(out)?;
     }
     Ok(())
+}
+
+/// A group on one line.
+fn brief(group: &Group<'_>, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let Some((case, failure)) = group.example() else { return Ok(()) };
+    let verdict = display.verdict(group.verdict, group.waived);
+    let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
+    let sentence = sentence(failure, RESULT_MAX);
+    writeln!(out, "{verdict}  {clauses}  {}{}: {sentence}", case.id, alike(group))
+}
+
+/// The number of the other checks of a group.
+pub(super) fn alike(group: &Group<'_>) -> String {
+    match group.checks().saturating_sub(1) {
+        0 => String::new(),
+        more => format!(" and {more} alike"),
+    }
+}
+
+/// What was expected and found, of which subject.
+pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
+    let [expected, found] = [&failure.expected, &failure.found].map(|text| shorten(text, most));
+    let subject = failure.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref());
+    let subject = subject.map_or_else(String::new, |subject| format!("{subject}: "));
+    // A field that differs names what is expected in it.
+    if found.ends_with(" is expected") {
+        return format!("{subject}{found}");
+    }
+    let found = if found.is_empty() { "nothing" } else { found.as_str() };
+    format!("{subject}expected {expected}; found {found}")
+}
+
+fn block(
+    report: &Report,
+    group: &Group<'_>,
+    display: Display,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let Some((case, failure)) = group.example() else { return Ok(()) };
+    let verbose = display.detail == Detail::Verbose;
+    let verdict = display.verdict(group.verdict, group.waived);
+    let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
+    let sources = if failure.sources.is_empty() {
+        "in no document: assumed".to_owned()
+    } else {
+        failure.sources.join("; ")
+    };
+    writeln!(out, "{verdict}  {clauses}  {sources}")?;
+    let clause = wrap(&failure.clause, WIDTH);
+    let shown = if verbose { usize::MAX } else { CLAUSE_MAX };
+    clause.iter().take(shown).try_for_each(|line| writeln!(out, "  {line}"))?;
+    if clause.len() > shown {
+        writeln!(out, "  ... (ads-cnc requirements {})", failure.requirement)?;
+    }
+    let most = if verbose { usize::MAX } else { RESULT_MAX };
+    let text = format!("{}: {}", case.id, sentence(failure, most));
+    wrap(&text, WIDTH).iter().try_for_each(|line| writeln!(out, "  {line}"))?;
+    if let Some(evidence) = &failure.evidence {
+        bytes(evidence, display, out)?;
+    }
+    let cases = group.cases();
+    match (group.checks().saturating_sub(1), cases.len()) {
+        (0, _) => {}
+        (more, 1) => writeln!(out, "  {more} alike in this case")?,
+        (more, number) => {
+            let names = list(cases.iter().copied(), if verbose { usize::MAX } else { NAMES_MAX });
+            let text = wrap(&format!("{more} alike in {number} cases: {names}"), WIDTH);
+            text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
+        }
+    }
+    if !group.followers.is_empty() {
+        let names = group.followers.iter().map(|(clause, case)| format!("{case} ({clause})"));
+        let names: Vec<String> = names.collect();
+        let names = list(names.iter().map(String::as_str), if verbose { usize::MAX } else { 8 });
+        let text = wrap(&format!("follows from it: {names}"), WIDTH);
+        text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
+    }
+    if let Some(again) = &report.again {
+        writeln!(out, "  again: {again} --only {} --seed {}", case.id, report.seed)?;
+    }
+    Ok(())
+}
+
+/// The first names of a list, and the number of the others.
+pub(super) fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) -> String {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    let more = names.len().saturating_sub(most);
+    names.truncate(most);
+    let names = names.join(", ");
+    if more > 0 { format!("{names} and {more} more") } else { names }
+}
+
+impl Display {
+    /// The verdict in capitals, coloured by its gravity.
+    fn verdict(self, verdict: Verdict, waived: bool) -> String {
+        let color = match verdict {
+            _ if waived => AnsiColor::Yellow,
+            Verdict::Pass => AnsiColor::Green,
+            verdict if verdict.fails_run() => AnsiColor::Red,
+            _ => AnsiColor::Yellow,
+        };
+        self.paint(color, &worded(verdict, waived).to_uppercase())
+    }
+
+    fn paint(self, color: AnsiColor, text: &str) -> String {
+        if !self.color {
+            return text.to_owned();
+        }
+        let style: Style = color.on_default().bold();
+        format!("{style}{text}{style:#}")
+    }
 }
 
 /// A check that did not pass, and its requirements.
@@ -160,7 +422,8 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
     writeln!(out, "  found     {}", failure.found)?;
     // The clause that it follows from has the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
-        bytes(evidence, out)?;
+        let display = Display { detail: Detail::Verbose, color: false };
+        bytes(evidence, display, out)?;
     }
     if failure.more > 0 {
         writeln!(out, "  and {} more like this in the same case", failure.more)?;
@@ -181,25 +444,49 @@ fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-fn bytes(evidence: &EvidenceReport, out: &mut dyn Write) -> io::Result<()> {
+fn bytes(evidence: &EvidenceReport, display: Display, out: &mut dyn Write) -> io::Result<()> {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;
-    writeln!(out, "  sent      {call}")?;
-    show(sent.as_ref().map(lines), out)?;
+    let show = |lines: Vec<String>, out: &mut dyn Write| {
+        cut(lines, display.detail).iter().try_for_each(|line| {
+            let wrong = line.starts_with('!');
+            let line = if wrong { display.paint(AnsiColor::Red, line) } else { line.clone() };
+            writeln!(out, "    {line}")
+        })
+    };
+    let most = if display.detail == Detail::Verbose { usize::MAX } else { RESULT_MAX };
+    writeln!(out, "  sent      {}", shorten(call, most))?;
+    show(sent.as_ref().map(lines).unwrap_or_default(), out)?;
     if received.is_some() || !frame_sent.is_empty() {
-        writeln!(out, "  received  {result}")?;
+        writeln!(out, "  received  {}", shorten(result, most))?;
     }
     let is_same =
         sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
-    show(received.as_ref().map(if is_same { marked } else { lines }), out)?;
+    let received = received.as_ref().map(if is_same { marked } else { lines });
+    show(received.unwrap_or_default(), out)?;
     let expected = expected.as_ref().map(marked).filter(|lines| !lines.is_empty());
-    if expected.is_some() {
+    if let Some(expected) = expected {
         writeln!(out, "  instead of")?;
+        show(expected, out)?;
     }
-    show(expected, out)
+    Ok(())
 }
 
-fn show(lines: Option<Vec<String>>, out: &mut dyn Write) -> io::Result<()> {
-    lines.unwrap_or_default().iter().try_for_each(|line| writeln!(out, "    {line}"))
+/// In normal detail some of the lines: from a little before the first wrong byte.
+fn cut(mut lines: Vec<String>, detail: Detail) -> Vec<String> {
+    if detail == Detail::Verbose || lines.len() <= BYTES_MAX {
+        return lines;
+    }
+    let wrong = lines.iter().position(|line| line.starts_with('!')).unwrap_or_default();
+    let (before, all) = (wrong.saturating_sub(BEFORE_MARK), lines.len());
+    let mut shown: Vec<String> = lines.drain(before..).take(BYTES_MAX).collect();
+    let after = all.saturating_sub(before).saturating_sub(shown.len());
+    if before > 0 {
+        shown.insert(0, format!("     ... {}", plural(before, "line")));
+    }
+    if after > 0 {
+        shown.push(format!("     ... {}", plural(after, "line")));
+    }
+    shown
 }
 
 fn areas(report: &Report, out: &mut dyn Write) -> io::Result<()> {
@@ -238,18 +525,32 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-fn tail(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
     let Report { checks, frames, left_out, .. } = report;
     let cases = report.cases.len();
     let left_out = if *left_out > 0 { format!(", {left_out} not selected") } else { String::new() };
-    let verdict = if report.exit() == Exit::Success { "PASSED" } else { "NOT PASSED" };
-    let subjects = report.subjects.iter();
-    let totals =
-        subjects.map(|one| format!("{}: {}", one.subject, counts(&one.totals, one.waived)));
     explain(report, out)?;
-    writeln!(out, "{verdict}  {}", totals.collect::<Vec<_>>().join("; "))?;
     let code = report.exit_code;
-    writeln!(out, "{cases} cases{left_out}, {checks} checks, {frames} frames; exit code {code}")
+    writeln!(out, "{cases} cases{left_out}, {checks} checks, {frames} frames; exit code {code}")?;
+    last_line(report, display, out)
+}
+
+fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let (color, verdict) = match report.exit() {
+        Exit::Success => (AnsiColor::Green, "PASSED"),
+        _ => (AnsiColor::Red, "NOT PASSED"),
+    };
+    let totals = report.subjects.iter().map(|one| {
+        let counts = named_counts(&one.totals, one.waived, |verdict| {
+            let all = one.areas.iter().flat_map(|area| &area.requirements);
+            let is_named = verdict.fails_run() && verdict != Verdict::Interrupted;
+            let failed = all.filter(|one| is_named && one.verdict == verdict);
+            list(failed.map(|one| one.requirement.as_str()), NAMES_MAX)
+        });
+        format!("{}: {counts}", one.subject)
+    });
+    let totals = totals.collect::<Vec<_>>().join("; ");
+    writeln!(out, "{}  {totals}", display.paint(color, verdict))
 }
 
 /// Explains the verdicts in the report that are not self-explanatory.
@@ -258,11 +559,11 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         report.subjects.iter().any(|subject| subject.totals.contains_key(&verdict))
     };
     for (verdict, meaning) in [
-        (Verdict::Warning, "known from help pages only, and done otherwise: fails nobody"),
-        (Verdict::Differs, "in no document, assumed, and done otherwise: fails nobody"),
+        (Verdict::Warning, "known from help pages only, and not met; not a failure"),
+        (Verdict::Differs, "undocumented, and not as this project assumes; not a failure"),
         (Verdict::Vacuous, "refused as it should be, but so is what should be accepted: fails"),
         (Verdict::Inconclusive, "the replies do not decide it, or it follows from another failure"),
-        (Verdict::NotObserved, "nothing in this run touches it"),
+        (Verdict::NotObserved, "no case in this run exercises it"),
         (Verdict::Interrupted, "the run was ended before it was done"),
     ] {
         if known(verdict) {
@@ -274,7 +575,15 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 
 /// Verdicts with their counts, in the order of [`Verdict::ALL`].
 pub(super) fn counts(totals: &Totals, waived: usize) -> String {
-    let named = totals.iter().map(|(verdict, number)| format!("{number} {verdict}"));
+    named_counts(totals, waived, |_| String::new())
+}
+
+/// Like [`counts`], with names after those that have some.
+fn named_counts(totals: &Totals, waived: usize, names: impl Fn(Verdict) -> String) -> String {
+    let named = totals.iter().map(|(verdict, number)| match names(*verdict) {
+        names if names.is_empty() => format!("{number} {verdict}"),
+        names => format!("{number} {verdict} ({names})"),
+    });
     let waived = (waived > 0).then(|| format!("{waived} of them waived"));
     named.chain(waived).collect::<Vec<_>>().join(", ")
 }

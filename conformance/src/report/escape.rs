@@ -27,6 +27,7 @@ impl Report {
             profile,
             found,
             waivers,
+            again,
             exit_code: _,
             checks: _,
             frames: _,
@@ -36,7 +37,7 @@ impl Report {
             cases,
         } = &mut self;
         all([suite, vectors, time]);
-        all(editions.iter_mut().chain(only));
+        all(editions.iter_mut().chain(only).chain(again));
         escape_target(target);
         if let Some(ProfileReport { name, claims }) = profile {
             all([name]);
@@ -65,7 +66,7 @@ impl Report {
             all([name, was]);
             all(is.iter_mut().chain(refused));
         }
-        for SubjectReport { subject: _, totals: _, waived: _, areas } in subjects {
+        for SubjectReport { subject: _, totals: _, waived: _, milliseconds: _, areas } in subjects {
             for AreaReport { area, totals: _, requirements } in areas {
                 all([area]);
                 escape_requirements(requirements);
@@ -152,8 +153,17 @@ fn escape_case(case: &mut CaseReport) {
 }
 
 fn escape_evidence(evidence: &mut EvidenceReport) {
-    let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
-        evidence;
+    let EvidenceReport {
+        call,
+        subject,
+        result,
+        sent,
+        received,
+        expected,
+        frame_sent,
+        frame_received,
+    } = evidence;
+    all(subject);
     // In a capture, the lines below are packets.
     *call = escape_lines(call);
     all([result, frame_sent, frame_received]);

@@ -11,9 +11,11 @@ use serde::Serialize;
 use super::FoundReport;
 use super::console::describe;
 use super::model::{ProfileReport, Report};
-use crate::judge::{Exit, Verdict};
+use crate::judge::{Exit, Verdict, about};
+use cause::{CauseView, causes};
 use subject::{SubjectView, areas, subject};
 
+mod cause;
 mod finding;
 mod subject;
 
@@ -37,22 +39,43 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-const fn meaning(exit: Exit) -> &'static str {
-    match exit {
+/// What the verdict of the run means; of a failure the requirements.
+fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
+    let failed: Vec<FailedView> = report
+        .subjects
+        .iter()
+        .flat_map(|subject| {
+            let all = subject.areas.iter().flat_map(|area| &area.requirements);
+            let failed = all.filter(|one| {
+                !one.waived && matches!(one.verdict, Verdict::Fail | Verdict::Vacuous)
+            });
+            let subject = subject.subject.name();
+            failed.map(move |one| FailedView { subject, id: one.requirement.clone() })
+        })
+        .collect();
+    let words = match report.exit() {
         Exit::Success => "Everything judged is in order.",
         Exit::Failure => "Something required is not met.",
         Exit::Usage => "The command line was wrong.",
         Exit::Nothing => {
-            "Nothing was judged, or what came back does not tell, or the run was interrupted."
+            "Nothing was judged, the replies do not decide it, or the run was interrupted."
         }
         Exit::LeftChanged => "A value was changed and could not be restored.",
         Exit::Refused => "Something was refused for safety, so the target was not judged whole.",
         Exit::Stale => "Nothing fails, but a waiver no longer holds.",
         Exit::Internal => "The suite itself failed.",
-    }
+    };
+    (words, failed)
 }
 
-fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
+/// A requirement that fails.
+#[derive(Serialize)]
+struct FailedView {
+    subject: &'static str,
+    id: String,
+}
+
+pub(super) fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
     let word = |value: &serde_json::Value| match value {
         serde_json::Value::Null => "not given".to_owned(),
         serde_json::Value::String(text) => text.clone(),
@@ -65,7 +88,9 @@ fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
         }
         other => other.to_string(),
     };
-    profile.claims.iter().map(|(name, value)| (name.replace('_', " "), word(value))).collect()
+    let claims = profile.claims.iter();
+    let claims = claims.map(|(name, value)| (name.replace('_', " "), word(value)));
+    claims.filter(|(_, claim)| !claim.is_empty()).collect()
 }
 
 #[derive(Serialize)]
@@ -77,6 +102,10 @@ struct ReportView<'r> {
     cases: usize,
     passed: bool,
     meaning: &'static str,
+    failed: Vec<FailedView>,
+    causes: Vec<CauseView>,
+    /// Whether the seed has ordered the cases: a capture has no order.
+    is_ordered: bool,
     target: String,
     device: Option<String>,
     claims: Option<Vec<(String, String)>>,
@@ -84,7 +113,7 @@ struct ReportView<'r> {
     sampled: Option<String>,
     left_changed: Vec<String>,
     verdicts: Vec<Verdict>,
-    areas: BTreeSet<&'r str>,
+    areas: BTreeSet<(&'r str, &'static str)>,
     subjects: Vec<SubjectView>,
     waivers: Vec<(&'static str, bool)>,
     stale: usize,
@@ -94,6 +123,7 @@ impl<'r> ReportView<'r> {
     fn new(report: &'r Report) -> Self {
         let cases = &report.cases;
         let occurs = |verdict: &Verdict| cases.iter().any(|case| case.verdict == *verdict);
+        let (meaning, failed) = meaning(report);
         let states = report.waivers.iter().map(|one| (one.state.name(), one.state.is_stale()));
         Self {
             style: STYLE,
@@ -101,7 +131,10 @@ impl<'r> ReportView<'r> {
             report: Report { cases: Vec::new(), subjects: Vec::new(), ..report.clone() },
             cases: cases.len(),
             passed: report.exit() == Exit::Success,
-            meaning: meaning(report.exit()),
+            meaning,
+            failed,
+            causes: causes(report),
+            is_ordered: report.target.file.is_none(),
             target: describe(&report.target),
             device: report.target.device.as_ref().map(ToString::to_string),
             claims: report.profile.as_ref().map(claims),
@@ -109,7 +142,7 @@ impl<'r> ReportView<'r> {
             sampled: report.found.as_ref().and_then(FoundReport::sampled),
             left_changed: report.left_changed.iter().map(ToString::to_string).collect(),
             verdicts: Verdict::ALL.into_iter().filter(occurs).collect(),
-            areas: cases.iter().flat_map(areas).collect(),
+            areas: cases.iter().flat_map(areas).map(|area| (area, about(area))).collect(),
             subjects: report.subjects.iter().map(|one| subject(report, one.subject)).collect(),
             stale: report.waivers.iter().filter(|one| one.state.is_stale()).count(),
             waivers: states.collect(),

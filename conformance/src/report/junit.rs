@@ -40,7 +40,8 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         end(&mut xml, "testsuite")?;
     }
     for subject in &report.subjects {
-        let cases = || report.cases.iter().filter(|case| case.subject == subject.subject);
+        let sorted = report.sorted();
+        let cases = || sorted.iter().copied().filter(|case| case.subject == subject.subject);
         let tests = cases().fold(Tests::default(), |tests, case| of_case(&tests, case));
         begin_suite(&mut xml, report, subject.subject.name(), tests)?;
         cases().try_for_each(|one| case(&mut xml, report, one))?;

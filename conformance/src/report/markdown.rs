@@ -47,7 +47,10 @@ fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         for area in &subject.areas {
             let waived = area.requirements.iter().filter(|one| one.waived).count();
             let quiet = |verdict: Verdict| {
-                let unseen = matches!(verdict, Verdict::NotRun | Verdict::NotObserved);
+                let unseen = matches!(
+                    verdict,
+                    Verdict::NotRun | Verdict::NotObserved | Verdict::NotApplicable
+                );
                 !unseen && !matches!(verdict, Verdict::Pass | Verdict::Interrupted)
             };
             let named = area.requirements.iter().filter(|one| quiet(one.verdict));
@@ -65,7 +68,8 @@ fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let failed: Vec<_> = report.cases.iter().filter(|case| !case.failures.is_empty()).collect();
+    let failed: Vec<_> =
+        report.sorted().into_iter().filter(|case| !case.failures.is_empty()).collect();
     if failed.is_empty() {
         return Ok(());
     }
@@ -114,7 +118,7 @@ fn html(text: &str) -> String {
 }
 
 /// Escapes Markdown.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

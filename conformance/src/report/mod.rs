@@ -3,15 +3,18 @@
 mod badge;
 mod build;
 mod bytes;
+mod compare;
 mod console;
 mod device;
 mod escape;
 mod found;
+mod groups;
 mod html;
 mod junit;
 pub(crate) mod lines;
 mod markdown;
 mod model;
+mod statement;
 
 use std::io::{self, Write};
 
@@ -20,7 +23,8 @@ use crate::text::json;
 pub use badge::to_badge;
 pub use build::About;
 pub use bytes::{BytesReport, FieldReport};
-pub use console::print;
+pub use compare::compare;
+pub use console::{Detail, Display, print};
 pub use device::DeviceReport;
 pub use found::{FoundChannel, FoundList, FoundReport};
 pub use html::to_html;
@@ -30,6 +34,8 @@ pub use model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals,
 };
+
+pub use statement::{to_statement, to_statement_html};
 
 pub fn to_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     json::write(report, out)

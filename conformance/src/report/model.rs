@@ -42,6 +42,9 @@ pub struct Report {
     pub found: Option<FoundReport>,
     /// Waivers and their states.
     pub waivers: Vec<WaiverReport>,
+    /// The command that runs the same again, without a selection and without reports.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub again: Option<String>,
     /// The exit code this run ends with.
     pub exit_code: u8,
     pub checks: usize,
@@ -101,6 +104,9 @@ pub struct SubjectReport {
     pub totals: Totals,
     /// How many of them are waived.
     pub waived: usize,
+    /// How long its cases took.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub milliseconds: Option<u64>,
     /// By area.
     pub areas: Vec<AreaReport>,
 }
@@ -187,6 +193,9 @@ pub struct FailureReport {
 pub struct EvidenceReport {
     /// Address and service of the request.
     pub call: String,
+    /// The variable or object that it is about.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
     /// The result in a few words.
     pub result: String,
     /// Data of the request.

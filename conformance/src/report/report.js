@@ -5,6 +5,7 @@
   const groups = [...document.querySelectorAll("details.group")].map((group) => ({
     group,
     open: group.open,
+    rest: group.querySelector("details.rest"),
     cases: [...group.querySelectorAll(".case")].map((element) => ({
       element,
       verdicts: element.dataset.verdict.split(" "),
@@ -21,7 +22,7 @@
     const active = words.length + verdicts.length + areas.length > 0;
     let shown = 0;
     let all = 0;
-    for (const { group, open, cases } of groups) {
+    for (const { group, open, rest, cases } of groups) {
       let here = 0;
       for (const one of cases) {
         if (words.length > 0 && one.text === null) {
@@ -36,15 +37,63 @@
       all += cases.length;
       group.hidden = here === 0;
       group.open = active ? here > 0 : open;
+      if (rest) {
+        rest.open = active;
+        rest.hidden = active && !rest.querySelector(".case:not([hidden])");
+      }
     }
     for (const subject of document.querySelectorAll(".subject")) {
       subject.hidden = !subject.querySelector(".group:not([hidden])");
     }
     output.textContent = active ? `${shown} of ${all} cases` : `${all} cases`;
   };
-  form.addEventListener("input", filter);
-  form.addEventListener("reset", () => setTimeout(filter));
+  // The filter is in the address, so that a view can be sent around.
+  const remember = () => {
+    const wanted = new URLSearchParams();
+    for (const [name, value] of new FormData(form)) {
+      if (value) {
+        wanted.append(name, value);
+      }
+    }
+    const hash = wanted.toString();
+    history.replaceState(null, "", hash ? `#${hash}` : location.pathname + location.search);
+  };
+  const follow = () => {
+    const hash = location.hash.slice(1);
+    if (hash.includes("=")) {
+      const wanted = new URLSearchParams(hash);
+      form.elements.text.value = wanted.get("text") ?? "";
+      for (const box of form.querySelectorAll("[type=checkbox]")) {
+        box.checked = wanted.getAll(box.name).includes(box.value);
+      }
+      filter();
+      form.scrollIntoView();
+      return;
+    }
+    const target = hash && document.getElementById(decodeURIComponent(hash));
+    if (!target) {
+      return;
+    }
+    if (target.closest("[hidden]")) {
+      form.reset();
+      filter();
+    }
+    for (let part = target.parentElement; part; part = part.parentElement) {
+      if (part.tagName === "DETAILS") {
+        part.open = true;
+      }
+    }
+    target.scrollIntoView();
+  };
+  const changed = () => {
+    filter();
+    remember();
+  };
+  form.addEventListener("input", changed);
+  form.addEventListener("reset", () => setTimeout(changed));
+  window.addEventListener("hashchange", follow);
   form.addEventListener("submit", (event) => event.preventDefault());
   form.hidden = false;
   filter();
+  follow();
 })();

@@ -17,7 +17,7 @@ use super::{printed, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, attribute, caught};
-use crate::process::interrupt;
+use crate::process::{interrupt, progress};
 use crate::testee::{self, Terms};
 
 /// The function of each case that has one.
@@ -41,9 +41,14 @@ pub fn run(
         let terms = Terms { seed, subject: CaseSubject::Codec, edition: None, strict: true };
         outcomes = testee::judge(&mut own, of_codec, terms).outcomes;
     }
+    if !of_target.is_empty() {
+        progress::begin(of_target.len());
+    }
     outcomes.extend(of_target.into_iter().map(|case| {
         let run = TRIES.get(case.id.as_str()).copied();
-        one(case, run, target.as_deref_mut())
+        let outcome = one(case, run, target.as_deref_mut());
+        progress::step(outcome.verdict().fails_run());
+        outcome
     }));
     if let Some(target) = target.as_deref_mut() {
         outcomes.extend(broken_frames(target));

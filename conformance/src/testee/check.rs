@@ -86,23 +86,11 @@ impl Steps<'_> {
     }
 
     fn capabilities(&mut self, capabilities: &Capabilities) {
-        let known = ["decode", "encode", "packets", "check"];
-        let strange = capabilities.ops.iter().find(|op| !known.contains(&op.as_str()));
-        let fault = match strange {
+        let fault = match capabilities.misspelt() {
             _ if capabilities.ops.is_empty() => Some("no op is claimed".to_owned()),
-            Some(op) => Some(format!("{op} is not an op; ops: {}", known.join(", "))),
-            None => None,
+            misspelt => misspelt,
         };
-        self.note("ops are those of the protocol", fault);
-        let vectors = ads_cnc_vectors::vectors();
-        let is_known = |name: &str| {
-            name.starts_with("nc-") || vectors.iter().any(|vector| vector.stream == name)
-        };
-        let strange = capabilities.streams.iter().find(|name| !is_known(name));
-        let fault = strange.map(|name| {
-            format!("no vector has the stream {name}; spec-vectors/README.md lists all")
-        });
-        self.note("streams are those of the vectors", fault);
+        self.note("ops and streams are those of the protocol", fault);
     }
 
     fn ask(&mut self, question: &Question) -> Result<Output, TesteeReaction> {

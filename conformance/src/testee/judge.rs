@@ -8,8 +8,8 @@ use super::protocol_rules::ProtocolRules;
 use super::verdicts::{Reactions, Terms, Verdicts};
 use super::{Testee, TesteeReaction};
 use crate::codec::message::{Answer, TesteeHello};
-use crate::judge::{Case, CaseOutcome, CaseSubject, Stop, Verdict, caught};
-use crate::process::interrupt;
+use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Stop, Verdict, caught};
+use crate::process::{interrupt, progress};
 
 /// Maximum number of consecutive crashes or missing answers; after them no more questions are
 /// asked.
@@ -68,7 +68,10 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
     let mut kept = 0_usize;
     let mut panicked = HashMap::new();
-    for PlannedQuestion { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
+    let planned = plan(&cases, capabilities, &edition, terms.seed);
+    progress::begin(planned.len());
+    for PlannedQuestion { purpose, question } in planned {
+        progress::step(false);
         if let Some(why) = testee.over() {
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
@@ -162,7 +165,7 @@ fn without_hello(
     subject: CaseSubject,
 ) -> JudgedTestee {
     let mut protocol = ProtocolRules::default();
-    protocol.fault("an answer to hello", describe(reaction), None);
+    protocol.fault(HELLO, describe(reaction), None);
     let untried =
         |case| CaseOutcome::untried(case, Verdict::NotRun, "there was no answer to hello");
     let mut outcomes: Vec<CaseOutcome> = cases.into_iter().map(untried).collect();

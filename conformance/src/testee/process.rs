@@ -118,7 +118,10 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
         TesteeReaction::Garbled(format!("{error} in the answer to hello: {}", cut(line)))
     })?;
     match hello.protocol {
-        PROTOCOL => Ok(hello),
+        PROTOCOL => match hello.capabilities.misspelt() {
+            None => Ok(hello),
+            Some(why) => Err(TesteeReaction::Garbled(why)),
+        },
         other => {
             Err(TesteeReaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}")))
         }

@@ -5,15 +5,37 @@ mod escape;
 pub mod hex;
 pub(crate) mod json;
 mod moment;
+mod nearest;
 
 pub(crate) use duration::{duration, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
+pub(crate) use nearest::{did_you_mean, nearest};
 
 /// A text, or its first `most` characters with an ellipsis.
 pub(crate) fn shorten(text: &str, most: usize) -> String {
     let shown: String = text.chars().take(most).collect();
     if shown.len() < text.len() { shown + "…" } else { shown }
+}
+
+/// A number and its noun, with an s unless it is one.
+pub(crate) fn plural(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// The lines of a text, broken at spaces. A longer word has a line of its own.
+pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().chain(word.chars()).count() < width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 /// Declares the variants of an enum in this order, and their names.

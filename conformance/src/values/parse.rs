@@ -13,7 +13,7 @@ use super::Type;
 pub struct InvalidValue(String);
 
 /// Parses a value: a number, decimal or with 0x, `TRUE` or `FALSE`, or a text; for an array all
-/// elements separated by commas, the last index running fastest. In an array of texts one with a
+/// elements separated by commas or blanks, also in brackets, the last index running fastest. In an array of texts one with a
 /// comma is quoted, with quotes in it doubled.
 ///
 /// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
@@ -139,7 +139,16 @@ fn items<T: Scalar>(
     text: &str,
     one: impl Fn(&str) -> Result<T, InvalidValue>,
 ) -> Result<Vec<u8>, InvalidValue> {
-    let items: Vec<T> = text.split(',').map(|item| one(item.trim())).collect::<Result<_, _>>()?;
+    // As people type arrays: in brackets, and with blanks alone between the elements.
+    let text = text.trim();
+    let inner = text.strip_prefix('[').and_then(|text| text.strip_suffix(']')).unwrap_or(text);
+    let items: Vec<&str> = if inner.contains(',') {
+        inner.split(',').map(str::trim).collect()
+    } else {
+        inner.split_whitespace().collect()
+    };
+    let items = if items.is_empty() { vec![inner] } else { items };
+    let items: Vec<T> = items.into_iter().map(one).collect::<Result<_, _>>()?;
     counted(ty, items.len())?;
     items.as_slice().value_to_vec().map_err(|error| InvalidValue(error.to_string()))
 }

@@ -1,15 +1,19 @@
 //! The suite against a device, or against the simulated CNC.
 
 use std::path::Path;
+use std::time::Instant;
 
 use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
 use crate::cli::message::print_error;
+use crate::cli::progress::Watch;
 use crate::cli::report_output::show;
 use crate::cli::run_dry;
 use crate::faults::{Faulty, Seed};
-use crate::judge::{Case, CaseOutcome, Needs, Plan, RequirementVerdict, Verdict, Waivers};
+use crate::judge::{
+    Case, CaseOutcome, CaseSubject, Needs, Plan, RequirementVerdict, Verdict, Waivers,
+};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
@@ -64,6 +68,20 @@ impl Run {
         self.judge(plan, session, None, about)
     }
 
+    /// A profile with what the device answers.
+    pub(super) fn profile_of_device(&self) -> Result<String, ToolError> {
+        let deadline = self.deadline.begin();
+        let mut session = self.target.open()?.with_deadline(deadline);
+        session.check_reachable(&Profile::DEVICE)?;
+        let (client, _) = session.into_parts();
+        let mut state = TargetState::new(client, Profile::DEVICE).with_deadline(deadline);
+        let discovery = suite::discover(&mut state, ClaimsBy::Queries);
+        if let Some(why) = discovery.found.stopped {
+            print_error(format_args!("the profile is not complete: {why}"));
+        }
+        Ok(state.profile.filled())
+    }
+
     /// Starts the simulated CNC, runs everything against it and stops it.
     pub(super) fn simulated(
         &self,
@@ -108,7 +126,21 @@ impl Run {
         if let Err(why) = &usable {
             print_error(format_args!("nothing is written: {why}"));
         }
-        let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
+        let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
+            plan.cases.iter().cloned().partition(|case| case.needs == Needs::Codec);
+        let mut times = Vec::new();
+        let mut outcomes = Vec::new();
+        {
+            let _watch = Watch::start("cases");
+            for (subject, cases) in
+                [(CaseSubject::Codec, of_codec), (CaseSubject::Target, of_target)]
+            {
+                let begin = Instant::now();
+                let target = (subject == CaseSubject::Target).then_some(&mut session);
+                outcomes.extend(suite::run(cases, target, defect, about.seed));
+                times.push((subject, begin.elapsed()));
+            }
+        }
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
         let is_whole = outcomes.iter().all(|one| one.verdict() != Verdict::Interrupted);
         if allow && usable.is_ok() && is_whole && !outcomes.iter().any(has_written) {
@@ -119,7 +151,7 @@ impl Run {
         let (outcomes, left_out) = plan.finish(outcomes);
         let left_changed = session.changes().left();
         let (frames, profile) = (session.frames, Some(session.profile));
-        let about = About { frames, profile, left_changed, ..about };
+        let about = About { frames, profile, times, left_changed, ..about };
         Ok(Report::new(about, &outcomes, &left_out))
     }
 

@@ -33,8 +33,7 @@ use response::ServiceResponse;
 /// Maximum number of consecutive failed writes.
 const FAILED_WRITES_MAX: u32 = 5;
 
-/// Answers the requests of NC programs, as a service of the Service Interface: a command is run for
-/// each.
+/// Answer requests of NC programs by a command (Service Interface)
 ///
 /// The command gets the request on stdin; what it writes to stdout is the response, and its exit
 /// code the response state.
@@ -111,8 +110,10 @@ Exit codes: 0 ended by a signal, --once or --answers; 1 the CNC refuses; 2 wrong
 connection, or lost; 4 refused for safety; 70 internal error.";
 
 fn uuid(text: &str) -> Result<ServiceId, String> {
-    ServiceId::new(text)
-        .map_err(|error| format!("{error}: 8, 4, 4, 4 and 12 hex digits are needed"))
+    ServiceId::new(text).map_err(|_| {
+        "8, 4, 4, 4 and 12 hex digits are needed, as 560AACBF-6335-44A9-895A-8B27F3ED5E47"
+            .to_owned()
+    })
 }
 
 impl ServiceArguments {

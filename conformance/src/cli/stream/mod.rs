@@ -34,7 +34,7 @@ use send::{Retry, SendEnd, Sending};
 
 const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 
-/// Sends an NC program to the program stream of a channel. This moves the machine.
+/// Stream an NC program to a channel: this moves the machine
 ///
 /// The whole text is checked first; then it is sent in packets of whole lines while the CNC runs
 /// what it has. A packet that the CNC cannot take for now is sent again.

@@ -95,20 +95,7 @@ pub fn walk(
     options: &Options,
     watch: &mut dyn FnMut(WalkProgress),
 ) -> Result<WalkResult, ToolError> {
-    let found = WalkResult::default();
-    let (list, instances, alike, task) = (None, Vec::new(), HashMap::new(), Task::Sda);
-    let mut walk = Walk {
-        session,
-        options,
-        watch,
-        found,
-        list,
-        names: 0,
-        instances,
-        alike,
-        task,
-        geo: Ok(()),
-    };
+    let mut walk = Walk::new(session, options, watch);
     match walk.all() {
         Ok(()) => {}
         Err(ToolError::Enough(why)) => {
@@ -118,6 +105,11 @@ pub fn walk(
         Err(error) => return Err(error),
     }
     Ok(walk.found)
+}
+
+/// The channels that the CNC has.
+pub(crate) fn channels_of(session: &mut Session) -> Result<Vec<Channel>, ToolError> {
+    Walk::new(session, &Options::default(), &mut |_| {}).channels()
 }
 
 struct Walk<'w> {
@@ -149,7 +141,17 @@ struct Attributes {
     access: ReportedAccess,
 }
 
-impl Walk<'_> {
+impl<'w> Walk<'w> {
+    fn new(
+        session: &'w mut Session,
+        options: &'w Options,
+        watch: &'w mut dyn FnMut(WalkProgress),
+    ) -> Self {
+        let (found, instances, alike) = (WalkResult::default(), Vec::new(), HashMap::new());
+        let (list, names, task, geo) = (None, 0, Task::Sda, Ok(()));
+        Self { session, options, watch, found, list, names, instances, alike, task, geo }
+    }
+
     fn all(&mut self) -> Result<(), ToolError> {
         let channels = self.channels()?;
         if self.options.variables {

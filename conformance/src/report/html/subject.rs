@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::finding::{FindingView, finding};
-use crate::judge::{CaseSubject, Verdict};
+use crate::judge::{CaseSubject, Verdict, about};
 use crate::report::console::{counts, heading, worded};
 use crate::report::model::{CaseReport, Report};
 
@@ -21,6 +21,7 @@ pub(super) struct SubjectView {
 #[derive(Serialize)]
 struct AreaView {
     area: String,
+    about: &'static str,
     counts: Vec<Chip>,
     total: usize,
     requirements: Vec<RequirementView>,
@@ -32,6 +33,26 @@ struct RequirementView {
     title: String,
     verdict: Verdict,
     waived: bool,
+    /// Its cases, the gravest first.
+    cases: Vec<String>,
+    /// Number of its other cases.
+    more: usize,
+}
+
+/// Maximum number of cases that a requirement links to.
+const LINKED_MAX: usize = 8;
+
+/// The cases of a requirement, the gravest first, and the number of those left out.
+fn linked(report: &Report, who: CaseSubject, id: &str) -> (Vec<String>, usize) {
+    let verdict = |case: &CaseReport| {
+        let mut mine = case.requirements.iter().filter(|one| one.requirement == id);
+        mine.next().map(|one| std::cmp::Reverse(one.verdict.gravity()))
+    };
+    let mine = report.cases.iter().filter(|case| case.subject == who);
+    let mut cases: Vec<_> = mine.filter_map(|case| Some((verdict(case)?, &case.id))).collect();
+    cases.sort();
+    let more = cases.len().saturating_sub(LINKED_MAX);
+    (cases.into_iter().take(LINKED_MAX).map(|(_, id)| id.clone()).collect(), more)
 }
 
 /// A group of cases: the vectors of a stream, or the cases of an area.
@@ -41,7 +62,10 @@ struct GroupView {
     counts: Vec<Chip>,
     /// Whether it is collapsed at first.
     folded: bool,
+    /// The cases that did not pass, or all of a group of which all passed.
     cases: Vec<CaseView>,
+    /// The others.
+    rest: Vec<CaseView>,
 }
 
 #[derive(Serialize)]
@@ -72,19 +96,25 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
         listed.extend(subject.areas.iter().map(|area| {
             AreaView {
                 area: area.area.clone(),
+                about: about(&area.area),
                 counts: chips(area.requirements.iter().map(|one| (one.verdict, one.waived))),
                 total: area.requirements.len(),
                 requirements: area
                     .requirements
                     .iter()
-                    .map(|one| RequirementView {
-                        id: one.requirement.clone(),
-                        title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
-                            || "The protocol with the suite".to_owned(),
-                            |requirement| requirement.title.clone(),
-                        ),
-                        verdict: one.verdict,
-                        waived: one.waived,
+                    .map(|one| {
+                        let (cases, more) = linked(report, who, &one.requirement);
+                        RequirementView {
+                            id: one.requirement.clone(),
+                            title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
+                                || "The protocol with the suite".to_owned(),
+                                |requirement| requirement.title.clone(),
+                            ),
+                            verdict: one.verdict,
+                            waived: one.waived,
+                            cases,
+                            more,
+                        }
                     })
                     .collect(),
             }
@@ -112,8 +142,11 @@ fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
     });
     let counts = chips(cases.iter().map(|case| (case.verdict, case.waived)));
     let folded = cases.iter().all(|case| case.waived || !case.verdict.fails_run());
-    let cases = cases.into_iter().map(case).collect();
-    GroupView { title, counts, folded, cases }
+    let fails =
+        |case: &&CaseReport| folded || !case.failures.is_empty() || case.verdict.fails_run();
+    let (cases, rest): (Vec<&CaseReport>, Vec<&CaseReport>) = cases.into_iter().partition(fails);
+    let [cases, rest] = [cases, rest].map(|cases| cases.into_iter().map(case).collect());
+    GroupView { title, counts, folded, cases, rest }
 }
 
 /// CSS class and text of a count.

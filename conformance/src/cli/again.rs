@@ -1,0 +1,60 @@
+//! The command line that runs the same again.
+
+/// Options that select, order or report, with a value.
+const LEFT_OUT: [&str; 11] = [
+    "--seed",
+    "--only",
+    "--json",
+    "--html",
+    "--junit",
+    "--markdown",
+    "--badge",
+    "--color",
+    "--log",
+    "--capture",
+    "--waivers",
+];
+/// Such options without a value.
+const FLAGS_LEFT_OUT: [&str; 4] = ["-v", "--verbose", "-q", "--quiet"];
+
+/// The command line of these arguments, without what selects, orders or reports.
+pub(super) fn again(arguments: impl IntoIterator<Item = String>) -> String {
+    let mut words = vec!["ads-cnc".to_owned(), "run".to_owned()];
+    let mut arguments = arguments.into_iter();
+    while let Some(word) = arguments.next() {
+        let name = word.split('=').next().unwrap_or_default();
+        if LEFT_OUT.contains(&name) {
+            if name == word {
+                arguments.next();
+            }
+        } else if !FLAGS_LEFT_OUT.contains(&word.as_str()) && word != "run" {
+            words.push(quoted(&word));
+        }
+    }
+    words.join(" ")
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,@%+".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_and_selection_are_left_out() {
+        let line = |text: &str| again(text.split(' ').map(str::to_owned));
+        assert_eq!(
+            line("run --target 192.0.2.1 --seed 7 --json=r.json -v --only VAR --edition de-1.051"),
+            "ads-cnc run --target 192.0.2.1 --edition de-1.051"
+        );
+        let command = ["run", "--testee", "python3 it's.py"].map(str::to_owned);
+        assert_eq!(again(command), "ads-cnc run --testee 'python3 it'\\''s.py'");
+    }
+}

@@ -1,0 +1,56 @@
+//! How results are shown: colour, and how much.
+
+use std::io::{self, IsTerminal as _};
+
+use clap::{Args, ValueEnum};
+
+use crate::report::{Detail, Display};
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+impl Color {
+    pub(super) fn is_on(self) -> bool {
+        let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        // Older consoles of Windows print escape sequences as text; newer ones and emulators set a
+        // variable.
+        let takes = !cfg!(windows) || ["WT_SESSION", "ANSICON", "TERM"].into_iter().any(set);
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => takes && !dumb && !set("NO_COLOR") && io::stdout().is_terminal(),
+        }
+    }
+}
+
+/// Options for the result on the console.
+#[derive(Args, Clone, Copy, Debug)]
+pub(super) struct DisplayArgs {
+    /// Show every case and every requirement
+    #[arg(long, short)]
+    verbose: bool,
+
+    /// Show the last line only
+    #[arg(long, short, conflicts_with = "verbose")]
+    quiet: bool,
+
+    /// When to colour: on a terminal, unless NO_COLOR is set
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    color: Color,
+}
+
+impl DisplayArgs {
+    pub(super) fn display(self) -> Display {
+        let detail = match (self.quiet, self.verbose) {
+            (true, _) => Detail::Quiet,
+            (_, true) => Detail::Verbose,
+            _ => Detail::Normal,
+        };
+        Display { detail, color: self.color.is_on() }
+    }
+}

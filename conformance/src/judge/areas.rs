@@ -1,0 +1,33 @@
+//! The areas of requirements.
+
+/// Each area and what it is about.
+const AREAS: [(&str, &str); 10] = [
+    ("GEN", "bytes, texts, tasks"),
+    ("ADR", "index groups and offsets"),
+    ("COM", "objects of the COM task"),
+    ("SDA", "elements of SDA and GEO"),
+    ("DYN", "P, V.L, V.P, V.S by index"),
+    ("VAR", "V. variables"),
+    ("ADS", "services and headers"),
+    ("STM", "data streaming"),
+    ("SVC", "Service Interface"),
+    ("OBJ", "lists of objects"),
+];
+
+/// What an area of requirements, or a protocol, is about.
+pub fn about(area: &str) -> &'static str {
+    let found = AREAS.iter().find(|(name, _)| *name == area);
+    found.map_or("the protocol with the suite", |(_, about)| about)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn areas_are_those_of_the_catalogue() {
+        for one in ads_cnc_vectors::requirements() {
+            assert!(AREAS.iter().any(|(area, _)| *area == one.area), "{}", one.area);
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Groups of checks that did not pass: each clause once, with what follows from it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::model::{CaseReport, FailureReport, Report};
+use crate::judge::{CaseSubject, Verdict};
+
+/// Checks that did not pass for the same clause, or in the same field of vectors of one stream.
+#[derive(Debug)]
+pub(super) struct Group<'r> {
+    pub(super) verdict: Verdict,
+    pub(super) waived: bool,
+    /// The clauses, the one with most checks first.
+    pub(super) requirements: Vec<&'r str>,
+    /// Each check in its case, with one of the clauses.
+    checks: Vec<(&'r CaseReport, &'r FailureReport)>,
+    /// The clauses and cases that are inconclusive because of these failures.
+    pub(super) followers: BTreeSet<(&'r str, &'r str)>,
+}
+
+impl Report {
+    /// The cases by subject, stream, requirement and ID: the same order for every seed.
+    pub(super) fn sorted(&self) -> Vec<&CaseReport> {
+        let place = self.places();
+        let mut all: Vec<&CaseReport> = self.cases.iter().collect();
+        all.sort_by_cached_key(|case| {
+            let first = case.requirements.first().map(|one| one.requirement.as_str());
+            let place = first.and_then(|id| place.get(id).copied()).unwrap_or(usize::MAX);
+            (case.subject, case.stream.clone(), place, case.id.clone())
+        });
+        all
+    }
+
+    /// The position of each requirement in the catalogue.
+    fn places(&self) -> BTreeMap<&str, usize> {
+        let all = self.subjects.iter().flat_map(|one| &one.areas);
+        let all = all.flat_map(|area| &area.requirements).enumerate();
+        all.map(|(place, one)| (one.requirement.as_str(), place)).collect()
+    }
+}
+
+/// The groups, the gravest last, otherwise by requirement.
+pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
+    let places = report.places();
+    let place = |id: &str| places.get(id).copied().unwrap_or(usize::MAX);
+    let mut all: BTreeMap<GroupKey<'_>, Group<'_>> = BTreeMap::new();
+    let mut followers = Vec::new();
+    for case in report.sorted() {
+        for finding in case.findings() {
+            let Some(first) = finding.first() else { continue };
+            if let Some(cause) = &first.follows {
+                followers.extend(finding.iter().map(|one| (cause.as_str(), *one, case)));
+                continue;
+            }
+            let key = GroupKey {
+                gravity: first.verdict.gravity(),
+                waived: !first.waived,
+                subject: case.subject,
+                place: if case.stream.is_some() { 0 } else { place(&first.requirement) },
+                stream: case.stream.as_deref(),
+                field: case.stream.as_ref().map(|_| field(first)),
+            };
+            let group = all.entry(key).or_insert_with(|| Group {
+                verdict: first.verdict,
+                waived: first.waived,
+                requirements: Vec::new(),
+                checks: Vec::new(),
+                followers: BTreeSet::new(),
+            });
+            group.requirements.extend(finding.iter().map(|one| one.requirement.as_str()));
+            group.checks.push((case, *first));
+        }
+    }
+    let mut all: Vec<Group<'_>> = all.into_values().collect();
+    for group in &mut all {
+        let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+        for clause in &group.requirements {
+            *numbers.entry(clause).or_default() += 1;
+        }
+        let mut sorted: Vec<(&str, usize)> = numbers.into_iter().collect();
+        sorted.sort_by_key(|(clause, number)| (std::cmp::Reverse(*number), place(clause)));
+        group.requirements = sorted.into_iter().map(|(clause, _)| clause).collect();
+    }
+    for (cause, failure, case) in followers {
+        let group = all.iter_mut().filter(|group| group.is_failure());
+        let group = group.filter(|group| group.subject() == Some(case.subject));
+        let mut group = group.filter(|group| group.requirements.contains(&cause));
+        if let Some(group) = group.next() {
+            group.followers.insert((failure.requirement.as_str(), case.id.as_str()));
+        }
+    }
+    all
+}
+
+/// What the checks of a group have in common, in the order of the groups.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct GroupKey<'r> {
+    gravity: u8,
+    waived: bool,
+    subject: CaseSubject,
+    place: usize,
+    stream: Option<&'r str>,
+    field: Option<&'r str>,
+}
+
+/// The field that differs first, or the kind of the difference.
+fn field(failure: &FailureReport) -> &str {
+    let received = failure.evidence.as_ref().and_then(|evidence| evidence.received.as_ref());
+    let differs = received.and_then(|bytes| {
+        let mut fields = bytes.fields.iter();
+        fields.find(|field| !field.differs.is_empty()).map(|field| field.field.as_str())
+    });
+    let kind = || failure.found.split(':').next().unwrap_or_default();
+    differs.unwrap_or_else(kind)
+}
+
+impl<'r> Group<'r> {
+    /// Whether the run fails because of it.
+    pub(super) const fn is_failure(&self) -> bool {
+        let fails = matches!(self.verdict, Verdict::Fail | Verdict::Vacuous);
+        (fails || matches!(self.verdict, Verdict::HarnessError)) && !self.waived
+    }
+
+    /// The clause with most checks.
+    pub(super) fn requirement(&self) -> &'r str {
+        self.requirements.first().copied().unwrap_or_default()
+    }
+
+    /// The subject of its cases.
+    pub(super) fn subject(&self) -> Option<CaseSubject> {
+        self.checks.first().map(|(case, _)| case.subject)
+    }
+
+    /// The number of checks.
+    pub(super) fn checks(&self) -> usize {
+        self.checks.iter().map(|(_, failure)| failure.more.saturating_add(1)).sum()
+    }
+
+    /// The cases, each once.
+    pub(super) fn cases(&self) -> Vec<&'r str> {
+        let mut cases: Vec<&str> = self.checks.iter().map(|(case, _)| case.id.as_str()).collect();
+        cases.dedup();
+        cases
+    }
+
+    /// The simplest check: that with the shortest texts and the fewest bytes.
+    pub(super) fn example(&self) -> Option<(&'r CaseReport, &'r FailureReport)> {
+        let size = |failure: &FailureReport| {
+            let evidence = failure.evidence.as_ref();
+            let parts = evidence.map(|one| [&one.sent, &one.received].map(Option::as_ref));
+            let bytes: usize =
+                parts.into_iter().flatten().flatten().map(|bytes| bytes.length).sum();
+            failure.expected.len().saturating_add(failure.found.len()).saturating_add(bytes)
+        };
+        let of_clause = |failure: &FailureReport| failure.requirement == self.requirement();
+        let simplest = self.checks.iter().min_by_key(|(case, failure)| {
+            let is_vector = case.stream.is_some();
+            // The first check of a case is the nearest to the cause.
+            (!of_clause(failure), if is_vector { size(failure) } else { 0 })
+        });
+        simplest.copied()
+    }
+}

@@ -1,0 +1,63 @@
+//! What fails, each cause once, with what follows from it.
+
+use serde::Serialize;
+
+use crate::judge::Verdict;
+use crate::report::console::{alike, sentence, worded};
+use crate::report::groups::{Group, groups};
+use crate::report::model::Report;
+
+/// Maximum number of characters of an expected and of an actual result.
+const RESULT_MAX: usize = 300;
+
+#[derive(Serialize)]
+pub(super) struct CauseView {
+    verdict: Verdict,
+    word: String,
+    subject: &'static str,
+    clauses: Vec<String>,
+    title: String,
+    sources: Vec<String>,
+    sentence: String,
+    case: String,
+    alike: String,
+    followers: Vec<FollowerView>,
+}
+
+/// A case that is inconclusive for it.
+#[derive(Serialize)]
+struct FollowerView {
+    clause: String,
+    case: String,
+}
+
+/// The causes, the gravest first.
+pub(super) fn causes(report: &Report) -> Vec<CauseView> {
+    let mut all = groups(report);
+    // The order by requirement stays.
+    all.sort_by_key(|group| {
+        (!group.is_failure(), std::cmp::Reverse(group.verdict.gravity()), group.waived)
+    });
+    all.iter().filter_map(cause).collect()
+}
+
+fn cause(group: &Group<'_>) -> Option<CauseView> {
+    let (case, failure) = group.example()?;
+    let known = ads_cnc_vectors::requirement(group.requirement());
+    let followers = group.followers.iter().map(|(clause, case)| FollowerView {
+        clause: (*clause).to_owned(),
+        case: (*case).to_owned(),
+    });
+    Some(CauseView {
+        verdict: group.verdict,
+        word: worded(group.verdict, group.waived),
+        subject: group.subject()?.name(),
+        clauses: group.requirements.iter().map(|id| (*id).to_owned()).collect(),
+        title: known.map_or_else(String::new, |known| known.title.clone()),
+        sources: failure.sources.clone(),
+        sentence: sentence(failure, RESULT_MAX),
+        case: case.id.clone(),
+        alike: alike(group),
+        followers: followers.collect(),
+    })
+}

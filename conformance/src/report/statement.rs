@@ -1,0 +1,147 @@
+//! The conformance statement: for each clause whether it is claimed and verified.
+
+use std::io::{self, Write};
+
+use minijinja::value::Serde;
+use minijinja::{AutoEscape, Environment};
+use serde::Serialize;
+
+use super::console::describe;
+use super::html::claims;
+use super::markdown::plain;
+use super::model::{AreaReport, Report, RequirementReport, SubjectReport};
+use crate::judge::{Verdict, about};
+
+const TEMPLATE: &str = include_str!("statement.html");
+
+#[derive(Serialize)]
+struct Statement {
+    name: String,
+    facts: Vec<(String, String)>,
+    subjects: Vec<SubjectStatement>,
+}
+
+#[derive(Serialize)]
+struct SubjectStatement {
+    name: &'static str,
+    areas: Vec<AreaStatement>,
+}
+
+#[derive(Serialize)]
+struct AreaStatement {
+    area: String,
+    about: &'static str,
+    verified: usize,
+    clauses: Vec<ClauseStatement>,
+}
+
+#[derive(Serialize)]
+struct ClauseStatement {
+    id: String,
+    title: String,
+    level: String,
+    claimed: &'static str,
+    result: String,
+    /// The verdict, for the style.
+    verdict: Verdict,
+}
+
+impl Statement {
+    fn new(report: &Report) -> Self {
+        let mut facts = vec![
+            ("Subject".to_owned(), describe(&report.target)),
+            ("Suite".to_owned(), format!("ads-cnc {}, vectors {}", report.suite, report.vectors)),
+            ("Editions".to_owned(), report.editions.join(", ")),
+            ("Run".to_owned(), format!("{}, seed {}", report.time, report.seed)),
+        ];
+        let more = [
+            ("Device", report.target.device.as_ref().map(ToString::to_string)),
+            ("Profile", report.profile.as_ref().map(|profile| profile.name.clone())),
+            ("Selection", Some(report.only.join(", ")).filter(|only| !only.is_empty())),
+        ];
+        facts.extend(more.into_iter().filter_map(|(name, fact)| Some((name.to_owned(), fact?))));
+        for (name, claim) in report.profile.iter().flat_map(claims) {
+            if !claim.is_empty() {
+                facts.push((format!("Claims, {name}"), claim));
+            }
+        }
+        let subjects = report.subjects.iter().map(|one| subject(report, one)).collect();
+        Self { name: report.target.name.clone(), facts, subjects }
+    }
+}
+
+fn subject(report: &Report, subject: &SubjectReport) -> SubjectStatement {
+    let areas = subject.areas.iter().map(|AreaReport { area, requirements, .. }| AreaStatement {
+        area: area.clone(),
+        about: about(area),
+        verified: requirements.iter().filter(|one| one.verdict == Verdict::Pass).count(),
+        clauses: requirements.iter().map(|one| clause(report, subject, one)).collect(),
+    });
+    SubjectStatement { name: subject.subject.name(), areas: areas.collect() }
+}
+
+fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> ClauseStatement {
+    let RequirementReport { requirement: id, verdict, waived } = one;
+    let known = ads_cnc_vectors::requirement(id);
+    let cases = report.cases.iter().filter(|case| case.subject == subject.subject);
+    let judging = cases.filter(|case| case.requirements.iter().any(|one| one.requirement == *id));
+    let note = |wanted: Verdict| {
+        let mut all = judging.clone().filter(|case| case.verdict == wanted);
+        all.find_map(|case| case.note.as_ref()).map_or_else(String::new, |why| format!(": {why}"))
+    };
+    let has_case = judging.clone().next().is_some();
+    let (claimed, result) = match verdict {
+        Verdict::Pass => ("yes", "verified".to_owned()),
+        Verdict::Fail | Verdict::Vacuous if *waived => ("yes", "not met, waived".to_owned()),
+        Verdict::Fail | Verdict::Vacuous => ("yes", "not met".to_owned()),
+        Verdict::Warning => ("yes", "deviates from the online help".to_owned()),
+        Verdict::Differs => ("yes", "undocumented, and not as assumed".to_owned()),
+        Verdict::NotApplicable => ("no", format!("not claimed{}", note(*verdict))),
+        Verdict::NotObserved if !has_case => ("-", "not verifiable from outside".to_owned()),
+        Verdict::NotObserved => ("yes", "not verified: nothing exercised it".to_owned()),
+        Verdict::NotRun => ("yes", format!("not verified{}", note(*verdict))),
+        verdict => ("yes", format!("not verified, {verdict}{}", note(*verdict))),
+    };
+    ClauseStatement {
+        id: id.clone(),
+        title: known.map_or("The protocol with the suite", |known| known.title.as_str()).to_owned(),
+        level: known.map_or_else(String::new, |known| format!("{:?}", known.level).to_lowercase()),
+        claimed,
+        result,
+        verdict: *verdict,
+    }
+}
+
+/// Writes the conformance statement as Markdown.
+pub fn to_statement(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let Statement { name, facts, subjects } = Statement::new(report);
+    writeln!(out, "# Conformance statement: {}\n\n| | |\n|---|---|", plain(&name))?;
+    facts
+        .iter()
+        .try_for_each(|(name, fact)| writeln!(out, "| {} | {} |", plain(name), plain(fact)))?;
+    for SubjectStatement { name, areas } in subjects {
+        writeln!(out, "\n## The {name}")?;
+        for AreaStatement { area, about, verified, clauses } in areas {
+            let all = clauses.len();
+            writeln!(out, "\n### {}: {about} ({verified} of {all} verified)\n", plain(&area))?;
+            writeln!(out, "| clause | | level | claimed | result |\n|---|---|---|---|---|")?;
+            for ClauseStatement { id, title, level, claimed, result, .. } in clauses {
+                let [id, title, result] = [id, title, result].map(|text| plain(&text));
+                writeln!(out, "| {id} | {title} | {level} | {claimed} | {result} |")?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Writes the conformance statement as HTML.
+///
+/// # Errors
+/// Those of `out`, and those of the template.
+pub fn to_statement_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|_| AutoEscape::Html);
+    let html = environment.render_str(TEMPLATE, Serde(Statement::new(report)));
+    out.write_all(html.map_err(io::Error::other)?.as_bytes())?;
+    writeln!(out)
+}

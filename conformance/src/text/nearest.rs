@@ -1,0 +1,93 @@
+//! The nearest of several names to a misspelt one.
+
+/// The names nearest to a word, at most this many.
+const NEAREST_MAX: usize = 3;
+
+/// Maximum number of characters of words that are compared.
+const COMPARED_MAX: usize = 256;
+
+/// The names that the word may stand for, the nearest first: without regard to case they differ in a
+/// third of their characters at most, or contain the word.
+pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<&'n str> {
+    let lower: Vec<char> = word.to_lowercase().chars().take(COMPARED_MAX).collect();
+    if lower.is_empty() {
+        return Vec::new();
+    }
+    let limit = (lower.len() / 3).max(1);
+    let text: String = lower.iter().collect();
+    let mut found: Vec<(usize, &str)> = names
+        .into_iter()
+        .filter_map(|name| {
+            let other = name.to_lowercase();
+            // A part of a name is farther than any misspelling.
+            let is_part = lower.len() > 2 && other.contains(&text);
+            let chars: Vec<char> = other.chars().take(COMPARED_MAX).collect();
+            let far = chars.len().abs_diff(lower.len()) > limit;
+            let distance = if far { usize::MAX } else { distance(&lower, &chars) };
+            match (distance <= limit, is_part) {
+                (true, _) => Some((distance, name)),
+                (false, true) => Some((limit.saturating_add(other.len()), name)),
+                (false, false) => None,
+            }
+        })
+        .collect();
+    found.sort_unstable();
+    found.dedup();
+    found.into_iter().take(NEAREST_MAX).map(|(_, name)| name).collect()
+}
+
+/// ` - did you mean …?` with the nearest names; empty without one.
+pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> String {
+    match nearest(word, names).as_slice() {
+        [] => String::new(),
+        names => format!(" - did you mean {}?", names.join(" or ")),
+    }
+}
+
+/// The number of characters to insert, delete, replace or swap with the next.
+fn distance(one: &[char], other: &[char]) -> usize {
+    // The distances of the parts of `other` to the part of `one` two characters ago and one ago.
+    let (mut before, mut last): (Vec<usize>, Vec<usize>) =
+        (Vec::new(), (0..=other.len()).collect());
+    let mut previous = None;
+    for a in one {
+        let at = |line: &[usize], place: usize| line.get(place).copied().unwrap_or(usize::MAX);
+        let more = |distance: usize| distance.saturating_add(1);
+        let mut next = vec![more(at(&last, 0))];
+        let mut left = None;
+        for (place, b) in other.iter().enumerate() {
+            let replaced = at(&last, place).saturating_add(usize::from(a != b));
+            let deleted = more(at(&last, place.saturating_add(1)));
+            let inserted = more(at(&next, place));
+            let is_swapped = left == Some(a) && previous == Some(b);
+            let swapped = match place.checked_sub(1).filter(|_| is_swapped) {
+                Some(place) => more(at(&before, place)),
+                None => usize::MAX,
+            };
+            next.push(replaced.min(deleted).min(inserted).min(swapped));
+            left = Some(b);
+        }
+        before = std::mem::replace(&mut last, next);
+        previous = Some(a);
+    }
+    last.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_name_is_found() {
+        let names = ["run", "serve", "report", "V.E.Testvar", "V.E.matrix", "size.flip"];
+        let nearest = |word| nearest(word, names);
+        assert_eq!(nearest("rnu"), ["run"]);
+        assert_eq!(nearest("V.E.Testvr"), ["V.E.Testvar"]);
+        assert_eq!(nearest("v.e.MATRIX"), ["V.E.matrix"]);
+        assert_eq!(nearest("size"), ["size.flip"]);
+        assert_eq!(nearest("x"), [""; 0]);
+        assert_eq!(nearest(""), [""; 0]);
+        assert_eq!(did_you_mean("reprt", names), " - did you mean report?");
+        assert_eq!(did_you_mean("zzzz", names), "");
+    }
+}
