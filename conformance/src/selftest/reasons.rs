@@ -22,45 +22,11 @@ const INSIDE: &str = "No case shows it: a test of the simulated CNC finds it.";
 
 /// Prefix of the ID of a defect, and why a run against a device misses it.
 const MISSED: &[(&str, &str)] = &[
-    ("dynamic-value.value.", COMPARED),
-    ("cnc.gen.reals-", COMPARED),
-    ("cnc.var.dynamic-", COMPARED),
     ("cnc.var.cycle-", "V.CYC is in no list: a profile names it."),
-    ("cnc.var.by-name-unavailable", "The version decides, which a profile names."),
-    ("cnc.var.axis-handle-own", "That both interfaces give the same handle is not documented."),
-    ("cnc.var.handle-changes", "That a name has one handle alone is not documented."),
-    ("cnc.var.index-8-bit", BEYOND),
-    ("cnc.dyn.index-8-bit", BEYOND),
-    ("cnc.sda.axis-16-bit", BEYOND),
-    ("cnc.sda.blank-axis-number", "Which element is the axis number is not documented."),
     ("cnc.sda.blank-", "Which place has no axis is not in a list: a profile names it."),
     ("cnc.com.axis-not-in-offset", "Lists of platform axes are assumed: a profile claims them."),
-    ("device-info-reply.minor.zero", "A CNC may have any version."),
-    ("object-descriptor.write_access.invert", "Any object may be writable."),
-    ("cnc.com.access-always", "Any object may be writable."),
-    ("element-write-flag.flag.", "Any element may be writable."),
-    ("cnc.sda.flag-", "Any element may be writable, and every byte but 0 is TRUE."),
-    ("cnc.var.access-", "Any variable may be READ_ONLY or READ_WRITE."),
-    ("cnc.var.strings-read-only", "Any variable may be READ_ONLY or READ_WRITE."),
-    ("variable-value.value.", "A variable may have any value."),
-    ("cnc.com.content-big-endian", "An object may have any value."),
     ("cnc.var.string-cut", "The length of a reply with a STRING is not documented."),
-    ("cnc.var.extended-swapped", "Any V.E may be synchronised, and valid in all channels."),
-    ("cnc.var.index-reversed", "Any V.E may be synchronised, and valid in all channels."),
-    ("cnc.gen.utf-8", "A name may have any characters."),
-    ("cnc.gen.units-ascii", "A unit may be any text."),
-    ("cnc.sda.feedhold-", PRINTED),
-    ("cnc.dyn.p1-value", PRINTED),
-    ("cnc.com.command-elsewhere", PRINTED),
 ];
-
-/// Why what a manual prints of an example is not compared.
-const PRINTED: &str = "It is printed of an example, which a profile claims.";
-
-/// Why values of parameters are not compared.
-const COMPARED: &str = "A value is compared with that among the variables, which one edition has.";
-/// Why far numbers are not tried.
-const BEYOND: &str = "A device is asked for one number beyond the last, and for no other.";
 
 /// Why a run against a device misses a defect, if there is a reason.
 pub(super) fn of_missed(id: &str) -> Option<&'static str> {

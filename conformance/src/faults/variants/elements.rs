@@ -91,6 +91,11 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
+    on("different.first-writable", &[], "the write flag of the first element is TRUE",
+        &[Function::ReadElementWriteFlag], |cnc, call| match offset(call) & 0xFFF {
+            0 => cnc.answer(call).map(|_| vec![1]),
+            _ => cnc.answer(call),
+        }),
     row("different.hld-axes-of-first", &[], "the HLD of other channels than the first has no axes",
         |cnc, call| without(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)),
     row("different.path-preparation-without-axes", &[], "path preparation has no axes",

@@ -3,7 +3,8 @@
 use serde::{Serialize, Serializer};
 
 use super::{
-    Detection, DetectionResult, DetectionRow, DetectionTable, Figures, Mode, hash, inputs, measure,
+    Detection, DetectionResult, DetectionRow, DetectionTable, Figures, Mode, configured, hash,
+    inputs, measure,
 };
 use crate::faults::Seed;
 use crate::judge::order;
@@ -72,6 +73,9 @@ impl CheckedTable {
                 }
                 Err(error) => differences.push(format!("{}: {error}", seed.id)),
             }
+        }
+        if whole && scope == Scope::All {
+            differences.extend(configured::stale(&rows));
         }
         let measured = rows.len();
         let table = match scope {

@@ -17,37 +17,24 @@ use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite::{self, ClaimsBy};
 
-/// Valid variants, by position and digest of the first answer that differs from the CNC without a
-/// defect.
-pub(super) type Variants = Arc<BTreeMap<(usize, Option<u64>), Vec<&'static Seed>>>;
-
 /// A CNC without a defect to run the suite against.
 pub(super) struct Device {
-    model: &'static str,
-    pub(super) settings: Settings,
+    /// The TOML of its model.
+    pub(super) model: &'static str,
+    settings: Settings,
     profile: Profile,
     /// Every writable value, except axis numbers.
     allowed: Allowed,
     /// The answers of the CNC without a defect, by the requests its gate allows.
     right: [OnceLock<Vec<u64>>; 3],
-    /// Its valid variants, by mode.
-    pub(super) variants: Mutex<BTreeMap<Mode, Variants>>,
 }
 
 impl Device {
     fn new(model: &'static str, settings: Settings) -> Result<Self, ToolError> {
-        let internal = |error| ToolError::Internal(format!("the model: {error}"));
-        let built = Model::with_settings(model, "the model", settings).map_err(internal)?;
+        let built = built(model, settings)?;
         let profile = built.profile();
         let allowed = everything_writable(Cnc::new(built), &profile)?;
-        Ok(Self {
-            model,
-            settings,
-            profile,
-            allowed,
-            right: Default::default(),
-            variants: Mutex::default(),
-        })
+        Ok(Self { model, settings, profile, allowed, right: Default::default() })
     }
 
     /// The CNC of the default model with an edition.
@@ -68,14 +55,32 @@ impl Device {
 
     /// A CNC of this device.
     fn correct_cnc(&self) -> Result<Cnc, ToolError> {
-        let internal = |error| ToolError::Internal(format!("the model: {error}"));
-        let model = Model::with_settings(self.model, "the model", self.settings);
-        Ok(Cnc::new(model.map_err(internal)?).with_stopped_clock())
+        Ok(Cnc::new(built(self.model, self.settings)?).with_stopped_clock())
     }
 
     /// A CNC of this device, optionally with a defect.
-    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
+    pub(super) fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
         Ok(Arc::new(Faulty::new(self.correct_cnc()?, seed)))
+    }
+
+    /// A CNC with another model and edition, optionally a valid variant; `None` if the profile of this
+    /// device, which the mode has, is not true of it.
+    pub(super) fn cnc_with_model(
+        &self,
+        model: &str,
+        edition: Option<Edition>,
+        variant: Option<&Seed>,
+        mode: Mode,
+    ) -> Result<Option<Arc<Faulty>>, ToolError> {
+        let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
+        let model = built(model, settings)?;
+        // Whatever is written, nothing is claimed of these contents.
+        let unwritten = self.profile.unwritten.clone();
+        let profile = Profile { unwritten, ..model.profile() };
+        if mode.has_profile() && format!("{profile:?}") != format!("{:?}", self.profile) {
+            return Ok(None);
+        }
+        Ok(Some(Arc::new(Faulty::new(Cnc::new(model).with_stopped_clock(), variant))))
     }
 
     /// The digests of the answers without a defect to every request that a mode may send.
@@ -87,7 +92,7 @@ impl Device {
             Mode::All => all,
         };
         if right.get().is_none() {
-            let _same = right.set(answers(self, None, mode, None)?.answers);
+            let _same = right.set(answers(self, self.cnc(None)?, mode, None)?.answers);
         }
         Ok(right.get().map_or(&[], Vec::as_slice))
     }
@@ -129,6 +134,11 @@ impl Device {
     }
 }
 
+fn built(model: &str, settings: Settings) -> Result<Model, ToolError> {
+    let model = Model::with_settings(model, "the model", settings);
+    model.map_err(|error| ToolError::Internal(format!("the model: {error}")))
+}
+
 /// The complete file of `--allow-write`: each value that the CNC describes as writable, and the
 /// writable values it does not list.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
@@ -157,14 +167,13 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError
     Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
 }
 
-/// The answers of a CNC to every request that a mode may send.
+/// The answers of a CNC to every request that a mode may send to the device.
 pub(super) fn answers(
     device: &Device,
-    seed: Option<&Seed>,
+    cnc: Arc<Faulty>,
     mode: Mode,
     right: Option<&[u64]>,
 ) -> Result<RecordedAnswers, ToolError> {
-    let cnc = device.cnc(seed)?;
     let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
     Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))

@@ -10,12 +10,14 @@ mod writes;
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::address::{Channel, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::limits::{DESCRIPTOR_LEN, STREAM_PACKET_MAX};
 use ads_cnc::operation::{Call, CountDynamic, CountVariables, Function, Request, Service, Task};
 use ads_cnc::{CncString, Handle, Kind};
 
@@ -178,7 +180,8 @@ impl AnswerRecorder<'_> {
         };
         let violations = exchange.violations.iter().map(|one| one.what.as_str());
         let outcome: Vec<&str> = violations.chain([fault.as_str()]).collect();
-        self.record(&exchange.received, &outcome.join("\n"), || {
+        let received = meaning(Some(call), &exchange.received);
+        self.record(&received, &outcome.join("\n"), || {
             let spec = call.dispatch().map(|request| request.function().spec().name);
             let data = compact::show(call.data);
             format!("{} to port {}: {exchange} [{data}]", spec.unwrap_or("no function"), call.port)
@@ -190,7 +193,8 @@ impl AnswerRecorder<'_> {
         if self.difference.is_none() {
             let inquired = self.client.inquire::<R>(port);
             let outcome = inquired.outcome.as_ref().err().map(ToString::to_string);
-            self.record(&inquired.received, &outcome.unwrap_or_default(), || inquired.to_string());
+            let received = meaning(None, &inquired.received);
+            self.record(&received, &outcome.unwrap_or_default(), || inquired.to_string());
         }
     }
 
@@ -215,6 +219,46 @@ impl AnswerRecorder<'_> {
                 variables.or(parameters).is_some()
             })
             .collect()
+    }
+}
+
+/// A received frame in which each error, and each TRUE of a write flag or descriptor, is 1: no error
+/// number is documented, and every number but 0 is TRUE. Whether a packet is taken or rejected for now
+/// depends on how fast the CNC reads, so both are an error.
+fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
+    const ERROR: Range<usize> = 30..34;
+    const RESULT: Range<usize> = 38..42;
+    const DATA: usize = RESULT.end + 4;
+    let mut received = received.to_vec();
+    for number in [ERROR, RESULT] {
+        is_set(received.get_mut(number).unwrap_or_default());
+    }
+    let function = call.and_then(|call| Some(call.dispatch().ok()?.function()));
+    let data = received.get_mut(DATA..).unwrap_or_default();
+    match function {
+        Some(Function::WriteProgramStream) => {
+            let len = call.map_or(0, |call| call.data.len());
+            if (1..=STREAM_PACKET_MAX).contains(&len) {
+                received.truncate(RESULT.start);
+            }
+        }
+        Some(Function::ReadElementWriteFlag) => {
+            data.iter_mut().for_each(|byte| *byte = (*byte).min(1))
+        }
+        Some(Function::ReadDescriptors) => {
+            let records = data.chunks_mut(DESCRIPTOR_LEN);
+            records.filter_map(|record| record.get_mut(8..10)).for_each(is_set);
+        }
+        _ => {}
+    }
+    received
+}
+
+/// 1 in place of every number but 0.
+fn is_set(number: &mut [u8]) {
+    if number.iter().any(|byte| *byte != 0) {
+        number.fill(0);
+        number.iter_mut().take(1).for_each(|byte| *byte = 1);
     }
 }
 

@@ -1,0 +1,231 @@
+//! Right CNCs that are configured otherwise than the simulated one, and answer as a defect does.
+
+use std::sync::Arc;
+
+use super::device::Device;
+use super::found::{DetectionResult, Mode};
+use super::table::DetectionRow;
+use crate::edition::Edition;
+use crate::faults::{self, Faulty};
+use crate::session::ToolError;
+
+/// A right CNC that is configured otherwise, optionally a valid variant.
+pub(super) struct Witness {
+    /// The IDs of the defects whose answers it gives.
+    defects: &'static [&'static str],
+    pub(super) what: &'static str,
+    /// What is changed in the lines of the default model that contain a text.
+    changes: &'static [(&'static str, fn(&str) -> String)],
+    edition: Option<Edition>,
+    variant: Option<&'static str>,
+}
+
+const OBJECTS: &str = "offset = ";
+const ELEMENTS: &str = "unit = ";
+const VARIABLES: &str = "name = \"V.";
+const WRITABLE: &str = ", writable = true";
+const AXIS_NUMBER: &str = "is = \"axis-number\"";
+const NUMBERS: &str = "values = [1, 2, 3, 4, 5]";
+
+const SAME: Witness =
+    Witness { defects: &[], what: "", changes: &[], edition: None, variant: None };
+
+const WITNESSES: &[Witness] = &[
+    Witness {
+        defects: &["object-descriptor.write_access.invert", "cnc.com.access-always"],
+        what: "any object may be writable",
+        changes: &[(OBJECTS, writable)],
+        ..SAME
+    },
+    Witness {
+        defects: &["element-write-flag.flag.flip", "cnc.sda.flag-inverted"],
+        what: "any element may be writable",
+        changes: &[(ELEMENTS, toggled)],
+        variant: Some("different.first-writable"),
+        ..SAME
+    },
+    Witness {
+        defects: &["element-write-flag.flag.invert", "cnc.sda.flag-always", "cnc.sda.flag-text"],
+        what: "any element may be writable",
+        changes: &[(ELEMENTS, writable)],
+        variant: Some("different.first-writable"),
+        ..SAME
+    },
+    Witness {
+        defects: &["element-write-flag.flag.zero", "cnc.sda.flag-never"],
+        what: "no element may be writable",
+        changes: &[(ELEMENTS, read_only)],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.access-read-write"],
+        what: "any variable may be writable",
+        changes: &[(VARIABLES, writable)],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.access-swapped"],
+        what: "any variable may be writable",
+        changes: &[(VARIABLES, toggled)],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.strings-read-only"],
+        what: "any variable may be writable",
+        changes: &[("type = \"STRING\"", read_only)],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.extended-swapped"],
+        what: "any V.E may be synchronised, and valid in all channels",
+        changes: &[("V.E.uns32", |line| line.replace(NO_SYNC, CHANNEL))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.index-reversed"],
+        what: "any V.E may be synchronised, and valid in all channels",
+        changes: &[
+            ("V.E.uns32", |line| line.replace(NO_SYNC, "")),
+            ("V.E.real64", |line| line.replace(NO_SYNC, "").replace(CHANNEL, "")),
+            ("V.E.Variable_96\"", |line| line.replace("64\"", &format!("64\"{NO_SYNC}"))),
+            ("V.E.Variable_95\"", |line| line.replace("32\"", &format!("32\"{NO_SYNC}{CHANNEL}"))),
+        ],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.gen.utf-8"],
+        what: "a name may have any characters",
+        changes: &[("V.E.Länge", utf8)],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.gen.units-ascii"],
+        what: "a unit may be any text",
+        changes: &[(ELEMENTS, |line| line.replace('°', ""))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.dyn.p1-value"],
+        what: "a parameter may have any value",
+        changes: &[("\"P1\"", |line| line.replace("4711", "4712"))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.dyn.value-six-digits"],
+        what: "a parameter may have any value",
+        changes: &[("\"P10\"", |line| line.replace("1e-300", "0.0"))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.com.command-elsewhere"],
+        what: "an object may have any offset",
+        changes: &[("mc_command_single_block_w", |line| line.replace("0x1", "0x2"))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.cycle-refused"],
+        what: "a CNC may have no V.CYC",
+        changes: &[("name = \"V.CYC", |_| String::new())],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.by-name-unavailable"],
+        what: "a CNC may have an older version",
+        changes: &[("cnc-version = ", |_| "cnc-version = \"V4.18.0\"".to_owned())],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.var.dynamic-refused"],
+        what: "a CNC may follow the other edition",
+        edition: Some(Edition::English),
+        ..SAME
+    },
+];
+
+const NO_SYNC: &str = ", synchronisation = \"NO_SYNC\"";
+const CHANNEL: &str = ", validity = \"CHANNEL\"";
+
+fn read_only(line: &str) -> String {
+    line.replace(WRITABLE, "")
+}
+
+/// What is an axis number and read-only stays so: a number of its own, which may be written.
+fn writable(line: &str) -> String {
+    let own = if line.contains(WRITABLE) { line } else { &line.replace(AXIS_NUMBER, NUMBERS) };
+    read_only(own).replace(", type = ", &format!("{WRITABLE}, type = "))
+}
+
+fn toggled(line: &str) -> String {
+    if line.contains(WRITABLE) { read_only(line) } else { writable(line) }
+}
+
+/// The bytes of its UTF-8, as characters of CP1252.
+fn utf8(line: &str) -> String {
+    line.replace('ä', "Ã¤").replace('°', "Â°")
+}
+
+/// The witnesses of a defect.
+pub(super) fn of(defect: &str) -> impl Iterator<Item = &'static Witness> {
+    WITNESSES.iter().filter(move |witness| witness.defects.contains(&defect))
+}
+
+impl Witness {
+    fn model(&self, model: &str) -> String {
+        let changed = |line: &str| {
+            self.changes.iter().fold(line.to_owned(), |line, (text, change)| {
+                if line.contains(text) { change(&line) } else { line }
+            })
+        };
+        model.lines().map(|line| changed(line) + "\n").collect()
+    }
+
+    /// The CNC in place of a device; `None` if a profile of the device is not true of it.
+    pub(super) fn cnc(
+        &self,
+        device: &Device,
+        mode: Mode,
+    ) -> Result<Option<Arc<Faulty>>, ToolError> {
+        let variant = self.variant.and_then(faults::by_id);
+        device.cnc_with_model(&self.model(device.model), self.edition, variant, mode)
+    }
+}
+
+/// The witnesses that a defect does not need: in no mode does it give the defect's answers.
+pub(super) fn stale(rows: &[DetectionRow]) -> Vec<String> {
+    let is_needed = |defect: &str, what: &str| {
+        let results = rows.iter().filter(|row| row.id == defect).flat_map(|row| row.modes.values());
+        let shown = DetectionResult::Undetectable(what.to_owned());
+        results.into_iter().any(|one| one.result == shown)
+    };
+    let all = WITNESSES.iter().flat_map(|one| one.defects.iter().map(|defect| (*defect, one.what)));
+    let stale = all.filter(|(defect, what)| !is_needed(defect, what));
+    stale.map(|(defect, what)| format!("{defect}: it needs no witness: {what}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulator::DEFAULT_MODEL;
+
+    /// Each witness is of defects that exist, and is configured otherwise by each of its changes.
+    #[test]
+    fn every_witness_is_another_cnc() {
+        for witness in WITNESSES {
+            let known = |id: &&str| faults::by_id(id).is_some();
+            assert!(witness.defects.iter().all(known), "{:?}", witness.defects);
+            assert!(witness.variant.iter().all(known), "{:?}", witness.variant);
+            let changes = witness.changes.iter();
+            for (text, change) in changes {
+                let mut lines = DEFAULT_MODEL.lines().filter(|line| line.contains(text));
+                assert!(lines.any(|line| change(line) != line), "{text}: {}", witness.what);
+            }
+            assert!(witness.edition.is_some() || !witness.changes.is_empty(), "{}", witness.what);
+        }
+    }
+
+    #[test]
+    fn a_witness_that_no_defect_needs_is_stale() {
+        let all: usize = WITNESSES.iter().map(|witness| witness.defects.len()).sum();
+        assert_eq!(stale(&[]).len(), all);
+    }
+}
