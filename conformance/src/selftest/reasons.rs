@@ -30,7 +30,6 @@ const MISSED: &[(&str, &str)] = &[
     ("cnc.var.axis-handle-own", "That both interfaces give the same handle is not documented."),
     ("cnc.var.handle-changes", "That a name has one handle alone is not documented."),
     ("cnc.var.index-8-bit", BEYOND),
-    ("cnc.dyn.index-8-bit", BEYOND),
     ("cnc.sda.axis-16-bit", BEYOND),
     ("cnc.sda.blank-axis-number", "Which element is the axis number is not documented."),
     ("cnc.sda.blank-", "Which place has no axis is not in a list: a profile names it."),
