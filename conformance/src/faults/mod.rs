@@ -14,6 +14,7 @@
 mod cnc;
 mod codec;
 mod field;
+mod operators;
 mod seed;
 mod variants;
 
@@ -35,7 +36,7 @@ pub fn all() -> &'static [Seed] {
         let fields = FieldDefect::all().into_iter().map(Seed::from);
         let cnc = cnc::rows().map(|row| Seed::of_row(row, SeedKind::Cnc));
         let variants = variants::rows().map(|row| Seed::of_row(row, SeedKind::Different));
-        fields.chain(codec::seeds()).chain(cnc).chain(variants).collect()
+        fields.chain(codec::seeds()).chain(operators::seeds()).chain(cnc).chain(variants).collect()
     })
 }
 

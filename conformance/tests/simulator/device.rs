@@ -2,9 +2,11 @@
 
 use ads_cnc::Decode as _;
 use ads_cnc::Kind;
-use ads_cnc::address::{Channel, IndexOffset};
+use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AdsState, AmsPort, Command, DeviceInfoReply, DeviceStateReply};
-use ads_cnc::operation::{Call, CountObjects, CountVariables, Request, WriteByName};
+use ads_cnc::operation::{
+    Call, CountObjects, CountVariables, HandleByName, Request, Service, WriteByName,
+};
 
 use crate::checks::checks;
 use crate::target::{Check, Target, same};
@@ -12,6 +14,7 @@ use crate::target::{Check, Target, same};
 checks! {
     each_task_has_the_information_of_the_program,
     errors_have_their_numbers,
+    each_query_has_its_own_answer,
 }
 
 fn each_task_has_the_information_of_the_program(target: &Target) -> Check {
@@ -49,6 +52,54 @@ fn errors_have_their_numbers(target: &Target) -> Check {
             let elsewhere = Call { port: AmsPort(1), ..call };
             let error = Err(AdsError::TARGET_PORT_NOT_FOUND);
             same("the error of a port without a task", target.call(&elsewhere)?, error)?;
+        }
+    }
+    Ok(())
+}
+
+/// Queries of channel 6, which has the rank 3.
+#[rustfmt::skip]
+const QUERIES: [(Service, u32, u32, &[u8]); 18] = [
+    (Service::Read, 0x13_0106, 0, b""),
+    (Service::Read, 0x13_0106, 1, b""),
+    (Service::Read, 0x12_0106, 1, b""),
+    (Service::ReadWrite, 0x12_2306, 0x44, b"V.E\0"),
+    (Service::ReadWrite, 0x12_2306, 0x45, b"\0\0\0\0V.E\0"),
+    (Service::ReadWrite, 0x12_2306, 0x46, b"V.E.array\0"),
+    (Service::ReadWrite, 0x12_2306, 0x48, b"V.E.array[1]\0"),
+    (Service::ReadWrite, 0x12_2306, 0x4B, b"\0\0\0\0V.E\0"),
+    (Service::ReadWrite, 0x12_2306, 0x4C, b"V.E.array\0"),
+    (Service::ReadWrite, 0x12_2306, 0x1_0004, b"V.A.ACT_POS\0"),
+    (Service::ReadWrite, 0x12_2306, 0x1_0005, b"V.A.ACT_POS\0"),
+    (Service::Read, 0x12_2306, 0x02, b""),
+    (Service::ReadWrite, 0x12_2302, 0x1B, b"\x01\0\0\0"),
+    (Service::ReadWrite, 0x12_2302, 0x1C, b"P1\0"),
+    (Service::ReadWrite, 0x12_2302, 0x1D, b"\x01\0\0\0"),
+    (Service::ReadWrite, 0x12_2900, 0, b"\x06\0\0\0\0\0\0\0"),
+    (Service::Read, 0x12_3306, 0, b""),
+    (Service::Read, 0x12_3306, 1, b""),
+];
+
+/// By number and by rank, and not for an unknown channel, axis, index or name, nor with a shorter length.
+fn each_query_has_its_own_answer(target: &Target) -> Check {
+    let attributes =
+        (0x12_3406..=0x12_3806).step_by(0x100).map(|group| (Service::Read, group, 1, &b""[..]));
+    let handle = Request::from(HandleByName::new(Channel::new(6)?, "V.E.array")?);
+    let by_handle = [&target.ask(handle)??[..], &[1, 0, 0, 0, 1, 0, 0, 0]].concat();
+    let by_handle = (Service::ReadWrite, 0x12_2306, 0x47, &by_handle[..]);
+    for (service, group, offset, data) in QUERIES.into_iter().chain(attributes).chain([by_handle]) {
+        let port = if group & 0x0F00 < 0x300 { AmsPort::COM } else { AmsPort::SDA };
+        let mut other = data.to_vec();
+        other.iter_mut().take(1).for_each(|byte| *byte ^= 0x80);
+        let groups = [group, group - 0x10_0003, group - 0x10_0000, group + 0x40];
+        let in_groups = groups.map(|group| (group, offset, data));
+        let elsewhere = [(group, offset + 0x64_0000, data), (group, offset, &other[..])];
+        for (group, offset, data) in in_groups.into_iter().chain(elsewhere) {
+            let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+            for read_length in [252, 1] {
+                let call = Call { port, service, index_group, index_offset, read_length, data };
+                same(format!("{call:?}"), target.call(&call)?, target.cnc().answer(&call))?;
+            }
         }
     }
     Ok(())

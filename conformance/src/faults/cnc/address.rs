@@ -1,6 +1,6 @@
 //! Index groups and offsets (ADR).
 
-use ads_cnc::address::{Access, Addressing, Class, ComTable};
+use ads_cnc::address::{Access, Class, ComTable};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 use ads_cnc_vectors::ids::*;
@@ -22,22 +22,9 @@ fn by_index(call: &Call<'_>) -> bool {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.index-as-logical", &[ADR_1],
-        "the bit of logical addressing is ignored: a channel by index is the one with that number",
-        |cnc, call| if of_channel(call) {
-            cnc.at(call, group(call) | LOGICAL, offset(call))
-        } else {
-            cnc.answer(call)
-        }),
     row("cnc.adr.logical-as-index", &[ADR_1], "a channel addressed logically is the one of that rank",
         |cnc, call| if of_channel(call) {
             cnc.at(call, group(call) & !LOGICAL, offset(call))
-        } else {
-            cnc.answer(call)
-        }),
-    row("cnc.adr.index-from-0", &[ADR_1, GEN_6], "ranks of channels are counted from 0",
-        |cnc, call| if by_index(call) && class(call).is_some_and(|class| class.class != Class::Spindle) {
-            cnc.at(call, group(call).wrapping_add(1), offset(call))
         } else {
             cnc.answer(call)
         }),
@@ -125,12 +112,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             (0x02_1000, _) => cnc.at(call, group(call).wrapping_sub(0x1000), offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.name-type-swapped", &[ADR_6], "attribute 0x100 is the type, 0x200 the name",
-        |cnc, call| match (class(call), group(call) & 0xF00) {
-            (Some(_), 0x400) => cnc.at(call, group(call).wrapping_add(0x100), offset(call)),
-            (Some(_), 0x500) => cnc.at(call, group(call).wrapping_sub(0x100), offset(call)),
-            _ => cnc.answer(call),
-        }),
     row("cnc.adr.length-unit-swapped", &[ADR_6], "attribute 0x300 is the unit, 0x400 the length",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x600) => cnc.at(call, group(call).wrapping_add(0x100), offset(call)),
@@ -159,31 +140,10 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.axis-ignored", &[ADR_7], "the axis in the index offset is ignored: it is always the first",
-        |cnc, call| match class(call) {
-            Some(_) if offset(call) > 0x1_FFFF => {
-                cnc.at(call, group(call), offset(call) & 0xFFFF | 0x1_0000)
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.adr.axis-from-0", &[ADR_7, GEN_6], "axes in the index offset are counted from 0",
         |cnc, call| match class(call) {
             Some(_) if offset(call) > 0xFFFF => {
                 cnc.at(call, group(call), offset(call).wrapping_add(0x1_0000))
-            }
-            _ => cnc.answer(call),
-        }),
-    row("cnc.adr.com-index-missing", &[ADR_12],
-        "groups of COM without the bit of logical addressing are refused",
-        |cnc, call| match com_group(call) {
-            Some(com) if com.addressing == Addressing::Index => Err(AdsError::INVALID_GROUP),
-            _ => cnc.answer(call),
-        }),
-    row("cnc.adr.sda-index-missing", &[ADR_12],
-        "groups of SDA and GEO without the bit of logical addressing are refused, spindles apart",
-        |cnc, call| match class(call) {
-            Some(at) if at.class != Class::Spindle && at.addressing == Addressing::Index => {
-                Err(AdsError::INVALID_GROUP)
             }
             _ => cnc.answer(call),
         }),

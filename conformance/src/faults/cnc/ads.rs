@@ -5,17 +5,12 @@ use ads_cnc::operation::{Call, Service};
 use ads_cnc_vectors::ids::*;
 
 use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
-use super::{CncSeed, row, set_u32, within_length};
+use super::{CncSeed, row, set_u32};
 
 const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.ads.read-more", &[ADS_1], "a Read is answered with all there is, however short the length",
-        |cnc, call| match call.service { Service::Read => cnc.whole(call), _ => cnc.answer(call) }),
-    row("cnc.ads.read-write-more", &[ADS_3],
-        "a ReadWrite is answered with all there is, however short the read length",
-        |cnc, call| match call.service { Service::ReadWrite => cnc.whole(call), _ => cnc.answer(call) }),
     row("cnc.ads.read-padded", &[ADS_1], "the data of a Read is padded with zeros to the length asked for",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
@@ -37,21 +32,8 @@ pub(super) const ROWS: &[CncSeed] = &[
                 bytes
             })
         }),
-    row("cnc.ads.read-write-echo", &[ADS_3],
-        "the data of a ReadWrite begins with the data that was written",
-        |cnc, call| match call.service {
-            Service::ReadWrite => {
-                within_length(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.ads.errors-as-nothing", &[ADS_4, ADS_7], "errors are answered as success without data",
         |cnc, call| cnc.answer(call).or_else(|_| Ok(Vec::new()))),
-    row("cnc.ads.errors-as-zeros", &[ADS_4, ADS_7], "errors of reads are answered as success with zeros",
-        |cnc, call| {
-            let len = usize::try_from(call.read_length).unwrap_or_default().min(2048);
-            cnc.answer(call).or_else(|_| Ok(vec![0; len]))
-        }),
     row("cnc.ads.service-any", &[ADS_7], "a Write is taken for a ReadWrite and the other way round",
         |cnc, call| match cnc.answer(call) {
             Err(AdsError::SERVICE_NOT_SUPPORTED) => match call.service {
@@ -64,36 +46,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             },
             answer => answer,
         }),
-    sent("cnc.ads.read-without-length", &[ADS_1], "the reply to a Read has no length before the data",
-        |_, request, mut bytes| {
-            if is(request, &[Command::READ]) && bytes.len() >= DATA {
-                bytes.drain(LENGTH..DATA);
-            }
-            measured(bytes)
-        }),
-    sent("cnc.ads.read-write-without-length", &[ADS_3],
-        "the reply to a ReadWrite has no length before the data",
-        |_, request, mut bytes| {
-            if is(request, &[Command::READ_WRITE]) && bytes.len() >= DATA {
-                bytes.drain(LENGTH..DATA);
-            }
-            measured(bytes)
-        }),
-    sent("cnc.ads.read-length-as-asked", &[ADS_1, ADS_3],
-        "the length in a reply is that of the reply with result and length",
-        |_, request, mut bytes| {
-            let length = u32::try_from(bytes.len()).unwrap_or_default();
-            if is(request, READS) && bytes.len() > DATA {
-                set_u32(&mut bytes, LENGTH, length.saturating_sub(38));
-            }
-            bytes
-        }),
-    sent("cnc.ads.read-length-0", &[ADS_1, ADS_3], "the length in a reply is 0", |_, request, mut bytes| {
-        if is(request, READS) {
-            set_u32(&mut bytes, LENGTH, 0);
-        }
-        bytes
-    }),
     sent("cnc.ads.read-length-16-bit", &[ADS_4], "the length in a reply takes 2 bytes",
         |_, request, mut bytes| {
             if is(request, READS) && bytes.len() >= DATA {

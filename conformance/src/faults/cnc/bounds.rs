@@ -5,11 +5,10 @@ use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
-use super::handle::{joined, parts};
 use super::lookup::{indexed, instance, with_indices};
 use super::{
-    CncSeed, DESCRIPTIONS, LOGICAL, after_nul, dimensions, function, group, is, number, offset, on,
-    records, reply, row, text, u32_at, within_length,
+    CncSeed, DESCRIPTIONS, after_nul, dimensions, group, is, number, offset, on, records, reply,
+    row, text, u32_at, within_length,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -18,14 +17,6 @@ const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.logical-beyond-number", &[ADR_1],
-        "logical numbers of channels go up to the number of channels: in SDA and GEO channel 6 is refused",
-        |cnc, call| match (group(call) & 0xFF_0F00, usize::try_from(instance(call))) {
-            (0x12_0300..=0x12_0800, Ok(channel)) if channel > cnc.channels().len() => {
-                Err(AdsError::INVALID_GROUP)
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.adr.platform-axis-last", &[ADR_3],
         "the contents of the last platform axis are refused, its descriptors are not",
         |cnc, call| {
@@ -41,16 +32,6 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| match group(call) & 0xF00 {
             0x300..=0x800 => cnc.at(call, group(call), offset(call) & 0xFF_FFFF),
             _ => cnc.answer(call),
-        }),
-    row("cnc.com.count-without-platform", &[COM_1, COM_4],
-        "the number of objects of channel 1 leaves out the platform's, whose descriptors are there",
-        |cnc, call| if is(call, &[Function::CountObjects]) && group(call) | LOGICAL == 0x13_0101 {
-            let platform = cnc.read(call.port, 0x13_0100, 0)?;
-            let platform = u32_at(&platform, 0).unwrap_or_default();
-            let all = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
-            Ok(all.wrapping_sub(platform).to_le_bytes().to_vec())
-        } else {
-            cnc.answer(call)
         }),
     row("cnc.com.many-12", &[COM_3],
         "there are 12 descriptors at most, as many as 1024 bytes have room for",
@@ -90,15 +71,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             let indices: Vec<u32> = indices.iter().map(first).collect();
             if indices.is_empty() { cnc.answer(call) } else { cnc.with(call, &with_indices(name, &indices)) }
         }),
-    row("cnc.var.write-indices-8-bit", &[VAR_12],
-        "of an index in a write by handle the lowest byte counts: 256 is 0",
-        |cnc, call| match (is(call, &[Function::WriteByHandle]), parts(call.data)) {
-            (true, Some((handle, indices, value))) => {
-                let indices: Vec<u32> = indices.iter().map(|index| index & 0xFF).collect();
-                cnc.with(call, &joined(handle, &indices, value))
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.var.write-2048", &[VAR_12, VAR_13],
         "a write of 2048 bytes, with what stands in front of the value, is refused",
         |cnc, call| if is(call, &[Function::WriteByHandle, Function::WriteByName])
@@ -119,14 +91,6 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.extended-last", &[VAR_15],
-        "the last variable of V.E has no extended description: its index is refused",
-        &[Function::DescribeExtended], |cnc, call| {
-            let answer = cnc.answer(call)?;
-            let index = u32_at(call.data, 0).unwrap_or_default().wrapping_add(1);
-            let kind = call.data.get(4..).unwrap_or_default();
-            cnc.with(call, &[&index.to_le_bytes(), kind].concat()).map(|_| answer)
-        }),
     row("cnc.var.dimensions-2", &[VAR_4, VAR_8],
         "a description tells two dimensions at most: of three the last is left out",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
@@ -137,14 +101,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    row("cnc.var.third-index-0", &[VAR_11], "by handle the third index of an element is taken for 0",
-        |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
-            (true, Some((handle, mut indices, value))) => {
-                indices.iter_mut().skip(2).for_each(|index| *index = 0);
-                cnc.with(call, &joined(handle, &indices, value))
-            }
-            _ => cnc.answer(call),
-        }),
     on("cnc.var.whole-first-row", &[VAR_14],
         "of a whole array with more dimensions the first row is read by name",
         &[Function::ReadByName], |cnc, call| {
@@ -211,16 +167,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             )
         } else {
             cnc.answer(call)
-        }),
-    row("cnc.adr.index-of-com", &[ADR_1, ADR_12],
-        "contents of COM by index are those of the channel with that number: 0x20106 is channel 6",
-        |cnc, call| match (group(call) & 0xFF_FF00, function(call)) {
-            (0x02_0100, Some(Function::ReadObject | Function::WriteObject))
-                if instance(call) > 0 =>
-            {
-                cnc.at(call, group(call) | LOGICAL, offset(call))
-            }
-            _ => cnc.answer(call),
         }),
     on("cnc.dyn.by-index-positive", &[DYN_4], "values by index have no sign",
         &[Function::DynamicValueByIndex], |cnc, call| number(cnc.answer(call), 4, |high| high & 0x7FFF_FFFF)),

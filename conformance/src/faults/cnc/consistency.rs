@@ -1,13 +1,12 @@
 //! Answers that contradict each other (SDA, DYN).
 
 use ads_cnc::address::Class;
-use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, reply, row, set_u32,
-    text, u32_at,
+    CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, row, set_u32, text,
+    u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -77,15 +76,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             0x1000 | 0x2000 | 0x4000 => with_number(cnc, call, 4, |_| 0),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.absent-far", &[SDA_2],
-        "an instance that is not there is answered with its group and an offset of all ones",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            if bytes.iter().all(|byte| *byte == 0) {
-                set_u32(&mut bytes, 0, group(call).wrapping_sub(0x600));
-                set_u32(&mut bytes, 4, u32::MAX);
-            }
-            bytes
-        })),
     row("cnc.sda.interpolator-no-axes", &[SDA_5],
         "axes of the interpolator are not found, those of the decoder are",
         |cnc, call| few_axes(cnc, call, 0x1000, 0)),
@@ -93,27 +83,11 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| few_axes(cnc, call, 0x2000, 1)),
     row("cnc.sda.axis-24-bit", &[SDA_5, SDA_2], "of the axis asked for the lowest 24 bits count",
         |cnc, call| with_number(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
-    row("cnc.sda.types-padded", &[SDA_7], "types are padded with blanks to 8 characters",
-        |cnc, call| reply(cnc, call, &[Function::ReadElementType], |bytes| {
-            format!("{:8}\0", String::from_utf8_lossy(text(&bytes))).into_bytes()
-        })),
-    on("cnc.sda.type-of-next", &[SDA_7, SDA_8], "the type of an element is that of the next one",
-        &[Function::ReadElementType], |cnc, call| cnc
-        .at(call, group(call), offset(call).wrapping_add(1))
-        .or_else(|_| cnc.answer(call))),
     row("cnc.sda.first-length", &[SDA_8], "the length of the number of elements is that of element 1",
         |cnc, call| if is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
             cnc.at(call, group(call), offset(call) | 1)
         } else {
             cnc.answer(call)
-        }),
-    row("cnc.sda.flag-beyond", &[SDA_4], "elements behind the last have a unit and a write flag",
-        |cnc, call| {
-            let of = [Function::ReadElementWriteFlag, Function::ReadElementUnit];
-            match (is(call, &of), cnc.answer(call)) {
-                (true, Err(AdsError::INVALID_OFFSET)) => Ok(vec![0]),
-                (_, answer) => answer,
-            }
         }),
     row("cnc.sda.write-every-channel", &[SDA_9, SDA_1],
         "a write of an element of channel 2 is one of channel 1 too",
@@ -151,12 +125,6 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.with(call, &[1, 0, 0, 0])
             })
         }),
-    row("cnc.dyn.name-cut", &[DYN_6, DYN_2],
-        "names are told up to their 63rd character, and not found so",
-        |cnc, call| reply(cnc, call, NAME, |bytes| {
-            let name = text(&bytes);
-            [name.get(..63).unwrap_or(name), &[0]].concat()
-        })),
     row("cnc.dyn.by-name-8-characters", &[DYN_3], "of a name the first 8 characters are looked at",
         |cnc, call| {
             let first = |name: &[u8]| text(name).get(..8).map(<[u8]>::to_vec);
@@ -171,10 +139,5 @@ pub(super) const ROWS: &[CncSeed] = &[
             });
             let found = found.into_iter().find(|name| name.starts_with(&wanted));
             cnc.with(call, found.as_deref().unwrap_or(call.data))
-        }),
-    on("cnc.dyn.by-name-channel-1", &[DYN_3],
-        "a parameter that channel 1 has too has that value by its name",
-        BY_NAME, |cnc, call| {
-            cnc.at(call, group(call) & !0xFF | 1, offset(call)).or_else(|_| cnc.answer(call))
         }),
 ];

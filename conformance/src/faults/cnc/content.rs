@@ -5,9 +5,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule, Service};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, at, class, function, functions, group, is, is_at, number, offset, on, row};
+use super::{CncSeed, at, class, function, functions, group, is, is_at, offset, row};
 
-const COUNT: &[Function] = &[Function::CountElements];
 const WRITE: &[Function] = &[Function::WriteElement];
 const FUNCTIONS: &[Function] = functions!(|spec| matches!(
     (spec.group, spec.offset),
@@ -29,39 +28,6 @@ fn empty_place(call: &Call<'_>) -> bool {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.sda.count-itself", &[SDA_4], "the number of element types is twice what it should be",
-        COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_mul(2))),
-    on("cnc.sda.count-one-less", &[SDA_4, OBJ_1], "the number of element types leaves out the last",
-        COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.saturating_sub(1))),
-    row("cnc.sda.count-of-channel", &[SDA_4],
-        "the number of element types of an axis is that of its channel",
-        |cnc, call| if is(call, COUNT) && offset(call) >= 0x1_0000 {
-            cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call))
-        } else {
-            cnc.answer(call)
-        }),
-    row("cnc.sda.elements-from-0", &[SDA_4],
-        "elements are counted from 0: there is no number in front of them",
-        |cnc, call| match class(call) {
-            Some(_) if group(call) & 0xF00 != 0x900 && offset(call) & 0xFFF < 0x20 => {
-                cnc.at(call, group(call), offset(call).wrapping_add(1))
-            }
-            _ => cnc.answer(call),
-        }),
-    row("cnc.sda.elements-beyond", &[SDA_4], "behind the last element there is it again",
-        |cnc, call| match (class(call), cnc.answer(call)) {
-            (Some(_), Err(AdsError::INVALID_OFFSET)) if offset(call) & 0xFFF > 1 => {
-                cnc.at(call, group(call), offset(call).wrapping_sub(1))
-            }
-            (_, answer) => answer,
-        }),
-    on("cnc.sda.write-refused", &[SDA_9], "elements are never written, whatever their flag",
-        WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
-    on("cnc.sda.write-ignored", &[SDA_9], "writes of elements succeed and change nothing",
-        WRITE, |cnc, call| {
-            let old = cnc.read(call.port, group(call), offset(call))?;
-            if old.len() == call.data.len() { cnc.with(call, &old) } else { cnc.answer(call) }
-        }),
     row("cnc.sda.write-read-only", &[SDA_9], "a write of an element that is read-only succeeds",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),

@@ -5,21 +5,18 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, ReplyData, Upstream, fours, function, group, number, of_decoder, offset, on, row,
-    set_u32, text, u32_at,
+    CncSeed, ReplyData, Upstream, fours, function, group, number, on, row, set_u32, text, u32_at,
 };
 
-const HANDLE: &[Function] = &[Function::HandleByName, Function::AxisHandleByName];
-
 /// The parts of a request by handle: handle, indices, value.
-pub(super) fn parts(data: &[u8]) -> Option<(u32, Vec<u32>, &[u8])> {
+pub(in crate::faults) fn parts(data: &[u8]) -> Option<(u32, Vec<u32>, &[u8])> {
     let count = usize::try_from(u32_at(data, 4)?).ok()?;
     let end = count.checked_mul(4)?.checked_add(8)?;
     let indices = fours(data.get(8..end)?);
     Some((u32_at(data, 0)?, indices, data.get(end..)?))
 }
 
-pub(super) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
+pub(in crate::faults) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
     let count = u32::try_from(indices.len()).unwrap_or_default();
     let numbers = [handle, count].into_iter().chain(indices.iter().copied());
     numbers.flat_map(u32::to_le_bytes).chain(value.iter().copied()).collect()
@@ -40,13 +37,6 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-not-understood", &[VAR_10],
         "the handle by name is another than the one that is understood",
         |cnc, call| with_handle(cnc, call, |handle| handle ^ 0x5A00_0000)),
-    row("cnc.var.handle-16-bit", &[VAR_10], "the handle by name is the lower 16 bits",
-        |cnc, call| with_handle(cnc, call, |handle| handle & 0xFFFF)),
-    on("cnc.var.handle-2-bytes", &[VAR_10], "the handle by name takes 2 bytes",
-        HANDLE, |cnc, call| cnc.answer(call).map(|mut bytes| {
-            bytes.truncate(2);
-            bytes
-        })),
     row("cnc.var.handle-changes", &[VAR_10],
         "the handle by name is another at each request; all of them are understood",
         |cnc, call| match (function(call), parts(call.data)) {
@@ -119,11 +109,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.handle-in-description", &[VAR_4, VAR_10], "the handle in a description is the index",
-        &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
-            set_u32(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
-            bytes
-        })),
     on("cnc.var.handle-0-in-description", &[VAR_4], "the handle in a description is 0",
         &[Function::DescribeByIndex], |cnc, call| number(cnc.answer(call), 0, |_| 0)),
     row("cnc.var.handle-of-axis", &[VAR_10],
@@ -154,12 +139,5 @@ pub(super) const ROWS: &[CncSeed] = &[
                 }
                 _ => cnc.answer(call),
             }
-        }),
-    row("cnc.var.by-handle-at-index", &[VAR_10, VAR_11],
-        "reading by handle is at 0x46, the handle by name at 0x47",
-        |cnc, call| match of_decoder(call) {
-            Some(0x46) => cnc.at(call, group(call), 0x47),
-            Some(0x47) => cnc.at(call, group(call), 0x46),
-            _ => cnc.at(call, group(call), offset(call)),
         }),
 ];

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
@@ -43,8 +43,6 @@ fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> b
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.sda.query-swapped", &[SDA_1], "the question for an instance is read as axis and channel",
-        |cnc, call| with_instance(cnc, call, |channel, axis| (axis, channel))),
     row("cnc.sda.address-swapped", &[SDA_1], "an instance is answered as index offset and index group",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             bytes.rotate_left(4);
@@ -59,35 +57,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             },
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.query-by-write-and-read", &[SDA_1],
-        "the question for an instance is written, and the answer then read",
-        |cnc, call| match (class(call), group(call) & 0xF00, call.service) {
-            (Some(_), 0x900, Service::ReadWrite) => Err(AdsError::SERVICE_NOT_SUPPORTED),
-            (Some(_), 0x900, Service::Write) => {
-                let found =
-                    cnc.answer(&Call { service: Service::ReadWrite, read_length: 8, ..*call })?;
-                cnc.memory().store((0, 0, Vec::new()), found);
-                Ok(Vec::new())
-            }
-            (Some(_), 0x900, Service::Read) => {
-                cnc.memory().get(&(0, 0, Vec::new())).ok_or(AdsError::INVALID_DATA)
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.sda.address-of-query", &[SDA_1],
         "the index group of an instance is that of its object address, 0x123901",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             match u32_at(&bytes, 0) {
                 Some(0) | None => {}
                 Some(group) => set_u32(&mut bytes, 0, group.wrapping_add(0x600)),
-            }
-            bytes
-        })),
-    row("cnc.sda.address-of-second", &[SDA_1, SDA_3],
-        "the address of an instance is that of its element 1",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            if let (Some(1..), Some(offset)) = (u32_at(&bytes, 0), u32_at(&bytes, 4)) {
-                set_u32(&mut bytes, 4, offset.wrapping_add(1));
             }
             bytes
         })),

@@ -46,7 +46,7 @@ pub(super) fn element_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bo
 }
 
 /// A name without the indices of an element, and the indices.
-pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
+pub(in crate::faults) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     let (mut name, mut indices) = (name, Vec::new());
     while let Some(open) = name.strip_suffix(b"]") {
         let Some(at) = open.iter().rposition(|&byte| byte == b'[') else { break };
@@ -59,7 +59,7 @@ pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
 }
 
 /// A name with indices and a NUL.
-pub(super) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
+pub(in crate::faults) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
     let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
     [name, indices.as_bytes(), &[0]].concat()
 }

@@ -9,7 +9,6 @@ mod code;
 mod com;
 mod consistency;
 mod content;
-mod device;
 mod dynamic;
 mod element;
 mod faulty;
@@ -41,6 +40,8 @@ pub(in crate::faults) use self::bytes::{
     after_nul, dimensions, fours, number, records, records_mut, set_u32, u32_at,
 };
 pub use self::faulty::Faulty;
+pub(in crate::faults) use self::handle::{joined, parts};
+pub(in crate::faults) use self::lookup::{indexed, with_indices};
 pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
     first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
@@ -58,7 +59,7 @@ pub(in crate::faults) use frame::measured;
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
-    let areas: [&'static [CncSeed]; 30] = [
+    let areas: [&'static [CncSeed]; 29] = [
         variable_consistency::ROWS,
         address::ROWS,
         ads::ROWS,
@@ -69,7 +70,6 @@ pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
         com::ROWS,
         content::ROWS,
         consistency::ROWS,
-        device::ROWS,
         dynamic::ROWS,
         element::ROWS,
         frame::ROWS,

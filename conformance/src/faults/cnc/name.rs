@@ -168,20 +168,6 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.element-by-name-from-1", &[VAR_20, VAR_14],
-        "the index of an element in a name is counted from 1",
-        &[Function::ReadByName], |cnc, call| {
-            let name = text(call.data);
-            let path = without_indices(name);
-            let indices = name.get(path.len()..).and_then(|it| std::str::from_utf8(it).ok());
-            let lower = |index: &str| {
-                let index = index.trim_matches(['[', ']']).parse::<u32>().unwrap_or_default();
-                format!("[{}]", index.wrapping_sub(1))
-            };
-            let indices = indices.unwrap_or_default().split_inclusive(']').map(lower);
-            let indices: String = indices.collect();
-            cnc.with(call, &[path, indices.as_bytes(), &[0]].concat())
-        }),
     row("cnc.var.leaves-without-structure", &[VAR_20, VAR_4],
         "descriptions have the last part of a name alone: V.E.array_sgn32",
         |cnc, call| super::reply(cnc, call, &[Function::DescribeByIndex], |bytes| {

@@ -2,13 +2,11 @@
 
 use ads_cnc::address::{Access, ComGroup, ComTable};
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::com::set;
-use super::{
-    CncSeed, LOGICAL, at, com_group, delay_write, group, is, offset, on, records_mut, row,
-};
+use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, records_mut, row};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -24,22 +22,6 @@ fn content(call: &Call<'_>) -> Option<ComGroup> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    on("cnc.com.content-short", &[COM_5], "contents lack their last byte",
-        READ, |cnc, call| cnc.answer(call).map(|mut bytes| {
-            bytes.pop();
-            bytes
-        })),
-    row("cnc.com.content-4-bytes", &[COM_5], "contents take 4 bytes at least if there is room for them",
-        |cnc, call| if is(call, READ) && call.read_length >= 4 {
-            cnc.answer(call).map(|mut bytes| {
-                bytes.resize(bytes.len().max(4), 0);
-                bytes
-            })
-        } else {
-            cnc.answer(call)
-        }),
-    on("cnc.com.content-none", &[COM_5], "contents are read as nothing: no error, and no data",
-        READ, |cnc, call| cnc.answer(call).map(|_| Vec::new())),
     row("cnc.com.content-big-endian", &[GEN_1, COM_5],
         "contents are read and written with the most significant byte first",
         |cnc, call| match (is(call, READ), is(call, WRITE)) {
@@ -55,21 +37,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.content-refused", &[COM_5], "contents are read with ReadWrite, and not with Read",
-        |cnc, call| match (is(call, READ), content(call), call.service) {
-            (true, ..) => Err(AdsError::SERVICE_NOT_SUPPORTED),
-            (_, Some(_), Service::ReadWrite) if call.data.is_empty() => {
-                cnc.answer(&Call { service: Service::Read, ..*call })
-            }
-            _ => cnc.answer(call),
-        }),
-    row("cnc.com.axis-content-refused", &[COM_5], "objects of channel axes are described, but not read",
-        |cnc, call| match content(call) {
-            Some(com) if com.table == ComTable::Channel && offset(call) >= 0x1_0000 => {
-                Err(AdsError::INVALID_OFFSET)
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.com.content-of-channel-1", &[COM_5], "contents of channels are those of channel 1",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Channel && com.instance > 1 => {
@@ -77,28 +44,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.com.write-ignored", &[COM_5], "a write succeeds and changes nothing",
-        WRITE, |cnc, call| {
-            let size = cnc.answer(&Call {
-                service: Service::Read,
-                data: &[],
-                read_length: u32::MAX,
-                ..*call
-            })?;
-            if size.len() == call.data.len() && writable(cnc, call) {
-                Ok(Vec::new())
-            } else {
-                cnc.answer(call)
-            }
-        }),
-    row("cnc.com.write-late", &[COM_5], "a write takes effect with the next one",
-        |cnc, call| if is(call, WRITE) && writable(cnc, call) {
-            delay_write(cnc, call)
-        } else {
-            cnc.answer(call)
-        }),
-    on("cnc.com.write-refused", &[COM_5, COM_2], "what the descriptor calls writable is refused",
-        WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
     row("cnc.com.write-read-only-accepted", &[COM_2],
         "a write of what is read-only succeeds, and changes nothing",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
@@ -170,9 +115,3 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
 ];
-
-/// Whether writing the current content succeeds.
-fn writable(cnc: &super::Upstream<'_>, call: &Call<'_>) -> bool {
-    let old = cnc.read(call.port, group(call), offset(call));
-    old.is_ok_and(|old| old.len() == call.data.len() && cnc.with(call, &old).is_ok())
-}

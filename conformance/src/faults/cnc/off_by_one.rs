@@ -5,10 +5,10 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::handle::{joined, parts};
-use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
+use super::lookup::{described, instance, is_string, name_of};
 use super::{
-    CncSeed, LOGICAL, ReplyData, Upstream, after_nul, dimensions, function, group, is, number,
-    offset, on, records_mut, reply, row, set_u32, text, u32_at,
+    CncSeed, LOGICAL, after_nul, function, group, is, offset, on, records_mut, reply, row, set_u32,
+    text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -25,33 +25,6 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
         bytes.iter_mut().skip(len).zip(rest).for_each(|(byte, old)| *byte = *old);
         before = text(bytes).to_vec();
     }
-}
-
-/// Sets elements of one byte after the written one to 0.
-fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
-    let done = cnc.answer(call)?;
-    let (name, indices) = indexed(text(call.data));
-    let described = described(cnc, group(call), name).unwrap_or_default();
-    if let (true, [before @ .., last], 1) =
-        (!is_string(&described), &indices[..], after_nul(call.data).len())
-    {
-        for next in 1..4 {
-            let other = [before, &[last.wrapping_add(next)]].concat();
-            let _ = cnc.with(call, &[&with_indices(name, &other)[..], &[0]].concat());
-        }
-    }
-    Ok(done)
-}
-
-/// Continues with the next kind of parameters for an index beyond the count.
-fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> ReplyData {
-    let count = cnc.read(call.port, group(call), (at.wrapping_sub(0x1B) / 3).saturating_add(2))?;
-    let count = u32_at(&count, 0).unwrap_or_default();
-    cnc.at(
-        &Call { data: &index.wrapping_sub(count).to_le_bytes(), ..*call },
-        group(call),
-        offset(call).wrapping_add(3),
-    )
 }
 
 #[rustfmt::skip]
@@ -89,20 +62,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             run_on(&mut records, 52);
             records.concat()
         })),
-    on("cnc.com.id-of-first-place", &[COM_2],
-        "objects of the same name have the same ID, whichever place of the channel has them",
-        DESCRIPTORS, |cnc, call| {
-            let first = Call { read_length: 84 * 512, ..*call };
-            let all = super::records(&cnc.at(&first, group(call), 1)?);
-            cnc.answer(call).map(|mut bytes| {
-                for record in records_mut(&mut bytes) {
-                    let same = all.iter().find(|other| other.get(20..52) == record.get(20..52));
-                    let id = same.and_then(|other| u32_at(other, 0)).unwrap_or_default();
-                    set_u32(record, 0, id);
-                }
-                bytes
-            })
-        }),
     row("cnc.com.write-first-channel-too", &[COM_5],
         "what is written to an object of channel 2 is written to that of channel 1 too",
         |cnc, call| {
@@ -115,30 +74,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             done
         }),
-    on("cnc.sda.count-writable", &[SDA_4], "the number of elements counts those with write access",
-        &[Function::CountElements], |cnc, call| {
-            let count = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
-            let flag = |element: &u32| {
-                let at = offset(call).wrapping_add(*element);
-                cnc.read(call.port, group(call) | 0x500, at).is_ok_and(|flag| flag == [1])
-            };
-            let writable = (1..=count).filter(flag).count();
-            number(cnc.answer(call), 0, |_| 0).map(|mut bytes| {
-                set_u32(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
-                bytes
-            })
-        }),
-    row("cnc.dyn.index-into-next-kind", &[DYN_5],
-        "behind the last index of a kind names and values of the next kind follow",
-        |cnc, call| {
-            let kinds = [Function::DynamicNameByIndex, Function::DynamicValueByIndex];
-            match (is(call, &kinds), cnc.answer(call), u32_at(call.data, 0)) {
-                (true, Err(AdsError::INVALID_DATA), Some(index @ 1..)) => {
-                    behind_kind(cnc, call, offset(call), index).or(Err(AdsError::INVALID_DATA))
-                }
-                (_, answer, _) => answer,
-            }
-        }),
     on("cnc.dyn.names-sorted", &[DYN_4, DYN_2],
         "names by index are sorted by the alphabet, values by index are not",
         &[Function::DynamicNameByIndex], |cnc, call| {
@@ -149,30 +84,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             let place = u32_at(call.data, 0).and_then(|index| usize::try_from(index).ok());
             let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
             super::within_length(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
-        }),
-    on("cnc.var.write-element-4-bytes", &[VAR_13],
-        "an element of one byte is written by name as 4 bytes: the three behind it become 0",
-        &[Function::WriteByName], zero_behind),
-    row("cnc.var.row-beyond", &[VAR_11, VAR_4],
-        "an index behind the end of a row, by handle, goes on in the next row",
-        |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
-            (true, Some((handle, indices, _))) if indices.len() == 2 => {
-                let name = name_of(cnc, group(call), handle).unwrap_or_default();
-                let described = described(cnc, group(call), &name).unwrap_or_default();
-                let (rows, columns) = match dimensions(&described).0[..] {
-                    [rows, columns] if columns > 0 => (rows, columns),
-                    _ => return cnc.answer(call),
-                };
-                let [row, column] = indices[..] else { return cnc.answer(call) };
-                let flat = row.saturating_mul(columns).saturating_add(column);
-                if flat < rows.saturating_mul(columns) {
-                    let inside = [flat / columns, flat % columns];
-                    cnc.with(call, &joined(handle, &inside, &[]))
-                } else {
-                    cnc.answer(call)
-                }
-            }
-            _ => cnc.answer(call),
         }),
     row("cnc.var.strings-127-apart", &[VAR_11, VAR_14],
         "elements of an array of STRING, by handle, are a byte less apart than they are long",
@@ -188,27 +99,6 @@ pub(super) const ROWS: &[CncSeed] = &[
                 if is_string(&described) { Ok(part.map_or(right, <[u8]>::to_vec)) } else { Ok(right) }
             }
             _ => cnc.answer(call),
-        }),
-    row("cnc.var.count-of-axes", &[VAR_2],
-        "the number of V.A counts each variable once, and its descriptions come for each axis",
-        |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data) == b"V.A" {
-            let kind = b"V.A\0";
-            let all = (0_u32..).map_while(|index| {
-                cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), &kind[..]].concat()).ok()
-            });
-            let mut names: Vec<Vec<u8>> = all
-                .map(|bytes| {
-                    let name = text(bytes.get(dimensions(&bytes).1..).unwrap_or_default());
-                    let dot = name.iter().rposition(|&byte| byte == b'.').unwrap_or_default();
-                    name.get(..dot).unwrap_or_default().to_vec()
-                })
-                .collect();
-            names.sort();
-            names.dedup();
-            let count = u32::try_from(names.len()).unwrap_or_default();
-            cnc.answer(call).map(|_| count.to_le_bytes().to_vec())
-        } else {
-            cnc.answer(call)
         }),
     row("cnc.var.sum-with-cycle", &[VAR_1], "the sum of all kinds counts V.CYC too",
         |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data).is_empty() {

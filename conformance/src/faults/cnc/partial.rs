@@ -7,9 +7,8 @@ use ads_cnc_vectors::ids::*;
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, after_nul, dimensions, function, group,
-    is, number, of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at,
-    within_length,
+    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, dimensions, function, group, is, number,
+    of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at, within_length,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -50,22 +49,10 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.objects-logical-only", &[ADR_12],
-        "objects are described by logical addressing only, their contents are read by index too",
-        |cnc, call| match group(call) & 0xFF_FE00 {
-            0x03_0000 if group(call) & 0x100 != 0 => Err(AdsError::INVALID_GROUP),
-            _ => cnc.answer(call),
-        }),
     row("cnc.adr.spindles-without-flag", &[ADR_6, ADR_5],
         "spindles have no write flag: 0x25800 is refused",
         |cnc, call| match group(call) & 0xFF_FF00 {
             0x02_5800 => Err(AdsError::INVALID_GROUP),
-            _ => cnc.answer(call),
-        }),
-    row("cnc.adr.parameters-logical-only", &[ADR_12, ADR_1],
-        "numbers, names and values of parameters are refused by index, variables are not",
-        |cnc, call| match (group(call) & LOGICAL, of_decoder(call)) {
-            (0, Some(0x02..=0x05 | 0x1B..=0x26)) => Err(AdsError::INVALID_OFFSET),
             _ => cnc.answer(call),
         }),
     row("cnc.gen.real32-8-bytes", &[GEN_5, SDA_7, SDA_8], "a REAL32 of SDA and GEO is read as 8 bytes",
@@ -199,21 +186,6 @@ pub(super) const ROWS: &[CncSeed] = &[
         DESCRIPTIONS, |cnc, call| {
             let answer = cnc.answer(call)?;
             if is_string(&answer) { number(Ok(answer), 8, |_| 1) } else { Ok(answer) }
-        }),
-    on("cnc.var.strings-blank", &[VAR_13, VAR_14],
-        "a STRING that is written by name is filled up with blanks",
-        &[Function::WriteByName], |cnc, call| {
-            let name = [text(call.data), &[0]].concat();
-            let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
-            let room = cnc.ask(group(call), 0x48, &name).unwrap_or_default().len();
-            let service = name.starts_with(b"V.G.SERVICE.");
-            if is_string(&described) && after_nul(call.data).len() <= room && !service {
-                let mut value = text(after_nul(call.data)).to_vec();
-                value.resize(room.saturating_sub(1), b' ');
-                cnc.with(call, &[&name[..], &value, &[0]].concat())
-            } else {
-                cnc.answer(call)
-            }
         }),
     row("cnc.var.cycle-read-only", &[VAR_18], "V.CYC is read, and not written",
         |cnc, call| if is(call, &[Function::WriteByName]) && call.data.starts_with(b"V.CYC.") {

@@ -168,14 +168,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             let first = memory.frame.clone();
             set(bytes, TARGET, &first)
         }),
-    sent("cnc.ads.source-port-of-before", &[ADS_5],
-        "the source port of a response is the port that the request before was for",
-        |cnc, request, bytes| {
-            let port = u32::from(request.header().target.port.0);
-            let before = std::mem::replace(&mut cnc.memory().count, port);
-            let port = u16::try_from(if before == 0 { port } else { before }).unwrap_or_default();
-            set(bytes, SOURCE.wrapping_add(6), &port.to_le_bytes())
-        }),
     sent("cnc.ads.result-stays", &[ADS_2, ADS_4],
         "the first Write behind a refusal has the result of that, and is done",
         |cnc, request, bytes| {
@@ -209,13 +201,6 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.ads.read-length-16-bit-wide", &[ADS_1, ADS_3, ADS_4],
         "of the read length the lower 16 bits count: 0x10002 is 2",
         |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
-    row("cnc.dyn.count-8-bytes", &[DYN_1],
-        "the number of parameters takes 8 bytes where a Read has room for them",
-        |cnc, call| if is(call, COUNT) && call.read_length >= 8 {
-            cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat())
-        } else {
-            cnc.answer(call)
-        }),
     row("cnc.sda.found-not-read", &[SDA_5, ADR_7],
         "of the position controller three axes are read, though all of them are found",
         |cnc, call| match group(call) & 0xFF_FFFF {

@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 use ads_cnc_vectors::ids::*;
 
-use super::handle::{joined, parts};
+use super::handle::parts;
 use super::number::count;
 use super::{
     CncSeed, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
@@ -73,20 +73,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             value.for_each(|(byte, old)| *byte = old);
             cnc.with(call, &data)
         }),
-    row("cnc.var.write-next-element", &[VAR_12],
-        "a write of an element by handle writes the element behind it too",
-        |cnc, call| match (is(call, WRITES), parts(call.data)) {
-            (true, Some((handle, at, value)))
-                if function(call) == Some(Function::WriteByHandle) =>
-            {
-                let done = cnc.answer(call);
-                if let ([index], Ok(_)) = (at.as_slice(), &done) {
-                    let _ = cnc.with(call, &joined(handle, &[index.wrapping_add(1)], value));
-                }
-                done
-            }
-            _ => cnc.answer(call),
-        }),
     row("cnc.var.write-refused-done", &[VAR_12, VAR_13],
         "a value of more bytes than the variable has is refused, and its front written",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
@@ -135,14 +121,6 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             bytes
         })),
-    on("cnc.var.description-before", &[VAR_3, VAR_4], "a description is that of the request before",
-        &[Function::DescribeByIndex], |cnc, call| {
-            let own = cnc.answer(call)?;
-            let key = (0, 0, b"before".to_vec());
-            let before = cnc.memory().get(&key).unwrap_or_else(|| own.clone());
-            cnc.memory().store(key, own);
-            within_length(call, Ok(before))
-        }),
     on("cnc.var.axis-write-all", &[VAR_26],
         "a write on the axis interface is one to all axes of the channel",
         &[Function::AxisWriteByName], |cnc, call| {

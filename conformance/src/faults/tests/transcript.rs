@@ -96,6 +96,7 @@ impl<'t> Transcript<'t> {
         self.parameters();
         self.variables();
         self.writes();
+        self.unknown_writes();
         self.services();
         let others: [fn(&mut Self); 5] =
             [Self::exchange, Self::changes, Self::streams, Self::scripts, Self::sequences];
@@ -121,7 +122,7 @@ impl<'t> Transcript<'t> {
                 self.read(553, group, offset, 256);
                 self.read(553, group & !0x10_0000, offset, 256);
             }
-            for (first, len) in [(1, 252), (2, 168), (23, 840), (1, 85)] {
+            for (first, len) in [(1, 252), (2, 168), (23, 840), (1, 85), (257, 84)] {
                 self.read(553, list, first, len);
             }
         }

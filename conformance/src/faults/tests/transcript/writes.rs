@@ -8,6 +8,27 @@ use super::{Transcript, number, numbers};
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
 impl Transcript<'_> {
+    /// Writes to unknown channels, axes and elements.
+    pub(super) fn unknown_writes(&mut self) {
+        self.write(552, 0x12_2309, 0x4A, b"V.E.Variable_2[0]\0\x09");
+        self.write(552, 0x12_2309, 0x49, &[numbers(&[0x200_0002, 0]), vec![1, 1]].concat());
+        for (group, axis) in [(0x12_2309, 1), (0x12_2301, 9)] {
+            let value = [&b"V.A.WCS\0"[..], &[0; 8]].concat();
+            self.write(552, group, axis << 16 | 6, &value);
+        }
+        for (port, group, offset) in
+            [(552, 0x12_3309, 2), (553, 0x12_0109, 1), (553, 0x12_0101, 0x9_0001)]
+        {
+            self.write(port, group, offset, &[0]);
+            self.write(port, group, offset, &[0; 2]);
+        }
+        for offset in [0x1002, 0x9_0002, 0x102] {
+            self.write(552, 0x12_3301, offset, &[0; 2]);
+            self.write(552, 0x12_1301, offset, &[0; 8]);
+            self.write(552, 0x12_3300, offset, &[1]);
+        }
+    }
+
     pub(super) fn writes(&mut self) {
         let contents = [
             (0x12_0101, 1, &[1][..]),

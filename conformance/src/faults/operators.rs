@@ -1,0 +1,423 @@
+//! Defects of one function, generated: each operator changes the right answer, or asks for another one.
+//!
+//! ```
+//! use ads_cnc_conformance::faults;
+//!
+//! let seed = faults::by_id("describe-by-index.next-index").unwrap();
+//! assert!(seed.requirements.contains(&"VAR-4"));
+//! ```
+
+use ads_cnc::address::{Attribute, Class, IndexOffset};
+use ads_cnc::ads::AdsError;
+use ads_cnc::layout::{Stream, Type};
+use ads_cnc::operation::{Call, Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service};
+use ads_cnc_vectors::ClauseId;
+use ads_cnc_vectors::ids::*;
+
+use super::cnc::{
+    CncFault, LOGICAL, ReplyData, Upstream, after_nul, class, delay_write, first, function, group,
+    indexed, joined, offset, or_short, parts, set_u32, text, u32_at, with_indices, within_length,
+};
+use super::seed::{How, Seed, SeedKind};
+
+/// A defect that any function of a kind can have.
+struct Operator {
+    name: &'static str,
+    what: &'static str,
+    /// The requirements that it breaks beside that of the function.
+    breaks: &'static [ClauseId],
+    applies: fn(&FunctionSpec) -> bool,
+    answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
+}
+
+const fn operator(
+    name: &'static str,
+    what: &'static str,
+    breaks: &'static [ClauseId],
+    applies: fn(&FunctionSpec) -> bool,
+    answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
+) -> Operator {
+    Operator { name, what, breaks, applies, answer }
+}
+
+/// A number in a request.
+#[derive(Clone, Copy)]
+enum Argument {
+    Channel,
+    Axis,
+    Index,
+}
+
+use Argument::{Axis, Channel, Index};
+
+/// The answer to the request with another number for an argument; `None` if it has none, or the same.
+fn asked(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    argument: Argument,
+    other: impl Fn(u32) -> u32,
+) -> Option<ReplyData> {
+    let spec = function(call)?.spec();
+    let field = |at| u32_at(call.data, at).map(|number| (number, other(number)));
+    let data = |at| {
+        field(at).filter(|(old, new)| old != new).map(|(_, new)| {
+            let mut data = call.data.to_vec();
+            set_u32(&mut data, at, new);
+            cnc.with(call, &data)
+        })
+    };
+    let part = |number: u32, shift: u32, mask: u32| {
+        let old = number >> shift & mask;
+        let new = other(old) & mask;
+        (old != 0 && old != new).then(|| number & !(mask << shift) | new << shift)
+    };
+    match (argument, spec.offset, first(spec.request)) {
+        (Channel | Axis, ..) if class(call).is_some_and(|class| class.class == Class::Spindle) => {
+            None
+        }
+        (Channel, _, b"channel") => data(0),
+        (Axis, _, b"channel") => data(4),
+        (Channel, ..) => part(group(call), 0, 0xFF).map(|group| cnc.at(call, group, offset(call))),
+        (Axis, ..) => {
+            part(offset(call), 16, 0xFFFF).map(|offset| cnc.at(call, group(call), offset))
+        }
+        (Index, OffsetRule::AtLeast(_), _) => {
+            part(offset(call), 0, 0xFFFF).map(|offset| cnc.at(call, group(call), offset))
+        }
+        (Index, _, b"index") => data(0),
+        (Index, _, b"handle") => {
+            let (handle, mut indices, value) = parts(call.data)?;
+            let last = indices.last_mut()?;
+            let old = std::mem::replace(last, other(*last));
+            (indices.last() != Some(&old)).then(|| cnc.with(call, &joined(handle, &indices, value)))
+        }
+        (Index, _, b"name") => {
+            let (name, mut indices) = indexed(text(call.data));
+            let last = indices.last_mut()?;
+            let old = std::mem::replace(last, other(*last));
+            let data = [&with_indices(name, &indices), after_nul(call.data)].concat();
+            (indices.last() != Some(&old)).then(|| cnc.with(call, &data))
+        }
+        _ => None,
+    }
+}
+
+/// The answer to the request with another number for an argument, if the CNC knows the right one and the
+/// other one.
+fn mistaken(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    argument: Argument,
+    other: impl Fn(u32) -> u32,
+) -> ReplyData {
+    if call.service != Service::Write {
+        cnc.answer(call)?;
+    }
+    asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
+}
+
+/// The answer to the request with another number for an argument if the CNC rejects the right one.
+fn instead(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    argument: Argument,
+    other: impl Fn(u32) -> u32,
+) -> ReplyData {
+    cnc.answer(call).or_else(|error| asked(cnc, call, argument, other).unwrap_or(Err(error)))
+}
+
+/// The least index of the function.
+fn least(call: &Call<'_>) -> u32 {
+    // Only those of variables are counted from 0 (VAR-2, VAR-20).
+    u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
+}
+
+/// The right reply, changed.
+fn changed(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(&mut Vec<u8>)) -> ReplyData {
+    let mut bytes = cnc.answer(call)?;
+    other(&mut bytes);
+    Ok(bytes)
+}
+
+/// Where the value begins that a write carries.
+fn value_at(call: &Call<'_>) -> usize {
+    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
+        b"name" => after_nul(call.data),
+        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
+        _ => call.data,
+    };
+    call.data.len().saturating_sub(value.len())
+}
+
+/// Executes a write, and another one of what `other` makes of the new and the old value.
+fn rewritten(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    other: impl Fn(&[u8], &[u8]) -> Vec<u8>,
+) -> ReplyData {
+    let (head, new) = call.data.split_at_checked(value_at(call)).unwrap_or_default();
+    let (service, back) = match function(call) {
+        Some(Function::WriteByHandle | Function::WriteByName) => (Service::ReadWrite, 2),
+        Some(Function::AxisWriteByName) => (Service::ReadWrite, 1),
+        _ => (Service::Read, 0),
+    };
+    let index_offset = IndexOffset::new(offset(call).wrapping_sub(back));
+    let old = cnc.whole(&Call { service, index_offset, data: head, ..*call });
+    let done = cnc.answer(call)?;
+    let _ = cnc.with(call, &[head, &other(new, &old?)].concat());
+    Ok(done)
+}
+
+/// The answer that the defect remembers.
+fn kept() -> (u32, u32, Vec<u8>) {
+    (0, 0, b"kept".to_vec())
+}
+
+fn has_reply(spec: &FunctionSpec) -> bool {
+    spec.reply.is_some()
+}
+
+/// Whether the reply has more than one field.
+fn has_fields(spec: &FunctionSpec) -> bool {
+    spec.reply.is_some_and(|reply| reply.layout().fields.len() > 1)
+}
+
+/// Whether the end of the reply is not that of a text, which may have a NUL or none.
+fn has_end(spec: &FunctionSpec) -> bool {
+    let last = spec.reply.and_then(|reply| reply.layout().fields.last());
+    last.is_some_and(|field| field.ty != Type::String)
+}
+
+/// Whether it asks a channel, which may be addressed by its rank.
+fn has_rank(spec: &FunctionSpec) -> bool {
+    !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
+}
+
+/// Whether channels give different answers: handles and extended descriptions are the same in each.
+fn differs_by_channel(spec: &FunctionSpec) -> bool {
+    first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
+}
+
+/// Whether each instance has the same: the number of elements, and their types, lengths, units and flags.
+fn is_alike(spec: &FunctionSpec) -> bool {
+    matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
+        && !spec.is_content()
+}
+
+/// Whether it has an error for what does not exist.
+fn has_unknown(spec: &FunctionSpec) -> bool {
+    !matches!(spec.group, GroupRule::Instances) && !is_alike(spec)
+}
+
+fn has_axis(spec: &FunctionSpec) -> bool {
+    matches!(spec.group, GroupRule::Instances | GroupRule::Elements(_) | GroupRule::ComContent)
+        || matches!(spec.offset, OffsetRule::OfAxis(_))
+}
+
+fn has_index(spec: &FunctionSpec) -> bool {
+    matches!(spec.offset, OffsetRule::AtLeast(_)) && !matches!(spec.group, GroupRule::ComContent)
+        || matches!(first(spec.request), b"index" | b"handle")
+        || matches!(spec.clause, "VAR-13" | "VAR-14")
+}
+
+/// Whether the function exists for several kinds of variables or parameters.
+fn has_kind(spec: &FunctionSpec) -> bool {
+    matches!(spec.offset, OffsetRule::OfKind(_)) || is_of_kind(spec)
+}
+
+/// Whether the request ends in a kind of variables.
+fn is_of_kind(spec: &FunctionSpec) -> bool {
+    let fields = spec.request.map_or(&[][..], |request| request.layout().fields);
+    fields.last().is_some_and(|field| field.name == "kind")
+}
+
+fn is_attribute(spec: &FunctionSpec) -> bool {
+    matches!(spec.group, GroupRule::Elements(_))
+        && !spec.is_content()
+        && !matches!(spec.offset, OffsetRule::FirstElement)
+}
+
+/// Whether it writes a value that can be read.
+fn writes(spec: &FunctionSpec) -> bool {
+    spec.effect != Effect::Query
+}
+
+/// The answer for the first kind.
+fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
+    match function(call).map(|function| (function.spec().offset, first(function.spec().request))) {
+        Some((OffsetRule::OfKind([least, ..]), _)) => cnc.at(call, group(call), least),
+        Some((_, b"index")) => {
+            cnc.with(call, &[call.data.get(..4).unwrap_or_default(), b"V.E\0"].concat())
+        }
+        _ => cnc.with(call, b"V.E\0"),
+    }
+}
+
+/// The request is taken for another one.
+#[rustfmt::skip]
+const OF_REQUESTS: &[Operator] = &[
+    operator("reject", "it is rejected", &[], |_| true, |_, _| Err(AdsError::INVALID_DATA)),
+    operator("rank-rejected", "a channel by index is rejected", &[ADR_12], has_rank,
+        |cnc, call| if group(call) & LOGICAL == 0 { Err(AdsError::INVALID_GROUP) } else { cnc.answer(call) }),
+    operator("rank-is-number", "a channel by index is the one with this number", &[ADR_1, ADR_11], has_rank,
+        |cnc, call| cnc.at(call, group(call) | LOGICAL, offset(call))),
+    operator("number-is-rank", "the number of a channel is its rank", &[ADR_1], has_rank,
+        |cnc, call| cnc.at(call, group(call) & !LOGICAL, offset(call))),
+    operator("first-channel", "it is that of channel 1 if channel 1 has it", &[], differs_by_channel,
+        |cnc, call| mistaken(cnc, call, Channel, |_| 1)),
+    operator("unknown-channel-is-first", "an unknown channel is channel 1", &[ADS_4], has_unknown,
+        |cnc, call| instead(cnc, call, Channel, |_| 1)),
+    operator("first-axis", "it is that of axis 1 if axis 1 has it", &[ADR_7], |spec| has_axis(spec) && !is_alike(spec),
+        |cnc, call| mistaken(cnc, call, Axis, |_| 1)),
+    operator("next-axis", "it is that of the next axis if this one has it", &[ADR_7], |spec| has_axis(spec) && !is_alike(spec),
+        |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1))),
+    operator("unknown-axis-is-first", "an unknown axis is axis 1", &[ADR_7, ADS_4], |spec| has_unknown(spec) && has_axis(spec),
+        |cnc, call| instead(cnc, call, Axis, |_| 1)),
+    operator("next-index", "it is that of the next index if there is one", &[DYN_5, VAR_2, VAR_20], has_index,
+        |cnc, call| mistaken(cnc, call, Index, |index| index.wrapping_add(1))),
+    operator("first-index", "it is that of the first index", &[DYN_5, VAR_2, VAR_20], has_index,
+        |cnc, call| mistaken(cnc, call, Index, |_| least(call))),
+    operator("index-8-bit", "the lowest 8 bits of the index count", &[DYN_5, VAR_2, VAR_20], has_index,
+        |cnc, call| asked(cnc, call, Index, |index| index & 0xFF).unwrap_or_else(|| cnc.answer(call))),
+    operator("index-beyond-is-last", "the index after the last is the last", &[DYN_5, VAR_2, VAR_20, ADS_4], has_index,
+        |cnc, call| instead(cnc, call, Index, |index| index.wrapping_sub(1))),
+    operator("first-kind", "it is that of the first kind", &[VAR_16], has_kind, of_first_kind),
+    operator("other-attribute", "it is another attribute", &[ADR_6], is_attribute, |cnc, call| {
+        let next = if group(call) & 0xF00 == 0x800 { 0x400 } else { (group(call) & 0xF00).wrapping_add(0x100) };
+        cnc.at(call, group(call) & !0xF00 | next, offset(call)).or_else(|_| cnc.answer(call))
+    }),
+    operator("error-is-empty", "an error is a success without data", &[ADS_4], has_reply,
+        |cnc, call| cnc.answer(call).or(Ok(Vec::new()))),
+    operator("error-is-last-reply", "an error is the last reply", &[ADS_4, DYN_5, VAR_2], |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances), |cnc, call| {
+        let last = cnc.memory().get(&kept());
+        let answer = cnc.answer(call).inspect(|right| cnc.memory().store(kept(), right.clone()));
+        within_length(call, answer.or_else(|error| last.ok_or(error)))
+    }),
+];
+
+/// The request is understood, but answered or executed wrongly.
+#[rustfmt::skip]
+const OF_ANSWERS: &[Operator] = &[
+    operator("empty", "the reply is empty", &[], has_reply, |cnc, call| changed(cnc, call, Vec::clear)),
+    operator("zeros", "every byte of the reply is 0", &[], has_fields,
+        |cnc, call| changed(cnc, call, |bytes| bytes.fill(0))),
+    operator("short", "the reply lacks its last byte", &[], has_end,
+        |cnc, call| changed(cnc, call, |bytes| _ = bytes.pop())),
+    operator("long", "the reply has one more byte if there is room", &[], has_end,
+        |cnc, call| or_short(cnc, call, changed(cnc, call, |bytes| bytes.push(0)))),
+    operator("stale", "the reply is that to the request before", &[VAR_16], has_reply, |cnc, call| {
+        let right = cnc.answer(call)?;
+        let before = cnc.memory().get(&kept()).unwrap_or_else(|| right.clone());
+        cnc.memory().store(kept(), right);
+        within_length(call, Ok(before))
+    }),
+    operator("frozen", "every reply is the first one", &[VAR_16], has_reply, |cnc, call| {
+        let right = cnc.answer(call)?;
+        let first = cnc.memory().get(&kept()).unwrap_or(right);
+        cnc.memory().store(kept(), first.clone());
+        within_length(call, Ok(first))
+    }),
+    operator("length-ignored", "the reply may be longer than the read length", &[ADS_1, ADS_3],
+        |spec| has_reply(spec) && !matches!(spec.group, GroupRule::ComObjects) && !matches!(spec.clause, "VAR-15" | "VAR-26"),
+        |cnc, call| cnc.whole(call)),
+    operator("ignored", "it succeeds and changes nothing", &[], writes,
+        |cnc, call| rewritten(cnc, call, |_, old| old.to_vec())),
+    operator("first-byte", "only the first byte is written", &[], writes, |cnc, call| {
+        rewritten(cnc, call, |new, old| [new.get(..1), old.get(1..)].map(Option::unwrap_or_default).concat())
+    }),
+    operator("late", "it is executed with the next one", &[],
+        writes, delay_write),
+    operator("also-first-channel", "it is executed in channel 1 too", &[],
+        |spec| writes(spec) && differs_by_channel(spec) && !matches!(spec.group, GroupRule::ComContent), |cnc, call| {
+            let done = cnc.answer(call)?;
+            let _ = asked(cnc, call, Channel, |_| 1);
+            Ok(done)
+        }),
+    operator("also-next-index", "it writes the next index too", &[],
+        |spec| writes(spec) && matches!(spec.clause, "VAR-12" | "VAR-13"), |cnc, call| {
+            let done = cnc.answer(call)?;
+            let _ = asked(cnc, call, Index, |index| index.wrapping_add(1));
+            Ok(done)
+        }),
+    operator("also-next-axis", "it writes the next axis too", &[ADR_7],
+        |spec| writes(spec) && has_axis(spec) && !matches!(spec.group, GroupRule::ComContent), |cnc, call| {
+            let done = cnc.answer(call)?;
+            let _ = asked(cnc, call, Axis, |axis| axis.wrapping_add(1));
+            Ok(done)
+        }),
+    operator("read-only-accepted", "a write of a read-only value succeeds", &[VAR_6, COM_2], writes,
+        |cnc, call| cnc.answer(call).or_else(|error| match error {
+            AdsError::INVALID_ACCESS => Ok(Vec::new()),
+            error => Err(error),
+        })),
+    operator("size-ignored", "a value of another size is accepted and not written", &[], writes,
+        |cnc, call| cnc.answer(call).or_else(|error| match error {
+            AdsError::INVALID_SIZE => Ok(Vec::new()),
+            error => Err(error),
+        })),
+    operator("once", "it is rejected after the first success", &[],
+        writes, |cnc, call| {
+            if cnc.memory().get(&kept()).is_some() { return Err(AdsError::INVALID_DATA) }
+            cnc.answer(call).inspect(|done| cnc.memory().store(kept(), done.clone()))
+        }),
+];
+
+/// The defects of all functions.
+pub(super) fn seeds() -> impl Iterator<Item = Seed> {
+    // The rows about streaming are by hand: a stream may be rejected for now, and is not read back.
+    let functions = Function::ALL.iter().filter(|one| **one != Function::WriteProgramStream);
+    functions.flat_map(|function| {
+        let of_requests = OF_REQUESTS.iter().map(|operator| (operator, function.spec().request));
+        let all = of_requests.chain(OF_ANSWERS.iter().map(|operator| (operator, None)));
+        let mine = all.filter(|(operator, _)| (operator.applies)(function.spec()));
+        mine.map(|(operator, request)| seed(function, operator, request))
+    })
+}
+
+fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream>) -> Seed {
+    let Operator { name, what, breaks, answer, .. } = operator;
+    let spec = function.spec();
+    let streams = spec.reply.filter(|_| !spec.is_content()).into_iter().chain(misread);
+    let mut requirements = vec![spec.clause];
+    requirements.extend(streams.map(|stream| stream.layout().clause));
+    requirements.extend(breaks.iter().filter(|id| concerns(**id, spec)).map(|id| id.as_str()));
+    requirements.sort_unstable();
+    requirements.dedup();
+    Seed {
+        id: format!("{}.{name}", kebab(*function)),
+        requirements,
+        what: format!("{}: {what}", spec.name),
+        kind: SeedKind::Cnc,
+        edition: None,
+        printed: true,
+        how: How::Cnc(CncFault::Function(std::slice::from_ref(function), *answer)),
+    }
+}
+
+/// Whether a requirement is about the function.
+fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
+    let area = |id: &'static str| id.split('-').next();
+    match clause {
+        ADR_7 => !matches!(spec.group, GroupRule::ComContent),
+        VAR_2 | DYN_5 => {
+            first(spec.request) == b"index" && area(clause.as_str()) == area(spec.clause)
+        }
+        VAR_20 => first(spec.request) == b"name",
+        VAR_16 => spec.clause == "VAR-15",
+        ADS_1 | ADS_3 => clause == crate::wire_service::clause(spec.service),
+        ADR_1 | ADR_6 | ADR_11 | ADR_12 | ADS_4 => true,
+        of_area => area(of_area.as_str()) == area(spec.clause),
+    }
+}
+
+/// `describe-by-index` for `DescribeByIndex`.
+fn kebab(function: Function) -> String {
+    let mut text = String::new();
+    for letter in format!("{function:?}").chars() {
+        if letter.is_ascii_uppercase() && !text.is_empty() {
+            text.push('-');
+        }
+        text.push(letter.to_ascii_lowercase());
+    }
+    text
+}
