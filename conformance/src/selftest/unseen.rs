@@ -25,7 +25,6 @@ pub const UNSEEN: &[&str] = &[
     "cnc.stm.same-ignored", "cnc.stm.starts-empty", "cnc.stm.starts-itself", "cnc.stm.subroutine-ends",
     "cnc.stm.taken-refused", "cnc.stm.taken-twice", "cnc.stm.upper-case", "cnc.svc.finished-everywhere",
     "cnc.svc.program-state-first", "cnc.svc.program-waits-for-ever", "cnc.svc.program-waits-not",
-    "cnc.svc.request-cleared", "cnc.svc.request-state-0-resets-not", "cnc.svc.request-state-1",
     "cnc.svc.request-state-resets-not", "cnc.svc.request-state-stays", "cnc.svc.resets-once",
     "cnc.var.axis-keeps", "cnc.var.cycle-read-only", "cnc.var.extended-swapped", "cnc.var.handle-of-axis",
     "cnc.var.index-reversed",

@@ -9,9 +9,10 @@ use ads_cnc::{Kind, VariableCount};
 
 use super::kit::{
     Counted, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
-    VARIABLES_MAX, ask_if_claimed,
+    VARIABLES_MAX, ask_if_claimed, has_dynamic_variables,
 };
 use crate::client::InquiryReply;
+use crate::edition::Edition;
 use crate::judge::{IfPresent as _, Step, Stop};
 use crate::objects::{Walker, active_channels, decoder_of};
 use crate::report::{FoundChannel, FoundList, FoundReport};
@@ -79,6 +80,10 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
         go_on(found, claimed)?;
         let claimed = claim_axes(probe);
         go_on(found, claimed)?;
+        let dynamic = has_dynamic_variables(probe);
+        if go_on(found, dynamic)? == Some(true) {
+            probe.target.profile.edition = Edition::German;
+        }
         if probe.target.client.gate().may_let_writes_pass() {
             probe.target.unwritten_places = unwritten_places(probe)?;
         }

@@ -9,13 +9,16 @@ use crate::edition::Edition;
 use crate::faults::{self, Faulty};
 use crate::session::ToolError;
 
+/// The lines that contain a text, and what they become.
+type Change = (&'static str, fn(&str) -> String);
+
 /// A right CNC that is configured otherwise, optionally a valid variant.
 pub(super) struct Witness {
     /// The IDs of the defects whose answers it gives.
     defects: &'static [&'static str],
     pub(super) what: &'static str,
-    /// What is changed in the lines of the default model that contain a text.
-    changes: &'static [(&'static str, fn(&str) -> String)],
+    /// Of the default model.
+    changes: &'static [Change],
     edition: Option<Edition>,
     variant: Option<&'static str>,
 }
@@ -95,7 +98,7 @@ const WITNESSES: &[Witness] = &[
     Witness {
         defects: &["cnc.gen.utf-8"],
         what: "a name may have any characters",
-        changes: &[("V.E.Länge", utf8)],
+        changes: &[("V.E.Länge", utf8), ("°C", utf8)],
         ..SAME
     },
     Witness {

@@ -27,6 +27,18 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
+/// Whether the V.P, V.L and V.S that exist at the moment are variables too, as the German edition says.
+pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
+    let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
+    for (_, name) in &all {
+        let name = name.as_cnc_str().into();
+        if probe.try_ask(ReadByName { channel, name })?.is_some() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// The V.P, V.L and V.S that are also variables, by edition and version.
 pub(crate) fn dynamic_among_variables(
     probe: &mut Probe<'_>,

@@ -28,7 +28,7 @@ pub(crate) use axis_interface::{
 pub use changes::Changes;
 pub(crate) use counted::Counted;
 pub(crate) use described_list::DescribedList;
-pub(crate) use dynamic_variables::dynamic_among_variables;
+pub(crate) use dynamic_variables::{dynamic_among_variables, has_dynamic_variables};
 pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use instance::Instance;
 pub(crate) use inventory::{

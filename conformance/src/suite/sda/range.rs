@@ -170,6 +170,12 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no class names an axis")
 }
 
+/// No axis is behind the last, nor where only the lower 16 bits are those of the last.
+fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Step {
+    is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
+    is_nowhere(probe, &[SDA_5], class, channel, last | 0x1_0000)
+}
+
 /// Every class has a last instance, in any configuration.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
@@ -181,7 +187,7 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
         for &channel in &channels {
             let last = last_axis(&all, class, channel).unwrap_or(INSTANCES_MAX);
             if last < INSTANCES_MAX {
-                is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
+                axes_end(probe, class, channel, last)?;
             }
         }
         // Channels start at 1: 0 is the platform, which these classes do not have.
@@ -196,7 +202,7 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     for class in [Class::PositionController, Class::Hld] {
         let last = last_axis(&all, class, 0).filter(|last| (1..INSTANCES_MAX).contains(last));
         if let Some(last) = last {
-            is_nowhere(probe, &[SDA_5], class, 0, last.saturating_add(1))?;
+            axes_end(probe, class, 0, last)?;
         }
     }
     let spindles = all.iter().filter(|one| one.class == Class::Spindle);

@@ -108,7 +108,7 @@ fn restoring(
             write_variable(probe, channel, variable, &was)?;
             let same = probe.is_as_before(&address, &was, is_text)?;
             let found = || format!("another value of {}", variable.name());
-            probe.check(SVC_1, same, "the value before, written back", found);
+            probe.check([SVC_1, VAR_13], same, "the value before, written back", found);
             Ok(same)
         },
     )

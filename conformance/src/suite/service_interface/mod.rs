@@ -3,10 +3,10 @@
 mod interface;
 mod texts;
 
-use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByName};
 use ads_cnc::service::ServiceVariable;
+use ads_cnc::{VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
@@ -19,17 +19,19 @@ use crate::values::until_nul;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("service-variables", &[SVC_1, SVC_11], Needs::Queries, variables,
+    case("service-variables", &[SVC_1, SVC_11, VAR_6], Needs::Queries, variables,
         "A channel with the interface has its five variables, and in them what they hold"),
-    case("service-response", &[SVC_1, SVC_3, SVC_4], Needs::Writes, response,
+    case("service-response", &[SVC_1, SVC_3, SVC_4, VAR_13], Needs::Writes, response,
         "A service writes its response and its state, and a request's state takes it back"),
-    case("service-longest", &[SVC_1], Needs::Writes, texts::longest,
+    case("service-longest", &[SVC_1, VAR_13], Needs::Writes, texts::longest,
         "REQUEST and RESPONSE hold 128 bytes, and no more"),
-    case("service-texts", &[SVC_1], Needs::Writes, texts::texts,
+    case("service-texts", &[SVC_1, VAR_13], Needs::Writes, texts::texts,
         "A text of any length and of any characters is read as it was written"),
-    case("service-variables-apart", &[SVC_1, SVC_3], Needs::Writes, texts::apart,
+    case("service-variables-apart", &[SVC_1, SVC_3, VAR_13], Needs::Writes, texts::apart,
         "Each of the variables is its own"),
-    case("service-texts-by-handle", &[SVC_1], Needs::Writes, texts::by_handle,
+    case("service-request", &[SVC_1, SVC_2, VAR_13], Needs::Writes, texts::request,
+        "A request stays as it is written while its state is set"),
+    case("service-texts-by-handle", &[SVC_1, VAR_13], Needs::Writes, texts::by_handle,
         "A text of any length is written and read by its handle as by its name"),
 ];
 
@@ -60,6 +62,12 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{:?} of {name}", own.var_type);
             let expected = || format!("{:?}", variable.var_type());
             probe.check(SVC_1, own.var_type == variable.var_type(), expected, found);
+            // A service writes these two.
+            if [ServiceVariable::Response, ServiceVariable::ResponseState].contains(&variable) {
+                let written = own.access == VariableAccess::READ_WRITE;
+                let found = || format!("access {} of {name}", own.access.0);
+                probe.check(VAR_6, written, "READ_WRITE", found);
+            }
         }
     }
     Ok(())
@@ -90,6 +98,9 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     probe.check(SVC_4, read == NONE, "no request any more", || Hex(read));
     // That any write of REQUEST_STATE has this effect, over ADS too, is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
+    let kept = read_variable(probe, channel, Response)?;
+    let same = until_nul(&kept) == b"nobody asked";
+    probe.check(SVC_3, same, "the response as before the state was taken back", || Hex(kept));
     let read = read_variable(probe, channel, ResponseState)?;
     probe.check(assumed(SVC_3), read == NONE, "the response state taken back", || Hex(read));
     Ok(())

@@ -6,7 +6,7 @@ use ads_cnc::{Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
-use super::interface::{WIDE, for_each_text, in_each_channel, read_variable, write_variable};
+use super::interface::{ONE, WIDE, for_each_text, in_each_channel, read_variable, write_variable};
 use crate::judge::{Checks as _, Step};
 use crate::suite::kit::Probe;
 use crate::values::until_nul;
@@ -87,6 +87,27 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
 
 /// The UUID of the square root service.
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
+
+/// Requests a service that nobody is: REQUEST and its state are there to be read until it answers.
+pub(super) fn request(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, RequestState, Uuid};
+    const NOBODY: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
+    in_each_channel(probe, &[Uuid, Request, RequestState], |probe, channel| {
+        write_variable(probe, channel, Uuid, NOBODY)?;
+        write_variable(probe, channel, Request, b"nobody's request\0")?;
+        let written = read_variable(probe, channel, Request)?;
+        for state in [ONE, WIDE] {
+            write_variable(probe, channel, RequestState, &state)?;
+            let read = read_variable(probe, channel, RequestState)?;
+            let expected = || Hex(state.to_vec());
+            probe.check([SVC_1, VAR_13], read == state, expected, || Hex(read));
+            let read = read_variable(probe, channel, Request)?;
+            let expected = || Hex(written.clone());
+            probe.check(SVC_2, read == written, expected, || Hex(read));
+        }
+        Ok(())
+    })
+}
 
 /// A write to one variable changes no other. REQUEST_STATE stays 0, so that no service is asked.
 pub(super) fn apart(probe: &mut Probe<'_>) -> Step {

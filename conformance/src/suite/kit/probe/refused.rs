@@ -86,14 +86,14 @@ impl Probe<'_> {
     /// Numbers beyond the last valid one. Far ones cannot become valid meanwhile; some have the
     /// lower bytes of a valid number, which a CNC that truncates them would accept.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
-        if !self.target.client.gate().lets_malformed_pass() {
-            return vec![first];
-        }
         let last = first.saturating_sub(1);
-        let wide = [0x100, 0x1_0000, 0x100_0000, 0x8000_0000].map(|bit| last | bit);
-        let mut all = vec![first, first.saturating_add(1)];
-        all.extend(wide.into_iter().filter(|number| *number > first));
-        all.push(u32::MAX);
-        all
+        let wide = |bits: &[u32]| -> Vec<u32> {
+            bits.iter().map(|bit| last | bit).filter(|number| *number > first).collect()
+        };
+        if !self.target.client.gate().lets_malformed_pass() {
+            return [vec![first], wide(&[0x100, 0x1_0000])].concat();
+        }
+        let far = wide(&[0x100, 0x1_0000, 0x100_0000, 0x8000_0000]);
+        [vec![first, first.saturating_add(1)], far, vec![u32::MAX]].concat()
     }
 }
