@@ -261,6 +261,7 @@ impl TrafficJudge {
                 .map(|answer| (answer, reply.header)),
             ..Exchange::new(&call)
         };
+        self.tally.list(asked.span.last.packet, &exchange);
         let place = location(&asked.way, Some(asked.span), Some(reply.span));
         let observation = Observation::Exchange(&exchange, place);
         replies::headers(
