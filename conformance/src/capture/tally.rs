@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use super::file::FileEnd;
+use crate::exchange::Exchange;
 
 /// Maximum number of different addresses that are counted.
 const UNKNOWN_MAX: usize = 1000;
@@ -50,6 +51,8 @@ pub struct CaptureTally {
     pub unknown: BTreeMap<String, u64>,
     /// Requests with their replies.
     pub exchanges: u64,
+    /// The first of them: packet, function, address and result.
+    pub listed: Vec<String>,
     /// Requests answered by an error.
     pub refused: u64,
     /// Requests whose reply was not captured.
@@ -78,7 +81,19 @@ pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
     }
 }
 
+/// Maximum number of exchanges that are listed.
+const LISTED_MAX: usize = 10_000;
+
 impl CaptureTally {
+    /// Lists a request with its reply.
+    pub(super) fn list(&mut self, packet: u64, exchange: &Exchange) {
+        if self.listed.len() < LISTED_MAX {
+            let request = exchange.call().dispatch().ok();
+            let name = request.map_or("not documented", |request| request.function().spec().name);
+            self.listed.push(format!("#{packet}  {name}: {exchange}: {}", exchange.result()));
+        }
+    }
+
     /// One line for each group of counters: what the capture has, and which part of it was not
     /// judged.
     pub fn lines(&self) -> Vec<String> {

@@ -14,7 +14,7 @@ use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Por
 use crate::edition::Edition;
 use crate::judge::{Case, Exit, Selection};
 use crate::process::progress;
-use crate::report::{self, About, Report, TargetReport};
+use crate::report::{self, About, Detail, Report, TargetReport};
 use crate::text::Moment;
 
 /// The heading of these options in the help.
@@ -95,6 +95,9 @@ What is taken out of vectors:
 Exit codes, the first that holds:
   70 internal error, 2 wrong usage or no capture, 1 a fail, 5 a waiver that does not hold, 3 nothing
   judged or something inconclusive, 0. Warnings and differences leave 0.";
+
+/// Maximum number of exchanges that are shown without -v.
+const LISTED_MAX: usize = 10;
 
 const KIB: u64 = 1024;
 
@@ -231,12 +234,27 @@ impl CheckArguments {
     }
 
     fn write(&self, report: &Report, checked: &Checked, extracted: &[String]) -> Exit {
+        let display = self.display.display();
         self.reports.write(report, |out| {
+            if display.detail == Detail::Quiet {
+                return report::print(report, display, out);
+            }
             writeln!(out, "Traffic")?;
             let lines = checked.tally.lines();
             lines.iter().chain(extracted).try_for_each(|line| writeln!(out, "  {line}"))?;
             writeln!(out)?;
-            report::print(report, self.display.display(), out)
+            let listed = &checked.tally.listed;
+            let most = if display.detail == Detail::Verbose { usize::MAX } else { LISTED_MAX };
+            listed.iter().take(most).try_for_each(|line| writeln!(out, "  {line}"))?;
+            let more = checked
+                .tally
+                .exchanges
+                .saturating_sub(u64::try_from(listed.len().min(most)).unwrap_or(u64::MAX));
+            if more > 0 {
+                writeln!(out, "  and {more} more exchanges (-v shows the first 10000)")?;
+            }
+            writeln!(out)?;
+            report::print(report, display, out)
         })
     }
 }

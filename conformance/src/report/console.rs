@@ -124,7 +124,9 @@ fn unstarted(
 fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
-    writeln!(out, "ads-cnc {suite}, vectors {vectors}, by {editions}, seed {seed}")?;
+    // A capture has its own order.
+    let seed = if target.file.is_none() { format!(", seed {seed}") } else { String::new() };
+    writeln!(out, "ads-cnc {suite}, vectors {vectors}, by {editions}{seed}")?;
     writeln!(out, "target   {}", describe(target))?;
     if let Some(device) = &target.device {
         writeln!(out, "device   {device}")?;

@@ -68,8 +68,10 @@ fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let failed: Vec<_> =
-        report.sorted().into_iter().filter(|case| !case.failures.is_empty()).collect();
+    let failed = report.sorted().into_iter().filter(|case| !case.failures.is_empty());
+    let mut failed: Vec<_> = failed.collect();
+    // The gravest first: there may be no room for all.
+    failed.sort_by_key(|case| (case.waived, std::cmp::Reverse(case.verdict.gravity())));
     if failed.is_empty() {
         return Ok(());
     }

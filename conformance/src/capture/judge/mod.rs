@@ -234,6 +234,7 @@ impl TrafficJudge {
                 .map(|answer| (answer, reply.header)),
             ..Exchange::new(&call)
         };
+        self.tally.list(asked.span.last.packet, &exchange);
         let place = location(&asked.way, Some(asked.span), Some(reply.span));
         let observation = CapturedFrames::Exchange(&exchange, place);
         let net_id = asked.header.target.net_id;
