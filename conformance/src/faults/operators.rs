@@ -193,6 +193,11 @@ fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
+/// Whether a channel with another rank than number has it: no such channel of the default model has parameters.
+fn differs_by_rank(spec: &FunctionSpec) -> bool {
+    has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
+}
+
 /// Whether channels give different answers: handles and extended descriptions are the same in each.
 fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
@@ -259,15 +264,15 @@ const OF_REQUESTS: &[Operator] = &[
     operator("reject", "it is rejected", &[], |_| true, |_, _| Err(AdsError::INVALID_DATA)),
     operator("rank-rejected", "a channel by index is rejected", &[ADR_12], has_rank,
         |cnc, call| if group(call) & LOGICAL == 0 { Err(AdsError::INVALID_GROUP) } else { cnc.answer(call) }),
-    operator("rank-is-number", "a channel by index is the one with this number", &[ADR_1, ADR_11], has_rank,
+    operator("rank-is-number", "a channel by index is the one with this number", &[ADR_1, ADR_11], differs_by_rank,
         |cnc, call| cnc.at(call, group(call) | LOGICAL, offset(call))),
-    operator("number-is-rank", "the number of a channel is its rank", &[ADR_1], has_rank,
+    operator("number-is-rank", "the number of a channel is its rank", &[ADR_1], differs_by_rank,
         |cnc, call| cnc.at(call, group(call) & !LOGICAL, offset(call))),
     operator("first-channel", "it is that of channel 1 if channel 1 has it", &[], differs_by_channel,
         |cnc, call| mistaken(cnc, call, Channel, |_| 1)),
     operator("unknown-channel-is-first", "an unknown channel is channel 1", &[ADS_4], has_unknown,
         |cnc, call| instead(cnc, call, Channel, |_| 1)),
-    operator("first-axis", "it is that of axis 1 if axis 1 has it", &[ADR_7], |spec| has_axis(spec) && !is_alike(spec),
+    operator("first-axis", "it is that of axis 1 if axis 1 has it", &[ADR_7], |spec| has_axis(spec) && (spec.service != Service::Write || spec.clause != "COM-5") && !is_alike(spec),
         |cnc, call| mistaken(cnc, call, Axis, |_| 1)),
     operator("next-axis", "it is that of the next axis if this one has it", &[ADR_7], |spec| has_axis(spec) && !is_alike(spec),
         |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1))),
@@ -275,7 +280,7 @@ const OF_REQUESTS: &[Operator] = &[
         |cnc, call| instead(cnc, call, Axis, |_| 1)),
     operator("next-index", "it is that of the next index if there is one", &[DYN_5, VAR_2, VAR_20], has_index,
         |cnc, call| mistaken(cnc, call, Index, |index| index.wrapping_add(1))),
-    operator("first-index", "it is that of the first index", &[DYN_5, VAR_2, VAR_20], has_index,
+    operator("first-index", "it is that of the first index", &[DYN_5, VAR_2, VAR_20], |spec| has_index(spec) && spec.clause != "SDA-9",
         |cnc, call| mistaken(cnc, call, Index, |_| least(call))),
     operator("index-8-bit", "the lowest 8 bits of the index count", &[DYN_5, VAR_2, VAR_20], has_index,
         |cnc, call| asked(cnc, call, Index, |index| index & 0xFF).unwrap_or_else(|| cnc.answer(call))),
@@ -318,7 +323,7 @@ const OF_ANSWERS: &[Operator] = &[
         within_length(call, Ok(first))
     }),
     operator("length-ignored", "the reply may be longer than the read length", &[ADS_1, ADS_3],
-        |spec| has_reply(spec) && !matches!(spec.group, GroupRule::ComObjects) && !matches!(spec.clause, "VAR-15" | "VAR-26"),
+        |spec| has_reply(spec) && !matches!(spec.group, GroupRule::ComObjects) && !matches!(spec.clause, "SDA-4" | "SDA-9" | "VAR-15" | "VAR-26"),
         |cnc, call| cnc.whole(call)),
     operator("ignored", "it succeeds and changes nothing", &[], writes,
         |cnc, call| rewritten(cnc, call, |_, old| old.to_vec())),
@@ -328,7 +333,7 @@ const OF_ANSWERS: &[Operator] = &[
     operator("late", "it is executed with the next one", &[],
         writes, delay_write),
     operator("also-first-channel", "it is executed in channel 1 too", &[],
-        |spec| writes(spec) && differs_by_channel(spec) && !matches!(spec.group, GroupRule::ComContent), |cnc, call| {
+        |spec| writes(spec) && spec.clause != "VAR-26" && differs_by_channel(spec) && !matches!(spec.group, GroupRule::ComContent), |cnc, call| {
             let done = cnc.answer(call)?;
             let _ = asked(cnc, call, Channel, |_| 1);
             Ok(done)
@@ -345,12 +350,12 @@ const OF_ANSWERS: &[Operator] = &[
             let _ = asked(cnc, call, Axis, |axis| axis.wrapping_add(1));
             Ok(done)
         }),
-    operator("read-only-accepted", "a write of a read-only value succeeds", &[VAR_6, COM_2], writes,
+    operator("read-only-accepted", "a write of a read-only value succeeds", &[VAR_6, COM_2], |spec| writes(spec) && spec.clause != "VAR-26",
         |cnc, call| cnc.answer(call).or_else(|error| match error {
             AdsError::INVALID_ACCESS => Ok(Vec::new()),
             error => Err(error),
         })),
-    operator("size-ignored", "a value of another size is accepted and not written", &[], writes,
+    operator("size-ignored", "a value of another size is accepted and not written", &[], |spec| writes(spec) && !matches!(spec.clause, "SDA-9" | "VAR-26"),
         |cnc, call| cnc.answer(call).or_else(|error| match error {
             AdsError::INVALID_SIZE => Ok(Vec::new()),
             error => Err(error),

@@ -97,6 +97,7 @@ impl<'t> Transcript<'t> {
         self.variables();
         self.writes();
         self.unknown_writes();
+        self.queries();
         self.services();
         let others: [fn(&mut Self); 5] =
             [Self::exchange, Self::changes, Self::streams, Self::scripts, Self::sequences];

@@ -8,6 +8,58 @@ use super::{Transcript, number, numbers};
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
 impl Transcript<'_> {
+    /// Queries of channel 6, the third one: by number and by rank, of unknown channels and axes, and of other
+    /// lengths.
+    pub(super) fn queries(&mut self) {
+        let by_name = [0x46_u32, 0x48, 0x4C, 0x1_0004, 0x1_0005].map(|at| (0x12_2306_u32, at));
+        for (group, offset) in by_name {
+            let name = if offset > 0xFFFF { &b"V.A.ACT_POS\0"[..] } else { b"V.E.array\0" };
+            self.elsewhere(552, group, offset, name);
+        }
+        for offset in [0x45, 0x4B] {
+            self.elsewhere(552, 0x12_2306, offset, b"\0\0\0\0V.E\0");
+        }
+        self.elsewhere(552, 0x12_2306, 0x44, b"V.E\0");
+        let handle = self.ask(0x12_2306, 0x46, 4, b"V.E.array\0");
+        let handle = number(&handle, 0).unwrap_or_default();
+        self.elsewhere(552, 0x12_2306, 0x47, &numbers(&[handle, 1, 1]));
+        for offset in [0x1B, 0x1D, 0x1E, 0x20] {
+            self.elsewhere(552, 0x12_2302, offset, &numbers(&[1]));
+            self.elsewhere(552, 0x12_2301, offset, &numbers(&[1]));
+        }
+        self.elsewhere(552, 0x12_2302, 0x1C, b"P1\0");
+        self.elsewhere(552, 0x12_2302, 0x02, &[]);
+        self.elsewhere(552, 0x12_2900, 0, &numbers(&[6, 0]));
+        for group in (0x12_3306..=0x12_3806).step_by(0x100) {
+            self.elsewhere(552, group, 0, &[]);
+            self.elsewhere(552, group, 1, &[]);
+        }
+        for (group, offset) in
+            [(0x13_0106, 0), (0x13_0106, 1), (0x12_0106, 1), (0x12_0101, 0x1_0001)]
+        {
+            self.elsewhere(553, group, offset, &[]);
+        }
+        self.ask(0x12_2301, 0x48, 4, b"V.E.largest[257]\0");
+        for name in [&b"V.E.largest[257]\0"[..], b"V.E.largest[512]\0"] {
+            self.write(552, 0x12_2301, 0x4A, &[name, &[3; 4]].concat());
+        }
+        self.ask(0x12_2301, 0x48, 4096, b"V.E.largest\0");
+    }
+
+    fn elsewhere(&mut self, port: u16, group: u32, offset: u32, data: &[u8]) {
+        let groups = [group, group - 0x10_0003, group - 0x10_0000, group + 0x40];
+        for (group, offset) in
+            groups.map(|group| (group, offset)).into_iter().chain([(group, offset + 0x64_0000)])
+        {
+            for len in [1, 4, 5, 9, 252] {
+                match data {
+                    [] => drop(self.read(port, group, offset, len)),
+                    data => drop(self.ask(group, offset, len, data)),
+                }
+            }
+        }
+    }
+
     /// Writes to unknown channels, axes and elements.
     pub(super) fn unknown_writes(&mut self) {
         self.write(552, 0x12_2309, 0x4A, b"V.E.Variable_2[0]\0\x09");
