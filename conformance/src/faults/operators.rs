@@ -291,7 +291,7 @@ const OF_REQUESTS: &[Operator] = &[
         let next = if group(call) & 0xF00 == 0x800 { 0x400 } else { (group(call) & 0xF00).wrapping_add(0x100) };
         cnc.at(call, group(call) & !0xF00 | next, offset(call)).or_else(|_| cnc.answer(call))
     }),
-    operator("error-is-empty", "an error is a success without data", &[ADS_4], has_reply,
+    operator("error-is-empty", "an error is a success without data", &[ADS_4, ADS_7], has_reply,
         |cnc, call| cnc.answer(call).or(Ok(Vec::new()))),
     operator("error-is-last-reply", "an error is the last reply", &[ADS_4, DYN_5, VAR_2], |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances), |cnc, call| {
         let last = cnc.memory().get(&kept());
@@ -410,7 +410,7 @@ fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
         VAR_20 => first(spec.request) == b"name",
         VAR_16 => spec.clause == "VAR-15",
         ADS_1 | ADS_3 => clause == crate::wire_service::clause(spec.service),
-        ADR_1 | ADR_6 | ADR_11 | ADR_12 | ADS_4 => true,
+        ADR_1 | ADR_6 | ADR_11 | ADR_12 | ADS_4 | ADS_7 => true,
         of_area => area(of_area.as_str()) == area(spec.clause),
     }
 }

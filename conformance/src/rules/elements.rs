@@ -128,6 +128,10 @@ impl ExchangeJudge<'_> {
             }
             _ => return,
         }
+        // The size of the number, which is element 0 of a list, is assumed.
+        if call.index_offset.get() & 0xFFF == 0 {
+            return;
+        }
         // Compares length and type as soon as both are known.
         let (Some(data_type), Some(length)) = (element.data_type, element.length) else { return };
         check_length(&mut record, Some(data_type), length, &at);

@@ -42,8 +42,11 @@ const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.svc.request-state-resets-not", "that a write over ADS resets is assumed (SVC-3)"),
     ("cnc.svc.resets-once", "that a write over ADS resets is assumed (SVC-3)"),
     ("cnc.sda.blank-axis-number", "any element may be the axis number, zeros are assumed (SDA-11)"),
-    ("cnc.com.content-big-endian", "an object may have any value"),
-    ("cnc.sda.feedhold-", "no device has the elements of the examples (SDA-10)"),
+    (
+        "cnc.com.content-big-endian",
+        "an object may have any value, and what is written is read back",
+    ),
+    ("cnc.sda.feedhold-2", "that TRUE is 1 is assumed (GEN-5)"),
 ];
 
 /// Why a CNC with this defect is a right one.
