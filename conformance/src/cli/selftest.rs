@@ -40,7 +40,8 @@ pub(super) struct SelfTestArguments {
     #[arg(long, value_name = "N", conflicts_with = "all")]
     seed: Option<u32>,
 
-    /// Measure as --all does, and write detection.tsv and detection.md into this folder
+    /// Measure the defects that changed, all if a case changed, and write detection.tsv and
+    /// detection.md into this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["seed", "only"])]
     renew: Option<PathBuf>,
 
@@ -65,8 +66,10 @@ impl SelfTestArguments {
             }
         };
         let seed = self.seed.unwrap_or_else(any_seed);
-        let scope = if self.all || self.renew.is_some() {
+        let scope = if self.all {
             Scope::All
+        } else if self.renew.is_some() {
+            Scope::Changed
         } else {
             print_error(format_args!("sample by --seed {seed}"));
             Scope::Sample(seed)

@@ -282,9 +282,9 @@ const OF_REQUESTS: &[Operator] = &[
         |cnc, call| mistaken(cnc, call, Index, |index| index.wrapping_add(1))),
     operator("first-index", "it is that of the first index", &[DYN_5, VAR_2, VAR_20], |spec| has_index(spec) && spec.clause != "SDA-9",
         |cnc, call| mistaken(cnc, call, Index, |_| least(call))),
-    operator("index-8-bit", "the lowest 8 bits of the index count", &[DYN_5, VAR_2, VAR_20], has_index,
+    operator("index-8-bit", "the lowest 8 bits of the index count", &[DYN_5, VAR_2, VAR_20, SDA_4], has_index,
         |cnc, call| asked(cnc, call, Index, |index| index & 0xFF).unwrap_or_else(|| cnc.answer(call))),
-    operator("index-beyond-is-last", "the index after the last is the last", &[DYN_5, VAR_2, VAR_20, ADS_4], has_index,
+    operator("index-beyond-is-last", "the index after the last is the last", &[DYN_5, VAR_2, VAR_20, SDA_4, ADS_4], has_index,
         |cnc, call| instead(cnc, call, Index, |index| index.wrapping_sub(1))),
     operator("first-kind", "it is that of the first kind", &[VAR_16], has_kind, of_first_kind),
     operator("other-attribute", "it is another attribute", &[ADR_6], is_attribute, |cnc, call| {
@@ -293,7 +293,7 @@ const OF_REQUESTS: &[Operator] = &[
     }),
     operator("error-is-empty", "an error is a success without data", &[ADS_4, ADS_7], has_reply,
         |cnc, call| cnc.answer(call).or(Ok(Vec::new()))),
-    operator("error-is-last-reply", "an error is the last reply", &[ADS_4, DYN_5, VAR_2], |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances), |cnc, call| {
+    operator("error-is-last-reply", "an error is the last reply", &[ADS_4, DYN_5, VAR_2, SDA_4], |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances), |cnc, call| {
         let last = cnc.memory().get(&kept());
         let answer = cnc.answer(call).inspect(|right| cnc.memory().store(kept(), right.clone()));
         within_length(call, answer.or_else(|error| last.ok_or(error)))

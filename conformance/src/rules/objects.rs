@@ -130,7 +130,9 @@ impl ExchangeJudge<'_> {
             if list.ids.contains_key(&object.id()) || self.budget.take(0) {
                 list.ids.insert(object.id(), index);
             }
-            if known.is_some() || self.budget.take(0) {
+            // Objects after the last are an error of the list, and not of the number.
+            let is_listed = count.is_none_or(|count| index <= count);
+            if is_listed && (known.is_some() || self.budget.take(0)) {
                 list.known.insert(index, (owned, alone));
             }
             let mut record = self.records.on(Topic::CncCom, observation);

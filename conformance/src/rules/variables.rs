@@ -281,8 +281,7 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
         record.check([VAR_7, VAR_4], one, "one element where there is no dimension", found);
     }
     let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
-    let expected =
-        || format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
+    let expected = || format!("{whole} bytes for {:?} {}", variable.dimensions, variable.var_type);
     let found = || format!("{} bytes of {name}", variable.size);
     record.check(VAR_8, variable.size == whole, expected, found);
     // A size in the wrong byte order usually exceeds every limit.

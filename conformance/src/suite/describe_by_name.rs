@@ -115,11 +115,14 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
             let passed = (described.var_type, described.access, described.size)
                 == (variable.var_type, variable.access, variable.size)
                 && described.dimensions == variable.dimensions;
-            let expected = || format!("the description of {name} by its index");
-            probe.check(VAR_28, passed, expected, || format!("{described:?}"));
-            let same = described.handle == variable.handle;
-            let expected = || format!("{:?} of {name}", variable.handle);
-            probe.check(online(VAR_28), same, expected, || format!("{:?}", described.handle));
+            let Description { var_type, access, size, dimensions, handle, .. } = variable;
+            let by_index = format!("{var_type}, {access}, {size} bytes, dimensions {dimensions:?}");
+            let DescriptionByName { var_type, access, size, dimensions, .. } = &described;
+            let found = || format!("{var_type}, {access}, {size} bytes, dimensions {dimensions:?}");
+            probe.check(VAR_28, passed, || format!("{by_index} of {name}, as by index"), found);
+            let same = described.handle == *handle;
+            let expected = || format!("the handle {handle} of {name}, as by index");
+            probe.check(online(VAR_28), same, expected, || described.handle.to_string());
         }
     }
     Ok(())

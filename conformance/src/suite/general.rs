@@ -90,7 +90,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             // of the type.
             let read = u32::try_from(value.len()).unwrap_or(u32::MAX);
             let sized = [variable.size, read].contains(&whole);
-            let expected = || format!("{whole} bytes for {:?}", variable.var_type);
+            let expected = || format!("{whole} bytes for {}", variable.var_type);
             let found = || format!("{name}: {} bytes described, {read} read", variable.size);
             probe.check(rule, sized, expected, found);
         }

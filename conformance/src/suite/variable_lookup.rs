@@ -129,8 +129,8 @@ fn known_types(probe: &mut Probe<'_>) -> Step {
         for variable in probe.variables(channel)? {
             let name = variable.name.text.to_string();
             let Some(of_service) = ServiceVariable::by_name(&name) else { continue };
-            let expected = || format!("the type {:?} of {name}", of_service.var_type());
-            let found = || format!("{:?}", variable.var_type);
+            let expected = || format!("the type {} of {name}", of_service.var_type());
+            let found = || variable.var_type.to_string();
             probe.check(VAR_5, variable.var_type == of_service.var_type(), expected, found);
         }
     }

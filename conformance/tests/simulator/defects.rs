@@ -50,10 +50,12 @@ fn the_matrix_has_every_check() {
 /// Each fails by a requirement that it breaks.
 #[test]
 fn defects_that_no_case_shows_are_found() {
-    for id in UNSEEN {
+    let is_missed = |id: &&&str| {
         let seed = faults::by_id(id).expect("a defect");
-        assert!(!failing(seed, &seed.requirements).is_empty(), "{id} is not found");
-    }
+        failing(seed, &seed.requirements).is_empty()
+    };
+    let missed: Vec<&&str> = UNSEEN.iter().filter(is_missed).collect();
+    assert!(missed.is_empty(), "not found: {missed:?}");
 }
 
 /// Variants that differ in what the checks compare: another model, or what a CNC is free to do.
@@ -74,11 +76,14 @@ const OTHERWISE: [&str; 14] = [
     "different.request-over-early",
 ];
 
+/// A check of what this CNC answers: a correct variant may answer otherwise.
+const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
+
 #[test]
 fn correct_variants_fail_nothing() {
     let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
     let failing: BTreeSet<&str> = variants
-        .filter(|seed| !failing(seed, &[]).is_empty())
+        .filter(|seed| failing(seed, &[]).iter().any(|one| !one.contains(OF_THIS_CNC)))
         .map(|seed| seed.id.as_str())
         .collect();
     assert_eq!(failing, BTreeSet::from(OTHERWISE));

@@ -15,6 +15,8 @@ use crate::selftest::parallel::parallel;
 pub enum Scope {
     /// Every changed defect, and [`SAMPLE`] others picked by this seed.
     Sample(u32),
+    /// Every changed defect.
+    Changed,
     /// Every defect.
     All,
 }
@@ -59,13 +61,15 @@ impl CheckedTable {
                 published.rows.iter().filter(|row| !seeds.iter().any(|one| one.id == row.id));
             differences.extend(gone.map(|row| format!("{}: no such defect", row.id)));
         }
-        let seeds = match scope {
-            Scope::All => seeds,
-            Scope::Sample(seed) => sample(seeds, seed, &published, tell),
+        let is_current = published.inputs == inputs();
+        let chosen = match scope {
+            Scope::Sample(seed) => sample(seeds.clone(), (seed, SAMPLE), &published, tell),
+            Scope::Changed if is_current => sample(seeds.clone(), (0, 0), &published, tell),
+            Scope::Changed | Scope::All => seeds.clone(),
         };
-        let measured = parallel(&seeds, 1, |seed| measure(seed), tell);
+        let measured = parallel(&chosen, 1, |seed| measure(seed), tell);
         let mut rows = Vec::new();
-        for (seed, row) in seeds.iter().zip(measured) {
+        for (seed, row) in chosen.iter().zip(measured) {
             match row {
                 Ok(row) => {
                     differences.extend(differing(published.row(seed), &row));
@@ -74,22 +78,25 @@ impl CheckedTable {
                 Err(error) => differences.push(format!("{}: {error}", seed.id)),
             }
         }
-        if whole && scope == Scope::All {
-            differences.extend(configured::stale(&rows));
-        }
         let measured = rows.len();
-        let table = match scope {
-            Scope::All if whole => DetectionTable { inputs: inputs(), rows },
-            _ => published,
+        let is_renewed = whole && matches!(scope, Scope::Changed | Scope::All);
+        if !is_renewed {
+            return Self { table: published, measured, differences };
+        }
+        let row = |seed: &&Seed| {
+            let now = rows.iter().find(|row| row.id == seed.id);
+            now.or_else(|| published.row(seed).filter(|_| is_current)).cloned()
         };
-        Self { table, measured, differences }
+        let rows: Vec<DetectionRow> = seeds.iter().filter_map(row).collect();
+        differences.extend(configured::stale(&rows));
+        Self { table: DetectionTable { inputs: inputs(), rows }, measured, differences }
     }
 }
 
-/// The defects that changed since the table was written, and a sample of the others.
+/// The defects that changed since the table was written, and a number of the others by a seed.
 fn sample(
     mut seeds: Vec<&'static Seed>,
-    seed: u32,
+    (seed, count): (u32, usize),
     published: &DetectionTable,
     tell: &(impl Fn(usize, usize) + Sync),
 ) -> Vec<&'static Seed> {
@@ -101,7 +108,7 @@ fn sample(
     let mut wanted: Vec<&Seed> = changed.map(|(seed, _)| *seed).collect();
     seeds.retain(|one| !wanted.iter().any(|changed| changed.id == one.id));
     seeds.sort_by_key(|one| order(seed, &one.id));
-    wanted.extend(seeds.into_iter().take(SAMPLE));
+    wanted.extend(seeds.into_iter().take(count));
     wanted
 }
 

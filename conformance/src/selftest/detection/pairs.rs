@@ -22,8 +22,13 @@ pub const PAIRS: usize = 200;
 const SEED: u32 = 24;
 
 /// Fields whose defect hides that of another field in a later function. The clause of a dimension is
-/// shown by elements that are read, the other clauses of a description by itself.
-const MASKED: [(&str, &str); 1] = [("variable-handle-read", "variable-description.dimensions")];
+/// shown by elements that are read, the other clauses of a description by itself. The value of a
+/// parameter is compared with that of the variable with its name.
+const MASKED: [(&str, &str); 3] = [
+    ("variable-handle-read", "variable-description.dimensions"),
+    ("variable-handle-read", "dynamic-value.value"),
+    ("variable-description", "dynamic-value.value"),
+];
 
 /// Pairs of defects in different fields, each detected alone without a profile.
 #[derive(Clone, Debug, Default, Serialize)]
