@@ -228,7 +228,7 @@ mod shell {
     fn the_protocol_is_checked_in_plain_text() {
         let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
         let all = format!("{findings:#?}");
-        assert!(findings.len() > 3, "{all}");
+        assert!(!findings.is_empty(), "{all}");
         let shown = |text: &Option<String>| text.clone().unwrap_or_default();
         for finding in &findings {
             let text = [&finding.fault, &finding.received].map(shown).concat();

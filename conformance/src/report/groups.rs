@@ -155,8 +155,10 @@ impl<'r> Group<'r> {
         let of_clause = |failure: &FailureReport| failure.requirement == self.requirement();
         let simplest = self.checks.iter().min_by_key(|(case, failure)| {
             let is_vector = case.stream.is_some();
+            // The cases of all replies need the requests of the others, and take longer again.
+            let is_of_replies = case.id.starts_with("replies-");
             // The first check of a case is the nearest to the cause.
-            (!of_clause(failure), if is_vector { size(failure) } else { 0 })
+            (!of_clause(failure), is_of_replies, if is_vector { size(failure) } else { 0 })
         });
         simplest.copied()
     }

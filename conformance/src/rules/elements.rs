@@ -10,8 +10,8 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::ExchangeJudge;
+use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
 

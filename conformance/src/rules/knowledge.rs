@@ -9,7 +9,7 @@ use ads_cnc::streaming::Checker;
 use ads_cnc::value::DataType;
 use ads_cnc::{Description, Descriptor};
 
-use super::Observation;
+use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::judge::{Checks as _, Describe, Rule, assumed};
 
@@ -46,6 +46,7 @@ pub(super) struct MemoryBudget {
 
 impl MemoryBudget {
     pub(super) const ALL: usize = 0x180_0000;
+    pub(super) const OF_RUN: usize = 0x40_0000;
 
     /// Takes memory for an entry of this size plus overhead; returns whether enough was left.
     pub(super) fn take(&mut self, bytes: usize) -> bool {

@@ -7,8 +7,8 @@ use ads_cnc::value::DataType;
 use ads_cnc::{DescriptorRef, DescriptorsRef};
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::{ExchangeJudge, ObservedContent, ObservedList};
+use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
 

@@ -3,8 +3,8 @@
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::{ExchangeJudge, MemoryBudget, ObservedParameters};
+use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::Checks as _;
 

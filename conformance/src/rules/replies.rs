@@ -7,8 +7,8 @@ use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
-use super::Observation;
 use super::knowledge::ExchangeJudge;
+use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};

@@ -7,7 +7,7 @@ use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
-use super::Observation;
+use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::values::until_nul;

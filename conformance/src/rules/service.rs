@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::{ExchangeJudge, ObservedInterface, Services};
+use super::observation::Observation;
 use super::requests::name_of;
 use super::topic::{Topic, TopicRecord};
 use crate::judge::{Checks as _, assumed};

@@ -7,8 +7,8 @@ use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::ExchangeJudge;
+use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed};
 

@@ -8,7 +8,7 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirements;
 
-use super::Observation;
+use super::observation::Observation;
 use crate::judge::{
     Body, Case, CaseOutcome, CaseSubject, Checks, Describe, Evidence, Needs, Record, Rule, Rules,
     Stop, Verdict,

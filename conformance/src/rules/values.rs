@@ -4,9 +4,9 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::ExchangeJudge;
 use super::knowledge::TargetVariable;
+use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
 

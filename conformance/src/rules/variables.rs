@@ -8,8 +8,8 @@ use ads_cnc::{
 };
 use ads_cnc_vectors::ids::*;
 
-use super::Observation;
 use super::knowledge::{ChannelVariables, ExchangeJudge, MemoryBudget, TargetVariable, Variables};
+use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, assumed};
 

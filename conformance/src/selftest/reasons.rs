@@ -59,7 +59,6 @@ const INSIDE: &str = "No case shows it: a test of the simulated CNC finds it.";
 const MISSED: &[(&str, &str)] = &[
     ("cnc.var.cycle-", "V.CYC is in no list: a profile names it."),
     ("cnc.sda.blank-", "Which place has no axis is not in a list: a profile names it."),
-    ("cnc.adr.index-as-logical", "A channel is found by its rank, or by a profile."),
     ("cnc.adr.spindle-logical", "A spindle that no query finds is known by a profile only."),
     ("cnc.sda.spindle-", "A spindle that no query finds is known by a profile only."),
     ("cnc.sda.no-axes", "An axis that no query finds is known by a profile only."),

@@ -68,7 +68,7 @@ fn broken_frames(target: &mut TargetState) -> Option<CaseOutcome> {
     Some(one(super::case_of(row), Some(row.run), Some(target)))
 }
 
-fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOutcome {
+fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOutcome {
     let Some(target) = target else {
         return CaseOutcome::untried(case, Verdict::NotRun, "no target");
     };
@@ -99,6 +99,10 @@ fn one(case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOu
         (Body::Printed(vector), _) => printed::ask(&mut probe, vector),
         (Body::Traffic, _) => {
             let record = probe.target.rules.records.take_of_replies(&case.id);
+            let is_judged = |id: &&str| record.judgements.iter().any(|one| one.requirement == *id);
+            if record.checks > 0 {
+                case.requirements.retain(is_judged);
+            }
             probe.take_over(record);
             Ok(())
         }

@@ -42,7 +42,7 @@ const WITNESSES: &[Witness] = &[
         ..SAME
     },
     Witness {
-        defects: &["element-write-flag.flag.flip", "cnc.sda.flag-inverted"],
+        defects: &["element-write-flag.flag.flip"],
         what: "any element may be writable",
         changes: &[(ELEMENTS, toggled)],
         variant: Some("different.first-writable"),
@@ -56,7 +56,7 @@ const WITNESSES: &[Witness] = &[
         ..SAME
     },
     Witness {
-        defects: &["element-write-flag.flag.zero", "cnc.sda.flag-never"],
+        defects: &["element-write-flag.flag.zero"],
         what: "no element may be writable",
         changes: &[(ELEMENTS, read_only)],
         ..SAME

@@ -84,7 +84,7 @@ impl TargetState {
             silences: 0,
             gone: None,
             broken: Record::default(),
-            rules: RuleBook::new(true),
+            rules: RuleBook::of_run(),
             deadline: None,
             refusals: Refusals::default(),
             changes: Changes::default(),

@@ -1,0 +1,105 @@
+//! The records of all checks, and the knowledge of all CNCs.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::ads::{AmsHeader, AmsNetId};
+use ads_cnc::operation::{Call, Request};
+
+use super::knowledge::{ExchangeJudge, Knowledge, MemoryBudget, TargetVariable};
+use super::observation::Observation;
+use super::topic::TopicRecords;
+use super::{replies, requests};
+use crate::exchange::{Exchange, Violation};
+
+/// Maximum number of CNCs that are distinguished.
+const CNCS_MAX: usize = 64;
+
+/// The checks of all exchanges, and what they have shown of each CNC.
+#[derive(Debug)]
+pub(crate) struct RuleBook {
+    pub(crate) records: TopicRecords,
+    cncs: BTreeMap<AmsNetId, Knowledge>,
+    /// Whether requests are missing that may have changed the state of a CNC.
+    is_lost: bool,
+    budget: MemoryBudget,
+}
+
+impl RuleBook {
+    /// `is_lost`: a CNC may have received requests before the first observed one.
+    pub(crate) fn new(is_lost: bool) -> Self {
+        Self::with_memory(is_lost, MemoryBudget::ALL)
+    }
+
+    /// For a run, whose cases have knowledge of their own.
+    pub(crate) fn of_run() -> Self {
+        Self::with_memory(true, MemoryBudget::OF_RUN)
+    }
+
+    fn with_memory(is_lost: bool, left: usize) -> Self {
+        let budget = MemoryBudget { left, missed: 0 };
+        Self { records: TopicRecords::new(), cncs: BTreeMap::new(), is_lost, budget }
+    }
+
+    /// Number of entries that were not stored, so that later exchanges were not compared with them.
+    pub(crate) const fn missed(&self) -> u64 {
+        self.budget.missed
+    }
+
+    /// Missing requests may have changed any state: forgets what is known of all CNCs.
+    pub(crate) fn forget_cncs(&mut self) {
+        self.cncs.clear();
+        self.is_lost = true;
+    }
+
+    /// Judges the headers of a request. `is_repeated`: whether another request with this invoke ID
+    /// waits for its reply, if that is known.
+    pub(crate) fn request_headers(
+        &mut self,
+        observation: &dyn Observation,
+        header: &AmsHeader,
+        is_repeated: Option<bool>,
+    ) {
+        requests::headers(&mut self.records, observation, header, is_repeated);
+    }
+
+    /// Judges a request; returns its address if no manual documents it.
+    pub(crate) fn request(
+        &mut self,
+        observation: &dyn Observation,
+        call: &Call<'_>,
+    ) -> Option<String> {
+        requests::judge(&mut self.records, observation, call)
+    }
+
+    /// Judges a reply by itself and with earlier ones of the same CNC.
+    pub(crate) fn reply(
+        &mut self,
+        observation: &dyn Observation,
+        cnc: AmsNetId,
+        call: &Call<'_>,
+        exchange: &Exchange,
+        violations: &[Violation],
+    ) {
+        replies::headers(&mut self.records, observation, violations);
+        let Some(answer) = replies::service(&mut self.records, observation, exchange) else {
+            return;
+        };
+        if !answer.ams_error.is_ok() {
+            // The CNC may be gone, and another one may take its NetId.
+            self.cncs.remove(&cnc);
+            return;
+        }
+        if !self.cncs.contains_key(&cnc) && self.cncs.len() >= CNCS_MAX {
+            return;
+        }
+        let knowledge = self.cncs.entry(cnc).or_insert_with(|| Knowledge::new(self.is_lost));
+        let mut judge =
+            ExchangeJudge { records: &mut self.records, cnc: knowledge, budget: &mut self.budget };
+        replies::judge(&mut judge, observation, call, answer);
+    }
+
+    /// The described variable that a request reads or writes.
+    pub(crate) fn described(&self, cnc: AmsNetId, request: &Request<'_>) -> Option<TargetVariable> {
+        self.cncs.get(&cnc)?.variables.described(request)
+    }
+}

@@ -1,0 +1,22 @@
+//! The frames that a check is about.
+
+use std::time::Duration;
+
+use crate::exchange::Exchange;
+use crate::judge::Evidence;
+
+/// The frames that a check is about.
+pub(crate) trait Observation {
+    fn evidence(&self) -> Evidence;
+
+    /// When the request was sent, from any common start; `None` if unknown.
+    fn time(&self) -> Option<Duration> {
+        None
+    }
+}
+
+impl Observation for Exchange {
+    fn evidence(&self) -> Evidence {
+        Evidence::from(self)
+    }
+}
