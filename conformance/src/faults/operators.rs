@@ -193,7 +193,8 @@ fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
-/// Whether a channel with another rank than number has it: no such channel of the default model has parameters.
+/// Whether a channel with another rank than number has it: no such channel of the default model has
+/// parameters.
 fn differs_by_rank(spec: &FunctionSpec) -> bool {
     has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
 }
@@ -259,112 +260,250 @@ fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 /// The request is taken for another one.
-#[rustfmt::skip]
 const OF_REQUESTS: &[Operator] = &[
     operator("reject", "it is rejected", &[], |_| true, |_, _| Err(AdsError::INVALID_DATA)),
-    operator("rank-rejected", "a channel by index is rejected", &[ADR_12], has_rank,
-        |cnc, call| if group(call) & LOGICAL == 0 { Err(AdsError::INVALID_GROUP) } else { cnc.answer(call) }),
-    operator("rank-is-number", "a channel by index is the one with this number", &[ADR_1, ADR_11], differs_by_rank,
-        |cnc, call| cnc.at(call, group(call) | LOGICAL, offset(call))),
-    operator("number-is-rank", "the number of a channel is its rank", &[ADR_1], differs_by_rank,
-        |cnc, call| cnc.at(call, group(call) & !LOGICAL, offset(call))),
-    operator("first-channel", "it is that of channel 1 if channel 1 has it", &[], differs_by_channel,
-        |cnc, call| mistaken(cnc, call, Channel, |_| 1)),
-    operator("unknown-channel-is-first", "an unknown channel is channel 1", &[ADS_4], has_unknown,
-        |cnc, call| instead(cnc, call, Channel, |_| 1)),
-    operator("first-axis", "it is that of axis 1 if axis 1 has it", &[ADR_7], |spec| has_axis(spec) && (spec.service != Service::Write || spec.clause != "COM-5") && !is_alike(spec),
-        |cnc, call| mistaken(cnc, call, Axis, |_| 1)),
-    operator("next-axis", "it is that of the next axis if this one has it", &[ADR_7], |spec| has_axis(spec) && !is_alike(spec),
-        |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1))),
-    operator("unknown-axis-is-first", "an unknown axis is axis 1", &[ADR_7, ADS_4], |spec| has_unknown(spec) && has_axis(spec),
-        |cnc, call| instead(cnc, call, Axis, |_| 1)),
-    operator("next-index", "it is that of the next index if there is one", &[DYN_5, VAR_2, VAR_20], has_index,
-        |cnc, call| mistaken(cnc, call, Index, |index| index.wrapping_add(1))),
-    operator("first-index", "it is that of the first index", &[DYN_5, VAR_2, VAR_20], |spec| has_index(spec) && spec.clause != "SDA-9",
-        |cnc, call| mistaken(cnc, call, Index, |_| least(call))),
-    operator("index-8-bit", "the lowest 8 bits of the index count", &[DYN_5, VAR_2, VAR_20, SDA_4], has_index,
-        |cnc, call| asked(cnc, call, Index, |index| index & 0xFF).unwrap_or_else(|| cnc.answer(call))),
-    operator("index-beyond-is-last", "the index after the last is the last", &[DYN_5, VAR_2, VAR_20, SDA_4, ADS_4], has_index,
-        |cnc, call| instead(cnc, call, Index, |index| index.wrapping_sub(1))),
+    operator(
+        "rank-rejected",
+        "a channel by index is rejected",
+        &[ADR_12],
+        has_rank,
+        |cnc, call| {
+            if group(call) & LOGICAL == 0 { Err(AdsError::INVALID_GROUP) } else { cnc.answer(call) }
+        },
+    ),
+    operator(
+        "rank-is-number",
+        "a channel by index is the one with this number",
+        &[ADR_1, ADR_11],
+        differs_by_rank,
+        |cnc, call| cnc.at(call, group(call) | LOGICAL, offset(call)),
+    ),
+    operator(
+        "number-is-rank",
+        "the number of a channel is its rank",
+        &[ADR_1],
+        differs_by_rank,
+        |cnc, call| cnc.at(call, group(call) & !LOGICAL, offset(call)),
+    ),
+    operator(
+        "first-channel",
+        "it is that of channel 1 if channel 1 has it",
+        &[],
+        differs_by_channel,
+        |cnc, call| mistaken(cnc, call, Channel, |_| 1),
+    ),
+    operator(
+        "unknown-channel-is-first",
+        "an unknown channel is channel 1",
+        &[ADS_4],
+        has_unknown,
+        |cnc, call| instead(cnc, call, Channel, |_| 1),
+    ),
+    operator(
+        "first-axis",
+        "it is that of axis 1 if axis 1 has it",
+        &[ADR_7],
+        |spec| {
+            has_axis(spec)
+                && (spec.service != Service::Write || spec.clause != "COM-5")
+                && !is_alike(spec)
+        },
+        |cnc, call| mistaken(cnc, call, Axis, |_| 1),
+    ),
+    operator(
+        "next-axis",
+        "it is that of the next axis if this one has it",
+        &[ADR_7],
+        |spec| has_axis(spec) && !is_alike(spec),
+        |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1)),
+    ),
+    operator(
+        "unknown-axis-is-first",
+        "an unknown axis is axis 1",
+        &[ADR_7, ADS_4],
+        |spec| has_unknown(spec) && has_axis(spec),
+        |cnc, call| instead(cnc, call, Axis, |_| 1),
+    ),
+    operator(
+        "next-index",
+        "it is that of the next index if there is one",
+        &[DYN_5, VAR_2, VAR_20],
+        has_index,
+        |cnc, call| mistaken(cnc, call, Index, |index| index.wrapping_add(1)),
+    ),
+    operator(
+        "first-index",
+        "it is that of the first index",
+        &[DYN_5, VAR_2, VAR_20],
+        |spec| has_index(spec) && spec.clause != "SDA-9",
+        |cnc, call| mistaken(cnc, call, Index, |_| least(call)),
+    ),
+    operator(
+        "index-8-bit",
+        "the lowest 8 bits of the index count",
+        &[DYN_5, VAR_2, VAR_20, SDA_4],
+        has_index,
+        |cnc, call| {
+            asked(cnc, call, Index, |index| index & 0xFF).unwrap_or_else(|| cnc.answer(call))
+        },
+    ),
+    operator(
+        "index-beyond-is-last",
+        "the index after the last is the last",
+        &[DYN_5, VAR_2, VAR_20, SDA_4, ADS_4],
+        has_index,
+        |cnc, call| instead(cnc, call, Index, |index| index.wrapping_sub(1)),
+    ),
     operator("first-kind", "it is that of the first kind", &[VAR_16], has_kind, of_first_kind),
     operator("other-attribute", "it is another attribute", &[ADR_6], is_attribute, |cnc, call| {
-        let next = if group(call) & 0xF00 == 0x800 { 0x400 } else { (group(call) & 0xF00).wrapping_add(0x100) };
+        let next = if group(call) & 0xF00 == 0x800 {
+            0x400
+        } else {
+            (group(call) & 0xF00).wrapping_add(0x100)
+        };
         cnc.at(call, group(call) & !0xF00 | next, offset(call)).or_else(|_| cnc.answer(call))
     }),
-    operator("error-is-empty", "an error is a success without data", &[ADS_4, ADS_7], has_reply,
-        |cnc, call| cnc.answer(call).or(Ok(Vec::new()))),
-    operator("error-is-last-reply", "an error is the last reply", &[ADS_4, DYN_5, VAR_2, SDA_4], |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances), |cnc, call| {
-        let last = cnc.memory().get(&kept());
-        let answer = cnc.answer(call).inspect(|right| cnc.memory().store(kept(), right.clone()));
-        within_length(call, answer.or_else(|error| last.ok_or(error)))
-    }),
+    operator(
+        "error-is-empty",
+        "an error is a success without data",
+        &[ADS_4, ADS_7],
+        has_reply,
+        |cnc, call| cnc.answer(call).or(Ok(Vec::new())),
+    ),
+    operator(
+        "error-is-last-reply",
+        "an error is the last reply",
+        &[ADS_4, DYN_5, VAR_2, SDA_4],
+        |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances),
+        |cnc, call| {
+            let last = cnc.memory().get(&kept());
+            let answer =
+                cnc.answer(call).inspect(|right| cnc.memory().store(kept(), right.clone()));
+            within_length(call, answer.or_else(|error| last.ok_or(error)))
+        },
+    ),
 ];
 
 /// The request is understood, but answered or executed wrongly.
-#[rustfmt::skip]
 const OF_ANSWERS: &[Operator] = &[
-    operator("empty", "the reply is empty", &[], has_reply, |cnc, call| changed(cnc, call, Vec::clear)),
-    operator("zeros", "every byte of the reply is 0", &[], has_fields,
-        |cnc, call| changed(cnc, call, |bytes| bytes.fill(0))),
-    operator("short", "the reply lacks its last byte", &[], has_end,
-        |cnc, call| changed(cnc, call, |bytes| _ = bytes.pop())),
-    operator("long", "the reply has one more byte if there is room", &[], has_end,
-        |cnc, call| or_short(cnc, call, changed(cnc, call, |bytes| bytes.push(0)))),
-    operator("stale", "the reply is that to the request before", &[VAR_16], has_reply, |cnc, call| {
-        let right = cnc.answer(call)?;
-        let before = cnc.memory().get(&kept()).unwrap_or_else(|| right.clone());
-        cnc.memory().store(kept(), right);
-        within_length(call, Ok(before))
+    operator("empty", "the reply is empty", &[], has_reply, |cnc, call| {
+        changed(cnc, call, Vec::clear)
     }),
+    operator("zeros", "every byte of the reply is 0", &[], has_fields, |cnc, call| {
+        changed(cnc, call, |bytes| bytes.fill(0))
+    }),
+    operator("short", "the reply lacks its last byte", &[], has_end, |cnc, call| {
+        changed(cnc, call, |bytes| _ = bytes.pop())
+    }),
+    operator("long", "the reply has one more byte if there is room", &[], has_end, |cnc, call| {
+        or_short(cnc, call, changed(cnc, call, |bytes| bytes.push(0)))
+    }),
+    operator(
+        "stale",
+        "the reply is that to the request before",
+        &[VAR_16],
+        has_reply,
+        |cnc, call| {
+            let right = cnc.answer(call)?;
+            let before = cnc.memory().get(&kept()).unwrap_or_else(|| right.clone());
+            cnc.memory().store(kept(), right);
+            within_length(call, Ok(before))
+        },
+    ),
     operator("frozen", "every reply is the first one", &[VAR_16], has_reply, |cnc, call| {
         let right = cnc.answer(call)?;
         let first = cnc.memory().get(&kept()).unwrap_or(right);
         cnc.memory().store(kept(), first.clone());
         within_length(call, Ok(first))
     }),
-    operator("length-ignored", "the reply may be longer than the read length", &[ADS_1, ADS_3],
-        |spec| has_reply(spec) && !matches!(spec.group, GroupRule::ComObjects) && !matches!(spec.clause, "SDA-4" | "SDA-9" | "VAR-15" | "VAR-26"),
-        |cnc, call| cnc.whole(call)),
-    operator("ignored", "it succeeds and changes nothing", &[], writes,
-        |cnc, call| rewritten(cnc, call, |_, old| old.to_vec())),
-    operator("first-byte", "only the first byte is written", &[], writes, |cnc, call| {
-        rewritten(cnc, call, |new, old| [new.get(..1), old.get(1..)].map(Option::unwrap_or_default).concat())
+    operator(
+        "length-ignored",
+        "the reply may be longer than the read length",
+        &[ADS_1, ADS_3],
+        |spec| {
+            has_reply(spec)
+                && !matches!(spec.group, GroupRule::ComObjects)
+                && !matches!(spec.clause, "SDA-4" | "SDA-9" | "VAR-15" | "VAR-26")
+        },
+        |cnc, call| cnc.whole(call),
+    ),
+    operator("ignored", "it succeeds and changes nothing", &[], writes, |cnc, call| {
+        rewritten(cnc, call, |_, old| old.to_vec())
     }),
-    operator("late", "it is executed with the next one", &[],
-        writes, delay_write),
-    operator("also-first-channel", "it is executed in channel 1 too", &[],
-        |spec| writes(spec) && spec.clause != "VAR-26" && differs_by_channel(spec) && !matches!(spec.group, GroupRule::ComContent), |cnc, call| {
+    operator("first-byte", "only the first byte is written", &[], writes, |cnc, call| {
+        rewritten(cnc, call, |new, old| {
+            [new.get(..1), old.get(1..)].map(Option::unwrap_or_default).concat()
+        })
+    }),
+    operator("late", "it is executed with the next one", &[], writes, delay_write),
+    operator(
+        "also-first-channel",
+        "it is executed in channel 1 too",
+        &[],
+        |spec| {
+            writes(spec)
+                && spec.clause != "VAR-26"
+                && differs_by_channel(spec)
+                && !matches!(spec.group, GroupRule::ComContent)
+        },
+        |cnc, call| {
             let done = cnc.answer(call)?;
             let _ = asked(cnc, call, Channel, |_| 1);
             Ok(done)
-        }),
-    operator("also-next-index", "it writes the next index too", &[],
-        |spec| writes(spec) && matches!(spec.clause, "VAR-12" | "VAR-13"), |cnc, call| {
+        },
+    ),
+    operator(
+        "also-next-index",
+        "it writes the next index too",
+        &[],
+        |spec| writes(spec) && matches!(spec.clause, "VAR-12" | "VAR-13"),
+        |cnc, call| {
             let done = cnc.answer(call)?;
             let _ = asked(cnc, call, Index, |index| index.wrapping_add(1));
             Ok(done)
-        }),
-    operator("also-next-axis", "it writes the next axis too", &[ADR_7],
-        |spec| writes(spec) && has_axis(spec) && !matches!(spec.group, GroupRule::ComContent), |cnc, call| {
+        },
+    ),
+    operator(
+        "also-next-axis",
+        "it writes the next axis too",
+        &[ADR_7],
+        |spec| writes(spec) && has_axis(spec) && !matches!(spec.group, GroupRule::ComContent),
+        |cnc, call| {
             let done = cnc.answer(call)?;
             let _ = asked(cnc, call, Axis, |axis| axis.wrapping_add(1));
             Ok(done)
-        }),
-    operator("read-only-accepted", "a write of a read-only value succeeds", &[VAR_6, COM_2], |spec| writes(spec) && spec.clause != "VAR-26",
-        |cnc, call| cnc.answer(call).or_else(|error| match error {
-            AdsError::INVALID_ACCESS => Ok(Vec::new()),
-            error => Err(error),
-        })),
-    operator("size-ignored", "a value of another size is accepted and not written", &[], |spec| writes(spec) && !matches!(spec.clause, "SDA-9" | "VAR-26"),
-        |cnc, call| cnc.answer(call).or_else(|error| match error {
-            AdsError::INVALID_SIZE => Ok(Vec::new()),
-            error => Err(error),
-        })),
-    operator("once", "it is rejected after the first success", &[],
-        writes, |cnc, call| {
-            if cnc.memory().get(&kept()).is_some() { return Err(AdsError::INVALID_DATA) }
-            cnc.answer(call).inspect(|done| cnc.memory().store(kept(), done.clone()))
-        }),
+        },
+    ),
+    operator(
+        "read-only-accepted",
+        "a write of a read-only value succeeds",
+        &[VAR_6, COM_2],
+        |spec| writes(spec) && spec.clause != "VAR-26",
+        |cnc, call| {
+            cnc.answer(call).or_else(|error| match error {
+                AdsError::INVALID_ACCESS => Ok(Vec::new()),
+                error => Err(error),
+            })
+        },
+    ),
+    operator(
+        "size-ignored",
+        "a value of another size is accepted and not written",
+        &[],
+        |spec| writes(spec) && !matches!(spec.clause, "SDA-9" | "VAR-26"),
+        |cnc, call| {
+            cnc.answer(call).or_else(|error| match error {
+                AdsError::INVALID_SIZE => Ok(Vec::new()),
+                error => Err(error),
+            })
+        },
+    ),
+    operator("once", "it is rejected after the first success", &[], writes, |cnc, call| {
+        if cnc.memory().get(&kept()).is_some() {
+            return Err(AdsError::INVALID_DATA);
+        }
+        cnc.answer(call).inspect(|done| cnc.memory().store(kept(), done.clone()))
+    }),
 ];
 
 /// The defects of all functions.

@@ -24,7 +24,8 @@ pub const SIMULATOR_CHECKS: &[(&str, &[ClauseId])] = &[
     ("each_task_has_the_information_of_the_program", &[ADS_8, ADS_9]),
     ("errors_have_their_numbers", &[ADS_4, ADS_5, ADS_6, ADS_7]),
     ("each_query_has_its_own_answer", &[
-        ADR_1, ADR_7, ADR_11, ADR_12, ADS_1, ADS_3, ADS_4, COM_1, COM_2, COM_5, DYN_1, DYN_2, DYN_3, DYN_4, SDA_1,
+        ADR_1, ADR_7, ADR_11, ADR_12, ADS_1, ADS_3, ADS_4, COM_1, COM_2, COM_5, DYN_1, DYN_2, DYN_3, DYN_4,
+        SDA_1,
         SDA_4, VAR_2, VAR_4, VAR_10, VAR_11, VAR_14, VAR_15, VAR_26, VAR_28,
     ]),
     ("a_request_is_over_when_it_is_answered", &[SVC_3, SVC_4]),
