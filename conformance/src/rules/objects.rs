@@ -117,7 +117,7 @@ impl ExchangeJudge<'_> {
             self.records.on(Topic::CncCom, observation).check(rule, passed, expected, given.len());
         }
         let alone = given.len() == 1;
-        for (index, object) in (first..).zip(given.iter()) {
+        for (index, object) in (first..=u32::MAX).zip(given.iter()) {
             let owned = object.to_owned();
             let mut record = self.records.on(Topic::CncCom, observation);
             record.about(object.name());

@@ -17,6 +17,7 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
         "The size in the description fails first, from which the size of the type follows.",
     ),
     (SelfTestGroup::Cnc, "axis-write-by-name.unknown-axis-is-first", NOT_WRITTEN),
+    (SelfTestGroup::Cnc, "count-elements.error-is-last-reply", NO_SUCH_AXIS),
     (SelfTestGroup::Cnc, "axis-write-by-name.unknown-channel-is-first", NOT_WRITTEN),
     (SelfTestGroup::Cnc, "read-descriptors.index-8-bit", FAR_OBJECT),
     (SelfTestGroup::Cnc, "read-element-length.long", ROOM),
@@ -43,6 +44,7 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
 ];
 
 /// Reasons of several generated defects.
+const NO_SUCH_AXIS: &str = "Axes that do not exist are found, which differ from the others first.";
 const NOT_WRITTEN: &str = "No case writes to a channel or an axis that is not configured.";
 const ROOM: &str = "No case asks for more bytes than this reply has.";
 const ANY_TEXT: &str = "An element may have any name, unit and write flag.";
