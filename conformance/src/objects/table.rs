@@ -68,7 +68,7 @@ const VARIABLE: &[Column] = &[
 /// Maximum width of a column; a longer cell moves the rest of its own row only.
 const WIDTH_MAX: usize = 40;
 
-/// Writes rows with heads, each column as wide as its longest cell, up to [`WIDTH_MAX`].
+/// Writes rows with heads, each column as wide as its longest cell, up to `WIDTH_MAX`.
 pub fn table(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>> + Clone,

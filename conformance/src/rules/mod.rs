@@ -1,8 +1,8 @@
 //! The clauses of the manuals as checks of a request, its reply and what earlier ones have shown.
 //!
 //! `ads-cnc check` applies them to captured traffic, `ads-cnc run` to every exchange it makes with a
-//! target, `ads-cnc run --client` and `--listen` to every request of a client. A [`RuleBook`] records
-//! the checks by [`Topic`].
+//! target, `ads-cnc run --client` and `--listen` to every request of a client. A `RuleBook` records
+//! the checks by `Topic`.
 
 mod book;
 mod elements;
