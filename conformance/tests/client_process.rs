@@ -45,7 +45,7 @@ fn one_that_stays_passes_everything() {
     assert!(report["frames"].as_u64().unwrap() > 200);
 }
 
-/// What does not answer hello, or misspells an action there, is told in a few lines.
+/// A client that does not answer hello, or misspells an action there, is reported in a few lines.
 #[test]
 fn one_that_does_not_begin_is_told_shortly() {
     let hello = r#"{"protocol":1,"client":{"name":"x"},"actions":["read-by-nam"]}"#;

@@ -105,7 +105,7 @@ const KIB: u64 = 1024;
 #[derive(Debug)]
 struct CountedRead {
     file: File,
-    /// Number of bytes that are no whole KiB yet.
+    /// Number of bytes after the last whole KiB.
     odd: u64,
 }
 

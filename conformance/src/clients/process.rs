@@ -86,7 +86,7 @@ fn known_actions(hello: &ClientHello) -> Result<(), ClientReaction> {
         Some(word) => {
             let near = did_you_mean(word, words());
             Err(ClientReaction::Garbled(format!(
-                "its hello names {word:?}, which is no action{near}"
+                "its hello names {word:?}, which is not an action{near}"
             )))
         }
     }

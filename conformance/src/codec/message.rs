@@ -144,7 +144,7 @@ impl Capabilities {
     pub(crate) fn misspelt(&self) -> Option<String> {
         let is_op = |op: &&String| !OPS.contains(&op.as_str());
         if let Some(op) = self.ops.iter().find(is_op) {
-            return Some(format!("{op:?} is no op{}", did_you_mean(op, OPS)));
+            return Some(format!("{op:?} is not an op{}", did_you_mean(op, OPS)));
         }
         let streams = || {
             let vectors = ads_cnc_vectors::vectors().iter().map(|vector| vector.stream.as_str());

@@ -94,11 +94,11 @@ fn unstarted(
     let verdict = display.verdict(failure.verdict, failure.waived);
     let found = failure.found.trim_start_matches("a crash: ");
     let garbled = found.strip_prefix("no answer of the protocol: ");
-    let said = match garbled {
+    let what = match garbled {
         Some(why) => format!("the {kind}'s answer to hello is wrong: {why}"),
         None => format!("the {kind} did not answer hello: {found}"),
     };
-    writeln!(out, "{verdict}  {}", shorten(&said, RESULT_MAX.saturating_mul(2)))?;
+    writeln!(out, "{verdict}  {}", shorten(&what, RESULT_MAX.saturating_mul(2)))?;
     let stderr = report.target.stderr.as_deref().unwrap_or_default();
     let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
     if let Some(last) = last {
@@ -279,7 +279,7 @@ pub(super) fn worded(verdict: Verdict, waived: bool) -> String {
     if waived { format!("{verdict}, waived") } else { verdict.to_string() }
 }
 
-/// The checks that did not pass: those that fail nobody on a line each, then those that fail.
+/// The checks that did not pass: warnings and differences on a line each, then failures.
 fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
     let all = groups(report);
     let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =

@@ -74,11 +74,10 @@ impl ExchangeJudge<'_> {
             *list = ObservedList::default();
         }
         list.count = Some(count);
-        let judge_nonexistent = list.known.last_key_value().map_or(0, |(&last, _)| last);
-        let passed = judge_nonexistent <= count;
-        let found = || format!("{count} objects, but a descriptor of object {judge_nonexistent}");
+        let last = list.known.last_key_value().map_or(0, |(&last, _)| last);
+        let found = || format!("{count} objects, but a descriptor of object {last}");
         let mut record = self.records.on(Topic::CncCom, observation);
-        record.check(COM_1, passed, "the number of objects", found);
+        record.check(COM_1, last <= count, "the number of objects", found);
     }
 
     fn descriptors(

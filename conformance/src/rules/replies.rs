@@ -125,8 +125,8 @@ pub(super) fn judge(
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
             let mut record = context.records.on(Topic::of_reply(request.function()), observation);
             let clause = if record.knows(clause) { clause } else { spec.clause };
-            // The size of a number of elements is assumed, and so is the reply to a read length that
-            // is no multiple of a descriptor's.
+            // Assumed are the size of a number of elements, and the reply to a read length between two
+            // multiples of a descriptor's.
             let is_assumed = match &request {
                 Request::CountElements(_) => true,
                 Request::ReadDescriptors(_) => {

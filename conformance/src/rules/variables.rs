@@ -265,20 +265,20 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
     let empty = variable.dimensions.contains(&0);
     let found = || format!("{:?} of {name}", variable.dimensions);
     record.check(VAR_4, !empty, "at least one element in each dimension", found);
-    record.check(VAR_7, !empty, "no dimension where there is no array", found);
+    record.check(VAR_7, !empty, "a dimension for an array only", found);
     let Description { var_type, access, .. } = variable;
     // Invalid in this order, but valid when exchanged.
     let exchanged = !(1..=2).contains(&access.0)
         && VariableType(access.0).name().is_some()
         && (1..=2).contains(&var_type.0);
     let found = || format!("{} and {} of {name}", var_type.0, access.0);
-    record.check(VAR_4, !exchanged, "the type, and behind it the access", found);
+    record.check(VAR_4, !exchanged, "the type, followed by the access", found);
     let Some(size) = variable.var_type.element_size() else { return };
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
         let found = || format!("{} bytes of {name}", variable.size);
         // The dimensions may be missing.
-        record.check([VAR_7, VAR_4], one, "one element where there is no dimension", found);
+        record.check([VAR_7, VAR_4], one, "the size of one element without a dimension", found);
     }
     let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
     let expected = || format!("{whole} bytes for {:?} {}", variable.dimensions, variable.var_type);

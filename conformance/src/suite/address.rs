@@ -16,7 +16,8 @@ use super::kit::{Probe, RawCall, Steady, name_of};
 use super::row::{CaseRow, case};
 use crate::exchange::Exchange;
 use crate::judge::{
-    Checks as _, Evidence, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online,
+    Checks as _, Evidence, IfPresent as _, Needs, OrStop as _, Record, Rule, Step, Stop, assumed,
+    online,
 };
 use crate::objects::KINDS;
 use crate::profile::Claim;
@@ -102,9 +103,10 @@ fn of_items(channel: Channel, variables: &[Description]) -> Step<Vec<Request<'_>
     Ok(requests)
 }
 
-/// The first variables of a channel. Whether handles of V.A can be read is assumed.
+/// The first variables of a channel; none if they cannot be read, which other cases judge. Whether
+/// handles of V.A can be read is assumed.
 fn first_variables(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<Description>> {
-    let all = probe.variables(channel)?;
+    let all = probe.variables(channel).if_known()?.unwrap_or_default();
     let is_of_axis = |one: &&Description| one.name.text.to_string().starts_with("V.A.");
     Ok(all.iter().filter(|one| !is_of_axis(one)).take(3).cloned().collect())
 }
@@ -184,6 +186,9 @@ fn absent_channel(probe: &mut Probe<'_>) -> Step {
     let absent = Channel::new(number)?;
     let present = probe.channel()?;
     let what = format!("channel {number}, which is not configured");
+    let count = |channel| CountVariables::new(channel, Kind::V_E);
+    probe.refuses(ADS_4, &what, count(absent), count(present))?;
+    probe.refuses(ADS_4, &what, CountObjects::new(absent), CountObjects::new(present))?;
     let variables = first_variables(probe, present)?;
     let queries = |channel| -> Step<Vec<Request<'_>>> {
         Ok([known_by(channel)?, of_items(channel, &variables)?].concat())

@@ -170,7 +170,7 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no class names an axis")
 }
 
-/// No axis is behind the last, nor where only the lower 16 bits are those of the last.
+/// Neither the axis after the last exists, nor one whose number has the lower 16 bits of the last.
 fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Step {
     is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
     is_nowhere(probe, &[SDA_5], class, channel, last | 0x1_0000)

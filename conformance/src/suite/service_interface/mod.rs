@@ -82,10 +82,10 @@ fn response(probe: &mut Probe<'_>) -> Step {
 /// Answers like a service, without a request.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
-    let taken = write_variable(probe, channel, Response, b"nobody asked\0")?;
+    let taken = write_variable(probe, channel, Response, b"unrequested\0")?;
     probe.check(SVC_1, taken, "a response taken", "an error");
     let read = read_variable(probe, channel, Response)?;
-    let same = until_nul(&read) == b"nobody asked";
+    let same = until_nul(&read) == b"unrequested";
     probe.check(SVC_1, same, "the response as written", || Hex(read));
     // Any number: its meaning is agreed between program and service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
@@ -99,7 +99,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     // That any write of REQUEST_STATE has this effect, over ADS too, is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
     let kept = read_variable(probe, channel, Response)?;
-    let same = until_nul(&kept) == b"nobody asked";
+    let same = until_nul(&kept) == b"unrequested";
     probe.check(SVC_3, same, "the response as before the state was taken back", || Hex(kept));
     let read = read_variable(probe, channel, ResponseState)?;
     probe.check(assumed(SVC_3), read == NONE, "the response state taken back", || Hex(read));

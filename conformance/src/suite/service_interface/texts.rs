@@ -88,13 +88,14 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
 /// The UUID of the square root service.
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 
-/// Requests a service that nobody is: REQUEST and its state are there to be read until it answers.
+/// Requests a service with a UUID that no service has: REQUEST and REQUEST_STATE can be read as written
+/// until a service answers.
 pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Uuid};
-    const NOBODY: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
+    const NO_SERVICE: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
     in_each_channel(probe, &[Uuid, Request, RequestState], |probe, channel| {
-        write_variable(probe, channel, Uuid, NOBODY)?;
-        write_variable(probe, channel, Request, b"nobody's request\0")?;
+        write_variable(probe, channel, Uuid, NO_SERVICE)?;
+        write_variable(probe, channel, Request, b"a request\0")?;
         let written = read_variable(probe, channel, Request)?;
         for state in [ONE, WIDE] {
             write_variable(probe, channel, RequestState, &state)?;
