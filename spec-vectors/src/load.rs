@@ -5,6 +5,7 @@ use crate::sequence::Sequence;
 use crate::vector::Vector;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use std::collections::HashMap;
 use std::fmt;
 use std::sync::OnceLock;
 
@@ -83,7 +84,10 @@ pub fn requirements() -> &'static [Requirement] {
 /// assert!(ads_cnc_vectors::requirement("VAR-0").is_none());
 /// ```
 pub fn requirement(id: &str) -> Option<&'static Requirement> {
-    requirements().iter().find(|item| item.id == id)
+    // The suite asks with every check.
+    static BY_ID: OnceLock<HashMap<&str, &Requirement>> = OnceLock::new();
+    let by_id = || requirements().iter().map(|item| (item.id.as_str(), item)).collect();
+    BY_ID.get_or_init(by_id).get(id).copied()
 }
 
 /// The requirement with this ID, or the part with it and its requirement.

@@ -92,7 +92,7 @@ impl SampleSizes {
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
     /// The sizes for these lists, by kind and number of items. With many lists fewer items of each are
-    /// read, so that all cases together send about 60,000 requests at most.
+    /// read, so that all cases together send about 50,000 requests to a CNC with seven channels.
     pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
         let size = |kind, budget| {
             let counts = || lists.iter().filter(move |list| list.0 == kind).map(|list| list.1);
@@ -103,9 +103,9 @@ impl SampleSizes {
                 .unwrap_or(Self::LEAST)
         };
         Self {
-            objects: size(ItemKind::Object, 1024),
-            variables: size(ItemKind::Variable, 512),
-            elements: size(ItemKind::Element, 512),
+            objects: size(ItemKind::Object, 640),
+            variables: size(ItemKind::Variable, 320),
+            elements: size(ItemKind::Element, 384),
         }
     }
 
@@ -148,10 +148,10 @@ mod tests {
             assert_eq!(sizes.of(ItemKind::Object), 256);
             sizes.of(ItemKind::Variable)
         };
-        assert_eq!(sizes(&[256, 200, 3]), 256);
-        assert_eq!(sizes(&[10_000, 50, 20]), 256);
-        assert_eq!(sizes(&[333; 30]), 17);
-        assert_eq!(sizes(&[10; 100]), 5);
+        assert_eq!(sizes(&[256, 50, 3]), 256);
+        assert_eq!(sizes(&[10_000, 50, 20]), 250);
+        assert_eq!(sizes(&[333; 30]), 10);
+        assert_eq!(sizes(&[10; 50]), 6);
         assert_eq!(sizes(&[10; 1000]), 4);
     }
 }
