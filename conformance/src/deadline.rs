@@ -3,6 +3,8 @@
 use std::fmt;
 use std::time::{Duration, Instant};
 
+use crate::text::shown_time;
+
 /// A moment after which no more requests are sent.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
@@ -32,6 +34,7 @@ impl Deadline {
 /// The error text once it has passed.
 impl fmt::Display for Deadline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the deadline of {} s has passed (--deadline)", self.after.as_secs())
+        let limit = shown_time(self.after.as_secs());
+        write!(f, "the deadline of {limit} has passed (--deadline)")
     }
 }

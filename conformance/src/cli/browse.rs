@@ -184,7 +184,11 @@ impl Browse {
                 });
                 match format {
                     BrowseFormat::Csv => csv(&heads, rows, &mut out),
-                    _ => table(&heads, rows, &mut out),
+                    _ => {
+                        let size = terminal_size::terminal_size_of(io::stdout());
+                        let width = size.map(|(width, _)| usize::from(width.0));
+                        table(&heads, rows, width, &mut out)
+                    }
                 }
             }
         };

@@ -20,6 +20,7 @@ use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::Exit;
 use crate::session::{Session, TIMEOUT, ToolError};
 use crate::simulator::{Cnc, NET_ID};
+use crate::text::shown_time;
 
 /// The heading of these options in the help.
 const TARGET: &str = "Target";
@@ -110,7 +111,7 @@ impl DeadlineArgs {
 
 impl fmt::Display for DeadlineArgs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "ends after {} s at the latest (--deadline)", self.deadline)
+        write!(f, "time limit: {} (--deadline)", shown_time(self.deadline))
     }
 }
 

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Instant;
 
 use ads_cnc_vectors::Level;
 use serde_json::Value;
@@ -98,6 +99,7 @@ pub fn judge(
             None if word.ends_with("-objects") || word == "stream" => 553,
             None => 552,
         };
+        let begin = Instant::now();
         let played =
             caught(|| play(actor, server, scenario, &place(port))).and_then(|played| played);
         if interrupt::is_requested() {
@@ -119,7 +121,7 @@ pub fn judge(
         }
         lost = if is_lost { lost.saturating_add(1) } else { 0 };
         requests = requests.saturating_add(count);
-        outcomes.push(outcome);
+        outcomes.push(CaseOutcome { time: Some(begin.elapsed()), ..outcome });
         one_line(actor, &mut protocol);
     }
     if interrupt::is_requested() {

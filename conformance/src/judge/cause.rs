@@ -317,7 +317,7 @@ mod tests {
         };
         let (verdict, judgements) = (Verdict::Fail, vec![judgement]);
         let verdicts = vec![RequirementVerdict { requirement, verdict, judgements }];
-        CaseOutcome { case, verdicts, checks: 1, note: None, refused: false }
+        CaseOutcome { case, verdicts, checks: 1, note: None, refused: false, time: None }
     }
 
     /// Each verdict, and the clause that it follows from.

@@ -1,6 +1,7 @@
 //! The outcome of a case.
 
 use std::panic::{self, AssertUnwindSafe};
+use std::time::{Duration, Instant};
 
 use super::{Case, Judgement, Stop, Verdict};
 
@@ -13,6 +14,8 @@ pub struct CaseOutcome {
     pub note: Option<String>,
     /// Whether the gate rejected one of its requests.
     pub refused: bool,
+    /// How long it took, if it was measured.
+    pub time: Option<Duration>,
 }
 
 /// The verdict on a requirement in a case.
@@ -29,6 +32,13 @@ pub struct RequirementVerdict {
 const INTERRUPTED: &str = "interrupted before its end";
 
 impl CaseOutcome {
+    /// Measures how long a case takes.
+    pub(crate) fn timed(run: impl FnOnce() -> Self) -> Self {
+        let begin = Instant::now();
+        let outcome = run();
+        Self { time: Some(begin.elapsed()), ..outcome }
+    }
+
     /// A case that had not begun when the run was interrupted.
     pub(crate) fn interrupted(case: Case) -> Self {
         Self::untried(case, Verdict::Interrupted, "interrupted before it was begun")
@@ -42,7 +52,7 @@ impl CaseOutcome {
             judgements: Vec::new(),
         });
         let verdicts = verdicts.collect();
-        Self { case, verdicts, checks: 0, note: Some(note.into()), refused: false }
+        Self { case, verdicts, checks: 0, note: Some(note.into()), refused: false, time: None }
     }
 
     pub(crate) fn tried(
@@ -73,7 +83,7 @@ impl CaseOutcome {
             verdicts.push(RequirementVerdict { requirement, verdict, judgements: Vec::new() });
         }
         let refused = matches!(stop, Some(Stop::Refused(_)));
-        Self { case, verdicts, checks, note, refused }
+        Self { case, verdicts, checks, note, refused, time: None }
     }
 
     /// The gravest verdict of its requirements.

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::Object;
+use crate::text::shorten;
 use crate::values::printable;
 
 /// A column: its head, and the cell of an object.
@@ -68,21 +69,37 @@ const VARIABLE: &[Column] = &[
 /// Maximum width of a column; a longer cell moves the rest of its own row only.
 const WIDTH_MAX: usize = 40;
 
-/// Writes rows with heads, each column as wide as its longest cell, up to `WIDTH_MAX`.
+/// No column is made narrower than this.
+const WIDTH_MIN: usize = 8;
+
+/// Writes rows with heads, each column as wide as its longest cell, up to `WIDTH_MAX`. On a terminal of
+/// this width, the widest columns are narrowed instead, and their cells cut, until a row fits on a line.
 pub fn table(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
+    terminal: Option<usize>,
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut widths: Vec<usize> = heads.iter().map(|head| head.len()).collect();
+    let most = terminal.map_or(WIDTH_MAX, |_| usize::MAX);
     for row in rows.clone() {
         for (width, cell) in widths.iter_mut().zip(&row) {
-            *width = (*width).max(cell.chars().count().min(WIDTH_MAX));
+            *width = (*width).max(cell.chars().count().min(most));
         }
+    }
+    let gaps = 2 * heads.len().saturating_sub(1);
+    while let Some(terminal) = terminal
+        && widths.iter().sum::<usize>() + gaps > terminal
+        && let Some(widest) = widths.iter_mut().max().filter(|width| **width > WIDTH_MIN)
+    {
+        *widest -= 1;
     }
     let heads: Vec<String> = heads.iter().map(|head| head.to_uppercase()).collect();
     for row in std::iter::once(heads).chain(rows) {
-        let cells = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
+        let cells = row.iter().zip(&widths).map(|(cell, &width)| match terminal {
+            Some(_) if cell.chars().count() > width => shorten(cell, width - 1),
+            _ => format!("{cell:<width$}"),
+        });
         writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
     }
     Ok(())
@@ -123,6 +140,18 @@ fn is_formula(cell: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_table_fits_the_terminal() {
+        let row = || vec!["SDA channel 1".to_owned(), "n".repeat(60), "TRUE".to_owned()];
+        for (terminal, widest) in [(None, 82), (Some(100), 82), (Some(40), 40), (Some(10), 25)] {
+            let (mut out, rows) = (Vec::new(), [row(), row()].into_iter());
+            table(&["list", "name", "value"], rows, terminal, &mut out).unwrap();
+            let text = String::from_utf8(out).unwrap();
+            let lines = text.lines().map(|line| line.chars().count());
+            assert_eq!(lines.max(), Some(widest), "{text}");
+        }
+    }
 
     #[test]
     fn cells_with_commas_are_quoted() {

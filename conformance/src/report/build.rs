@@ -82,8 +82,7 @@ impl Report {
             .filter_map(|subject| {
                 let mine: Vec<_> = cases.iter().filter(|case| case.subject == subject).collect();
                 let time = times.iter().find(|(one, _)| *one == subject);
-                let milliseconds =
-                    time.map(|(_, time)| u64::try_from(time.as_millis()).unwrap_or(u64::MAX));
+                let milliseconds = time.map(|(_, time)| milliseconds(*time));
                 (!mine.is_empty())
                     .then(|| SubjectReport { milliseconds, ..of_subject(subject, &mine, &only) })
             })
@@ -185,6 +184,10 @@ fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(
     }
 }
 
+fn milliseconds(time: Duration) -> u64 {
+    u64::try_from(time.as_millis()).unwrap_or(u64::MAX)
+}
+
 fn case(outcome: &CaseOutcome, waivers: &[WaiverReport]) -> CaseReport {
     let case = &outcome.case;
     let waived = |requirement: &str| {
@@ -221,6 +224,7 @@ fn case(outcome: &CaseOutcome, waivers: &[WaiverReport]) -> CaseReport {
         waived: is_waived,
         requirements: requirements.clone(),
         checks: outcome.checks,
+        milliseconds: outcome.time.map(milliseconds),
         note: outcome.note.clone(),
         failures: failures.collect(),
     }
@@ -302,7 +306,7 @@ mod tests {
         let outcome = |requirement, verdict| {
             let case = crate::suite::cases().swap_remove(0);
             let judged = RequirementVerdict { requirement, verdict, judgements: Vec::new() };
-            CaseOutcome { case, verdicts: vec![judged], checks: 1, note: None, refused: false }
+            CaseOutcome { case, verdicts: vec![judged], checks: 1, note: None, refused: false, time: None }
         };
         let exit = |verdicts: &[(&'static str, Verdict)]| {
             let about = About {

@@ -126,6 +126,7 @@ fn escape_case(case: &mut CaseReport) {
         waived: _,
         requirements,
         checks: _,
+        milliseconds: _,
         note,
         failures,
     } = case;

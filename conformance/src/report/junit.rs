@@ -1,6 +1,7 @@
 //! The report as JUnit XML: a suite for each subject, a test for each case.
 
 use std::io::{self, Write};
+use std::time::Duration;
 
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
@@ -15,7 +16,8 @@ use crate::judge::{Verdict, WaiverReport};
 /// A fail or a vacuous verdict is a failure; an inconclusive one, an interrupted case or a harness
 /// error is an error. A value that was not restored is a failure in a suite `left-changed`. A case
 /// that was not run, not judged or is waived is skipped. Warnings and differences pass, with their
-/// text in `system-out`. A stale waiver is a failure in a suite `waivers`.
+/// text in `system-out`. A stale waiver is a failure in a suite `waivers`. Times are in seconds, as far
+/// as they were measured.
 pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut xml: Xml<'_> = Writer::new_with_indent(&mut *out, b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -28,6 +30,8 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     };
     let left = &report.left_changed;
     let all = failed(failed(all, stale.len()), left.len());
+    let milliseconds = report.subjects.iter().map(|one| one.milliseconds).sum();
+    let all = Tests { milliseconds, ..all };
     let mut root = BytesStart::new("testsuites");
     put(&mut root, "name", "ads-cnc");
     all.put(&mut root);
@@ -43,6 +47,7 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         let sorted = report.sorted();
         let cases = || sorted.iter().copied().filter(|case| case.subject == subject.subject);
         let tests = cases().fold(Tests::default(), |tests, case| of_case(&tests, case));
+        let tests = Tests { milliseconds: subject.milliseconds, ..tests };
         begin_suite(&mut xml, report, subject.subject.name(), tests)?;
         cases().try_for_each(|one| case(&mut xml, report, one))?;
         end(&mut xml, "testsuite")?;
@@ -86,6 +91,7 @@ struct Tests {
     failures: usize,
     errors: usize,
     skipped: usize,
+    milliseconds: Option<u64>,
 }
 
 impl Tests {
@@ -96,16 +102,25 @@ impl Tests {
             failures: one(self.failures, JunitKind::Failure),
             errors: one(self.errors, JunitKind::Error),
             skipped: one(self.skipped, JunitKind::Skipped),
+            milliseconds: self.milliseconds,
         }
     }
 
     fn put(self, element: &mut BytesStart<'_>) {
-        let Self { tests, failures, errors, skipped } = self;
+        let Self { tests, failures, errors, skipped, milliseconds } = self;
         for (name, number) in
             [("tests", tests), ("failures", failures), ("errors", errors), ("skipped", skipped)]
         {
             put(element, name, &number.to_string());
         }
+        put_time(element, milliseconds);
+    }
+}
+
+/// Puts a time in seconds, if it is known.
+fn put_time(element: &mut BytesStart<'_>, milliseconds: Option<u64>) {
+    if let Some(time) = milliseconds.map(Duration::from_millis) {
+        put(element, "time", &format!("{:.3}", time.as_secs_f64()));
     }
 }
 
@@ -158,6 +173,7 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     put(&mut test, "name", &case.id);
     put(&mut test, "classname", &format!("{}.{group}", case.subject));
     put(&mut test, "assertions", &case.checks.to_string());
+    put_time(&mut test, case.milliseconds);
     let findings = text(case)?;
     let message = match (&case.note, case.failures.first()) {
         (_, Some(first)) => {

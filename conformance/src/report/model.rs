@@ -152,6 +152,9 @@ pub struct CaseReport {
     /// The verdict on each of its requirements.
     pub requirements: Vec<RequirementReport>,
     pub checks: usize,
+    /// How long it took, if it was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub milliseconds: Option<u64>,
     /// Why it did not run, or not completely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,

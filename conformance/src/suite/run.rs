@@ -46,7 +46,7 @@ pub fn run(
     }
     outcomes.extend(of_target.into_iter().map(|case| {
         let run = TRIES.get(case.id.as_str()).copied();
-        let outcome = one(case, run, target.as_deref_mut());
+        let outcome = CaseOutcome::timed(|| one(case, run, target.as_deref_mut()));
         progress::step(outcome.verdict().fails_run());
         outcome
     }));

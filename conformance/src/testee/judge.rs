@@ -1,6 +1,7 @@
 //! Asks a testee all questions and judges the answers.
 
 use std::collections::HashMap;
+use std::time::{Duration, Instant};
 
 use super::describe::describe;
 use super::plan::{PlannedQuestion, Purpose, plan};
@@ -68,14 +69,15 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
     let mut kept = 0_usize;
     let mut panicked = HashMap::new();
+    let mut times: HashMap<usize, Duration> = HashMap::new();
     let planned = plan(&cases, capabilities, &edition, terms.seed);
     progress::begin(planned.len());
     for PlannedQuestion { purpose, question } in planned {
-        progress::step(false);
         if let Some(why) = testee.over() {
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
+        let begin = Instant::now();
         let reaction = match (caught(|| testee.ask(&question)), purpose) {
             (Ok(reaction), _) => reaction,
             (Err(why), Purpose::Case(case) | Purpose::Sanity { case, .. }) => {
@@ -94,10 +96,16 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             break;
         }
         asked = asked.saturating_add(1);
-        if matches!(
+        if let Purpose::Case(case) = &purpose {
+            *times.entry(*case).or_default() += begin.elapsed();
+        }
+        // Whether an answer is right is judged with all others, after the last question.
+        let is_lost = matches!(
             reaction,
             TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)
-        ) {
+        );
+        progress::step(is_lost);
+        if is_lost {
             (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
         } else {
             lost = 0;
@@ -136,10 +144,11 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             Some(why) => Err(why),
             None => caught(|| view.outcome(place)),
         };
-        judged.unwrap_or_else(|why| {
+        let judged = judged.unwrap_or_else(|why| {
             let case = cases.get(place)?.clone();
             Some(CaseOutcome::tried(case, Vec::new(), 0, Some(Stop::Harness(why))))
-        })
+        });
+        judged.map(|judged| CaseOutcome { time: times.get(&place).copied(), ..judged })
     };
     let mut outcomes: Vec<CaseOutcome> = (0..wanted).filter_map(outcome).collect();
     // This project's codec is called without the protocol.

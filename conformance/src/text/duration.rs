@@ -26,11 +26,27 @@ pub(crate) fn some_time(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// A number of seconds in the largest unit that needs no fraction: `4 h`, `90 min`, `100 s`.
+pub(crate) fn shown_time(seconds: u64) -> String {
+    match seconds {
+        0 => "0 s".to_owned(),
+        whole if whole % 3600 == 0 => format!("{} h", whole / 3600),
+        whole if whole % 60 == 0 => format!("{} min", whole / 60),
+        seconds => format!("{seconds} s"),
+    }
+}
+
 const MAX: Duration = Duration::from_secs(24 * 60 * 60);
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_time_is_shown_in_its_largest_unit() {
+        let shown = [0, 100, 5400, 14_400].map(shown_time);
+        assert_eq!(shown, ["0 s", "100 s", "90 min", "4 h"]);
+    }
 
     #[test]
     fn a_time_has_a_unit() {

@@ -7,7 +7,7 @@ pub(crate) mod json;
 mod moment;
 mod nearest;
 
-pub(crate) use duration::{duration, some_time};
+pub(crate) use duration::{duration, shown_time, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};

@@ -134,11 +134,14 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
 }
 
 fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
-    // The gravest first.
-    cases.sort_by(|one, other| {
-        let rank =
-            |case: &CaseReport| (case.waived, u8::MAX.saturating_sub(case.verdict.gravity()));
-        rank(one).cmp(&rank(other)).then_with(|| one.id.cmp(&other.id))
+    // The gravest first, of vectors the simplest.
+    cases.sort_by_cached_key(|case| {
+        let evidence = case.failures.first().and_then(|failure| failure.evidence.as_ref());
+        let parts = evidence.map(|one| [&one.sent, &one.received]).into_iter().flatten();
+        let bytes: usize = parts.flatten().map(|part| part.length).sum();
+        let size = if case.stream.is_some() { bytes } else { 0 };
+        let gravity = std::cmp::Reverse(case.verdict.gravity());
+        (case.waived, gravity, size, case.id.clone())
     });
     let counts = chips(cases.iter().map(|case| (case.verdict, case.waived)));
     let folded = cases.iter().all(|case| case.waived || !case.verdict.fails_run());
