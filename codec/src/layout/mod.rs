@@ -20,6 +20,7 @@
 mod checks;
 mod field;
 mod head;
+mod join;
 mod spec;
 mod subject;
 mod tables;

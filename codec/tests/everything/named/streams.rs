@@ -79,6 +79,7 @@ fn texts(bytes: &[u8]) {
     let text = cnc(bytes);
     seen((CncStr::len(&text), CncStr::is_empty(&text)));
     seen(CncStr::bytes(&text).fold(0, u8::wrapping_add));
+    seen(CncStr::as_cp1252(&text));
     seen(CncStr::chars(&text).map(text::char_to_cp1252).filter(Option::is_some).count());
     seen(CncStr::new(super::text(bytes, "text")));
     seen(text == *super::text(bytes, "text"));
@@ -154,6 +155,8 @@ pub(super) fn tables(bytes: &[u8]) -> Result<(), Error> {
         seen((layout::Field::stream(field), layout::Field::by_name(stream, name)));
         layout::Stream::fields(stream).for_each(seen);
         seen(layout::Stream::walk(stream, bytes, |segment| seen(segment.bytes)));
+        let parts = layout::Stream::fields(stream).zip(bytes.chunks(4));
+        seen(layout::Stream::join(stream, parts, &mut [0; ROOM]));
     }
     seen(layout::Stream::by_name(name));
     Ok(())

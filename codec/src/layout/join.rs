@@ -1,0 +1,154 @@
+//! A stream from the bytes of its fields: the reverse of a walk.
+
+use core::iter::Peekable;
+
+use super::{Field, FieldSpec, Segment, Size, Stream};
+use crate::bytes::{to_u32, to_usize};
+use crate::error::{Error, ErrorKind};
+
+impl Stream {
+    /// Writes the stream to the front of `buf` from the bytes of its fields, and returns the bytes written:
+    /// the reverse of [`walk`](Self::walk), for programs that know the stream only at run time.
+    ///
+    /// The parts are in the order of the table, each item of a list a part of its own, each record after
+    /// the one before. A count may be missing: it is that of its items. Texts have their NUL, if they have
+    /// one; NULs that pad a text of fixed length may be missing.
+    ///
+    /// ```
+    /// use ads_cnc::layout::{Field, Stream};
+    ///
+    /// let field = |name| Field::by_name(Stream::VariableHandleRead, name).unwrap();
+    /// let [handle, index] = [field("handle"), field("indices")];
+    /// let parts = [(handle, &[0x41, 0x23, 1, 0x20][..]), (index, &[4, 0, 0, 0])];
+    /// let mut buf = [0; 64];
+    /// let bytes = Stream::VariableHandleRead.join(parts, &mut buf)?;
+    /// assert_eq!(bytes, [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the stream's decoders; [`Mismatch`](ErrorKind::Mismatch) with the lengths of field and part
+    /// at the first field that would not have the bytes of its part, also because a part is missing or
+    /// is not in order; [`BufferTooSmall`](ErrorKind::BufferTooSmall). What is in `buf` then is unspecified.
+    pub fn join<'p, 'b, P>(self, parts: P, buf: &'b mut [u8]) -> Result<&'b [u8], Error>
+    where
+        P: IntoIterator<Item = (Field, &'p [u8]), IntoIter: Clone>,
+    {
+        let parts = parts.into_iter();
+        let mut out = Out { buf, at: 0 };
+        let mut left = parts.clone().peekable();
+        while out.record(self, &mut left) && self.layout().repeats {}
+        let (given, needed) = (to_u32(out.buf.len()), to_u32(out.at));
+        let whole = Field::whole(self);
+        let bytes = out
+            .buf
+            .get(..out.at)
+            .ok_or_else(|| Error::new(ErrorKind::BufferTooSmall, whole, 0, needed, given))?;
+        // What was written is read again: only that shows what a reader finds in it.
+        let mut read = Read { stream: self, parts: parts.peekable(), fault: None };
+        self.walk(bytes, |segment| read.compare(&segment))?;
+        let unread = read.parts.next().map(|(field, part)| differs(field, needed, 0, part));
+        read.fault.or(unread).map_or(Ok(bytes), Err)
+    }
+
+    /// Whether the field is the count of the next one.
+    fn is_count(self, field: Field) -> bool {
+        let next = |row: &FieldSpec| matches!(row.size, Size::Items { .. });
+        self.fields().zip(self.layout().fields).any(|(at, row)| next(row) && at.before() == field)
+    }
+}
+
+/// The bytes that are written, and how many they are, even beyond the end of the buffer.
+struct Out<'b> {
+    buf: &'b mut [u8],
+    at: usize,
+}
+
+impl Out<'_> {
+    fn put(&mut self, bytes: &[u8]) {
+        let end = self.at.saturating_add(bytes.len());
+        if let Some(room) = self.buf.get_mut(self.at..end) {
+            room.copy_from_slice(bytes);
+        }
+        self.at = end;
+    }
+
+    /// Writes the parts of a record; whether there were any.
+    fn record<'p>(
+        &mut self,
+        stream: Stream,
+        parts: &mut Peekable<impl Iterator<Item = (Field, &'p [u8])>>,
+    ) -> bool {
+        let (mut is_any, mut count_at) = (false, None);
+        for (field, row) in stream.fields().zip(stream.layout().fields) {
+            let (start, mut items) = (self.at, 0_u32);
+            while let Some((_, part)) = parts.next_if(|(of, _)| *of == field) {
+                self.put(part);
+                (is_any, items) = (true, items.saturating_add(1));
+                if !matches!(row.size, Size::Items { .. }) {
+                    break;
+                }
+            }
+            match row.size {
+                Size::Items { each, .. } => {
+                    let bytes = to_u32(self.at.saturating_sub(start));
+                    let count = if each == 1 { bytes } else { items };
+                    self.count(count_at, count);
+                }
+                Size::Padded(size) if items > 0 => {
+                    let end = start.saturating_add(to_usize(size));
+                    while self.at < end {
+                        self.put(&[0]);
+                    }
+                }
+                // After the result of an error, data may be absent with its length.
+                size if stream.is_count(field) => {
+                    let is_there = matches!(size, Size::Fixed(_)) || parts.peek().is_some();
+                    count_at = (items == 0 && is_there).then_some(start);
+                    if count_at.is_some() {
+                        self.put(&[0; 4]);
+                    }
+                }
+                _ => {}
+            }
+        }
+        is_any
+    }
+
+    fn count(&mut self, at: Option<usize>, count: u32) {
+        let room = at.and_then(|at| self.buf.get_mut(at..)?.first_chunk_mut());
+        if let Some(room) = room {
+            *room = count.to_le_bytes();
+        }
+    }
+}
+
+/// The parts, as they are found in the bytes.
+struct Read<P: Iterator> {
+    stream: Stream,
+    parts: Peekable<P>,
+    fault: Option<Error>,
+}
+
+impl<'p, P: Iterator<Item = (Field, &'p [u8])>> Read<P> {
+    fn compare(&mut self, found: &Segment<'_>) {
+        let field = found.field;
+        let part = self.parts.next_if(|(of, _)| *of == field).map(|(_, part)| part);
+        let is_same = match (part, field.spec().map(|row| row.size)) {
+            (None, _) => found.bytes.is_empty() || self.stream.is_count(field),
+            (Some(part), Some(Size::Padded(_))) => {
+                let padding = found.bytes.strip_prefix(part);
+                padding.is_some_and(|padding| padding.iter().all(|&byte| byte == 0))
+            }
+            (Some(part), _) => part == found.bytes,
+        };
+        if !is_same && self.fault.is_none() {
+            let len = to_u32(found.bytes.len());
+            self.fault = Some(differs(field, found.offset, len, part.unwrap_or_default()));
+        }
+    }
+}
+
+fn differs(field: Field, offset: u32, len: u32, part: &[u8]) -> Error {
+    Error::new(ErrorKind::Mismatch, field, offset, len, to_u32(part.len()))
+}
