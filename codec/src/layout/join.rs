@@ -3,7 +3,7 @@
 use core::iter::Peekable;
 
 use super::{Field, FieldSpec, Segment, Size, Stream};
-use crate::bytes::{to_u32, to_usize};
+use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 
 impl Stream {
@@ -18,8 +18,7 @@ impl Stream {
     /// use ads_cnc::layout::{Field, Stream};
     ///
     /// let field = |name| Field::by_name(Stream::VariableHandleRead, name).unwrap();
-    /// let [handle, index] = [field("handle"), field("indices")];
-    /// let parts = [(handle, &[0x41, 0x23, 1, 0x20][..]), (index, &[4, 0, 0, 0])];
+    /// let parts = [(field("handle"), [0x41, 0x23, 1, 0x20]), (field("indices"), [4, 0, 0, 0])];
     /// let mut buf = [0; 64];
     /// let bytes = Stream::VariableHandleRead.join(parts, &mut buf)?;
     /// assert_eq!(bytes, [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0]);
@@ -30,9 +29,10 @@ impl Stream {
     /// Those of the stream's decoders; [`Mismatch`](ErrorKind::Mismatch) with the lengths of field and part
     /// at the first field that would not have the bytes of its part, also because a part is missing or
     /// is not in order; [`BufferTooSmall`](ErrorKind::BufferTooSmall). What is in `buf` then is unspecified.
-    pub fn join<'p, 'b, P>(self, parts: P, buf: &'b mut [u8]) -> Result<&'b [u8], Error>
+    pub fn join<'b, P, B>(self, parts: P, buf: &'b mut [u8]) -> Result<&'b [u8], Error>
     where
-        P: IntoIterator<Item = (Field, &'p [u8]), IntoIter: Clone>,
+        P: IntoIterator<Item = (Field, B), IntoIter: Clone>,
+        B: AsRef<[u8]>,
     {
         let parts = parts.into_iter();
         let mut out = Out { buf, at: 0 };
@@ -47,7 +47,8 @@ impl Stream {
         // What was written is read again: only that shows what a reader finds in it.
         let mut read = Read { stream: self, parts: parts.peekable(), fault: None };
         self.walk(bytes, |segment| read.compare(&segment))?;
-        let unread = read.parts.next().map(|(field, part)| differs(field, needed, 0, part));
+        let unread =
+            read.parts.next().map(|(field, part)| differs(field, needed, 0, part.as_ref()));
         read.fault.or(unread).map_or(Ok(bytes), Err)
     }
 
@@ -66,24 +67,24 @@ struct Out<'b> {
 
 impl Out<'_> {
     fn put(&mut self, bytes: &[u8]) {
-        let end = self.at.saturating_add(bytes.len());
-        if let Some(room) = self.buf.get_mut(self.at..end) {
-            room.copy_from_slice(bytes);
+        if let Some(room) = self.buf.get_mut(self.at..) {
+            // The writer writes what fits.
+            Writer::new(room).put(bytes);
         }
-        self.at = end;
+        self.at = self.at.saturating_add(bytes.len());
     }
 
     /// Writes the parts of a record; whether there were any.
-    fn record<'p>(
+    fn record<B: AsRef<[u8]>>(
         &mut self,
         stream: Stream,
-        parts: &mut Peekable<impl Iterator<Item = (Field, &'p [u8])>>,
+        parts: &mut Peekable<impl Iterator<Item = (Field, B)>>,
     ) -> bool {
         let (mut is_any, mut count_at) = (false, None);
         for (field, row) in stream.fields().zip(stream.layout().fields) {
             let (start, mut items) = (self.at, 0_u32);
             while let Some((_, part)) = parts.next_if(|(of, _)| *of == field) {
-                self.put(part);
+                self.put(part.as_ref());
                 (is_any, items) = (true, items.saturating_add(1));
                 if !matches!(row.size, Size::Items { .. }) {
                     break;
@@ -130,10 +131,11 @@ struct Read<P: Iterator> {
     fault: Option<Error>,
 }
 
-impl<'p, P: Iterator<Item = (Field, &'p [u8])>> Read<P> {
+impl<B: AsRef<[u8]>, P: Iterator<Item = (Field, B)>> Read<P> {
     fn compare(&mut self, found: &Segment<'_>) {
         let field = found.field;
         let part = self.parts.next_if(|(of, _)| *of == field).map(|(_, part)| part);
+        let part = part.as_ref().map(B::as_ref);
         let is_same = match (part, field.spec().map(|row| row.size)) {
             (None, _) => found.bytes.is_empty() || self.stream.is_count(field),
             (Some(part), Some(Size::Padded(_))) => {

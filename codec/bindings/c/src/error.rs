@@ -1,0 +1,167 @@
+//! Errors: those of the codec, and those of a caller.
+
+use codec::operation::DispatchError;
+use codec::{Error, ErrorKind};
+
+use crate::ADS_CNC_NONE;
+use crate::memory::{AdsCncBytes, put};
+use crate::tables::{field_number, stream_number};
+
+/// Why a function returned false.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct AdsCncError {
+    /// The class: `ADS_CNC_TRUNCATED` and so on.
+    pub kind: u32,
+    /// The number of the stream at fault; `ADS_CNC_NONE` if it is none.
+    pub stream: u32,
+    /// The number of its field at fault; `ADS_CNC_NONE` for the whole.
+    pub field: u32,
+    /// Where the field begins, in bytes from the start of the stream.
+    pub offset: u32,
+    /// The number that was expected.
+    pub expected: u32,
+    /// The number that was found.
+    pub found: u32,
+    /// The name of the stream, or of what else is at fault.
+    pub subject: AdsCncBytes,
+    /// The name of the field or part.
+    pub name: AdsCncBytes,
+    /// The class in words.
+    pub text: AdsCncBytes,
+}
+
+/// What a function can fail for.
+#[derive(Clone, Copy)]
+pub(crate) enum Fault {
+    Codec(Error),
+    /// A null pointer, or a length that no memory has.
+    Pointer,
+    NoFunction,
+    NoStream,
+    NoField,
+    /// An argument that is none of those the function takes: its name.
+    Argument(&'static str),
+    /// Room for fewer items than there are: the number needed, the room given.
+    Room(u32, u32),
+    /// A sender or host that was never started.
+    NotStarted,
+    /// A line of an NC program: its number, column, the number found.
+    Line(u32, u32, u32, &'static str),
+    /// A received call that has no function.
+    Dispatch(DispatchError),
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::Codec(error)
+    }
+}
+
+/// The numbers and words of the classes.
+fn class(kind: ErrorKind) -> (u32, &'static str) {
+    match kind {
+        ErrorKind::Truncated => (1, "truncated"),
+        ErrorKind::Trailing => (2, "trailing bytes"),
+        ErrorKind::TooLong => (3, "too long"),
+        ErrorKind::TooMany => (4, "too many"),
+        ErrorKind::MissingNul => (5, "no NUL"),
+        ErrorKind::InnerNul => (6, "NUL inside the text"),
+        ErrorKind::NotCp1252 => (7, "not in CP1252"),
+        ErrorKind::NotDecimal => (8, "not a decimal digit"),
+        ErrorKind::Digits => (9, "wrong number of digits"),
+        ErrorKind::Unexpected => (10, "unexpected character"),
+        ErrorKind::Missing => (11, "missing"),
+        ErrorKind::OutOfRange => (12, "out of range"),
+        ErrorKind::Mismatch => (13, "mismatch"),
+        ErrorKind::Function => (14, "a function, not content"),
+        ErrorKind::BufferTooSmall => (15, "buffer too small"),
+        _ => (0, "another error"),
+    }
+}
+
+impl AdsCncError {
+    fn new(fault: Fault) -> Self {
+        let of = |kind, text: &str| Self {
+            kind,
+            stream: ADS_CNC_NONE,
+            field: ADS_CNC_NONE,
+            offset: 0,
+            expected: 0,
+            found: 0,
+            subject: AdsCncBytes::of(b"call"),
+            name: AdsCncBytes::NONE,
+            text: AdsCncBytes::of(text.as_bytes()),
+        };
+        let numbers =
+            |error: Self, offset, expected, found| Self { offset, expected, found, ..error };
+        let named = |error: Self, subject: &str, name: &str| Self {
+            subject: AdsCncBytes::of(subject.as_bytes()),
+            name: AdsCncBytes::of(name.as_bytes()),
+            ..error
+        };
+        match fault {
+            Fault::Codec(error) => {
+                let (field, (kind, text)) = (error.field(), class(error.kind()));
+                let error =
+                    numbers(of(kind, text), error.offset(), error.expected(), error.found());
+                Self {
+                    stream: field.stream().map_or(ADS_CNC_NONE, stream_number),
+                    field: field_number(field),
+                    ..named(error, field.subject().name(), field.name())
+                }
+            }
+            Fault::Pointer => of(32, "null, or longer than memory can be"),
+            Fault::NoFunction => of(33, "no function has this number"),
+            Fault::NoStream => of(34, "no stream has this number"),
+            Fault::NoField => of(35, "no field of the stream has this number"),
+            Fault::Argument(name) => {
+                named(of(36, "an argument the function does not take"), "call", name)
+            }
+            Fault::Room(needed, given) => {
+                numbers(of(37, "room for too few items"), 0, needed, given)
+            }
+            Fault::NotStarted => of(38, "never started"),
+            Fault::Line(line, column, found, text) => {
+                named(numbers(of(39, text), column, line, found), "nc-text", "line")
+            }
+            Fault::Dispatch(error) => match error {
+                DispatchError::Port(port) => named(
+                    numbers(of(40, "no task has this port"), 0, 0, port.0.into()),
+                    "call",
+                    "port",
+                ),
+                DispatchError::Group(group) => {
+                    let error = of(41, "no function has this index group");
+                    named(numbers(error, 0, 0, group.get()), "call", "index_group")
+                }
+                DispatchError::Offset(offset) => {
+                    let error = of(42, "no function has this index offset");
+                    named(numbers(error, 0, 0, offset.get()), "call", "index_offset")
+                }
+                DispatchError::Service { expected, found } => {
+                    let [expected, found] = [expected, found].map(|it| it.command().0.into());
+                    let error = of(43, "the function takes another command");
+                    named(numbers(error, 0, expected, found), "call", "command")
+                }
+                DispatchError::Stream(error) => Self::new(Fault::Codec(error)),
+                _ => of(0, "another error"),
+            },
+        }
+    }
+}
+
+/// True, or false with the error where the caller wants it.
+///
+/// # Safety
+/// Unless it is null, `out` points to room for an error.
+pub(crate) unsafe fn told(result: Result<(), Fault>, out: *mut AdsCncError) -> bool {
+    match result {
+        Ok(()) => true,
+        Err(fault) => {
+            // SAFETY: the caller's contract.
+            unsafe { put(out, AdsCncError::new(fault)) };
+            false
+        }
+    }
+}

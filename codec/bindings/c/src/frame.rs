@@ -1,0 +1,183 @@
+//! AMS/TCP frames, for programs without an ADS library.
+
+use codec::Encode as _;
+use codec::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
+use codec::operation::Call;
+
+use crate::error::{AdsCncError, Fault, told};
+use crate::memory::{AdsCncBytes, bytes, get, put, to_u32};
+use crate::request::AdsCncCall;
+
+/// Who sends or receives a frame.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct AdsCncAddress {
+    /// The AMS NetId.
+    pub net_id: [u8; 6],
+    /// The AMS port.
+    pub port: u16,
+}
+
+/// A frame.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct AdsCncFrame {
+    /// Who receives it.
+    pub target: AdsCncAddress,
+    /// Who sends it.
+    pub source: AdsCncAddress,
+    /// The AMS command.
+    pub command: u32,
+    /// `ADS_CNC_REQUEST` or `ADS_CNC_RESPONSE`.
+    pub state_flags: u32,
+    /// The AMS error number, 0 for none.
+    pub error: u32,
+    /// The number by which a response is known.
+    pub invoke_id: u32,
+    /// What follows the header.
+    pub data: AdsCncBytes,
+}
+
+impl AdsCncAddress {
+    fn get(self) -> AmsAddr {
+        AmsAddr { net_id: AmsNetId(self.net_id), port: AmsPort(self.port) }
+    }
+
+    fn of(it: AmsAddr) -> Self {
+        Self { net_id: it.net_id.0, port: it.port.0 }
+    }
+}
+
+impl AdsCncFrame {
+    fn header(&self) -> Result<AmsHeader, Fault> {
+        let short = |number, name| u16::try_from(number).map_err(|_| Fault::Argument(name));
+        Ok(AmsHeader {
+            target: self.target.get(),
+            source: self.source.get(),
+            command: Command(short(self.command, "command")?),
+            state_flags: StateFlags(short(self.state_flags, "state_flags")?),
+            data_length: 0,
+            error: AdsError(self.error),
+            invoke_id: self.invoke_id,
+        })
+    }
+}
+
+/// Writes a frame, with both lengths.
+///
+/// # Safety
+/// `frame` points to a frame and that to its data, `buffer` to `room` bytes; `length` and `error` are null
+/// or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_frame_write(
+    frame: *const AdsCncFrame,
+    buffer: *mut u8,
+    room: u32,
+    length: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let write = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (frame, buffer) = unsafe { (get(frame)?, crate::memory::room(buffer, room)?) };
+        // SAFETY: the caller's contract.
+        let data = unsafe { frame.data.get()? };
+        let written = FrameRef::new(frame.header()?, data)?.encode(buffer)?.len();
+        // SAFETY: the caller's contract.
+        unsafe { put(length, to_u32(written)) };
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(write(), error) }
+}
+
+/// Reads the frame at the front of what was received; `used` is its length, or 0 if bytes are missing.
+///
+/// # Safety
+/// `data` points to `length` bytes; `frame`, `used` and `error` are null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_frame_read(
+    data: *const u8,
+    length: u32,
+    max_data: u32,
+    frame: *mut AdsCncFrame,
+    used: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let read = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let received = unsafe { bytes(data, length)? };
+        let Some((found, size)) = FrameRef::split(received, max_data)? else {
+            // SAFETY: the caller's contract.
+            unsafe { put(used, 0) };
+            return Ok(());
+        };
+        let header = found.header();
+        let it = AdsCncFrame {
+            target: AdsCncAddress::of(header.target),
+            source: AdsCncAddress::of(header.source),
+            command: header.command.0.into(),
+            state_flags: header.state_flags.0.into(),
+            error: header.error.0,
+            invoke_id: header.invoke_id,
+            data: AdsCncBytes::of(found.data()),
+        };
+        // SAFETY: the caller's contract.
+        unsafe {
+            put(frame, it);
+            put(used, to_u32(size));
+        }
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(read(), error) }
+}
+
+/// Writes what a call is in a frame: the data of a Read, Write or ReadWrite request.
+///
+/// # Safety
+/// `call` points to a call and that to its data, `buffer` to `room` bytes; `length` and `error` are null or
+/// point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_call_write(
+    call: *const AdsCncCall,
+    buffer: *mut u8,
+    room: u32,
+    length: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let write = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (call, buffer) = unsafe { (get(call)?.call()?, crate::memory::room(buffer, room)?) };
+        let written = call.encode(buffer)?.len();
+        // SAFETY: the caller's contract.
+        unsafe { put(length, to_u32(written)) };
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(write(), error) }
+}
+
+/// Reads the call of a frame that is a Read, Write or ReadWrite request.
+///
+/// # Safety
+/// `frame` points to a frame and that to its data; `call` and `error` are null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_call_read(
+    frame: *const AdsCncFrame,
+    call: *mut AdsCncCall,
+    error: *mut AdsCncError,
+) -> bool {
+    let read = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let frame = unsafe { get(frame)? };
+        // SAFETY: the caller's contract.
+        let data = unsafe { frame.data.get()? };
+        let found = FrameRef::new(frame.header()?, data)?;
+        let it = Call::from_frame(&found)?.ok_or(Fault::Argument("command"))?;
+        // SAFETY: the caller's contract.
+        unsafe { put(call, AdsCncCall::of(&it)) };
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(read(), error) }
+}

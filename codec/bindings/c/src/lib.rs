@@ -1,0 +1,66 @@
+//! The codec for C, and for every language that calls C: `include/ads_cnc.h` documents it.
+//!
+//! No allocator, no global, no ownership: the caller has all memory, nothing is ever freed, and every
+//! function may be called from any thread. Structs are numbers and pointers. A wrong number or length is an
+//! error; only a wrong pointer is undefined, as everywhere in C.
+
+#![cfg_attr(not(test), no_std)]
+
+#[cfg(test)]
+extern crate codec as ads_cnc;
+
+mod error;
+mod frame;
+mod machines;
+mod memory;
+mod request;
+mod stream;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+pub use error::AdsCncError;
+pub use frame::{AdsCncAddress, AdsCncFrame};
+pub use machines::{AdsCncHost, AdsCncHostStep, AdsCncProgress, AdsCncSender, AdsCncServiceId};
+pub use memory::AdsCncBytes;
+pub use request::{AdsCncCall, AdsCncRequest};
+pub use stream::{AdsCncField, AdsCncPart};
+pub use tables::{AdsCncFieldInfo, AdsCncFunctionInfo, AdsCncStreamInfo, AdsCncType};
+
+/// No number: of a function, stream or field that is not there.
+pub const ADS_CNC_NONE: u32 = u32::MAX;
+
+/// The number of the ABI: programs built with a header of another number must not use this library.
+#[unsafe(no_mangle)]
+pub extern "C" fn ads_cnc_abi() -> u32 {
+    const { decimal(env!("CARGO_PKG_VERSION_MINOR").as_bytes()) }
+}
+
+const fn decimal(mut digits: &[u8]) -> u32 {
+    let mut number = 0_u32;
+    while let [digit, rest @ ..] = digits {
+        let [ones, ..] = [digit.wrapping_sub(b'0'), 0];
+        number = number.wrapping_mul(10).wrapping_add(u32::from_le_bytes([ones, 0, 0, 0]));
+        digits = rest;
+    }
+    number
+}
+
+/// A panic needs a symbol that nobody has. No panic can be reached from the functions, so a release build
+/// never refers to it; `codec/bindings/run` proves that. Whoever builds with other options and is told of
+/// the symbol by the linker has less optimisation than the proof needs.
+#[cfg(not(any(test, debug_assertions)))]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    unsafe extern "C" {
+        fn ads_cnc_panicked() -> !;
+    }
+    // SAFETY: nobody defines it, so whatever links never calls it.
+    unsafe { ads_cnc_panicked() }
+}
+
+#[cfg(all(not(test), debug_assertions))]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}

@@ -1,0 +1,402 @@
+//! The state machines: the sender of an NC program and the host of services, in memory of the caller.
+
+use core::mem::MaybeUninit;
+
+use codec::CncStr;
+use codec::ads::AdsError;
+use codec::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
+use codec::streaming::{Ack, LineErrorKind, NcText, Sender, SenderState};
+
+use crate::error::{AdsCncError, Fault, told};
+use crate::memory::{AdsCncBytes, bytes, put, slice, to_u32};
+
+/// Memory of the caller for a state machine, behind a number that says that it was started. C may copy it:
+/// nothing in it points into it.
+macro_rules! machine {
+    ($(#[$doc:meta])* $memory:ident, $words:literal, $state:ty, $started:literal) => {
+        $(#[$doc])*
+        #[repr(C)]
+        pub struct $memory {
+            started: u64,
+            state: MaybeUninit<[u64; $words]>,
+        }
+
+        const _: () = assert!(size_of::<$state>() <= $words * 8 && align_of::<$state>() <= 8);
+
+        impl $memory {
+            /// # Safety
+            /// Unless it is null, `it` points to room for one, which nobody else uses now.
+            unsafe fn start(it: *mut Self, state: $state) -> Result<(), Fault> {
+                if it.is_null() {
+                    return Err(Fault::Pointer);
+                }
+                // SAFETY: not null, and the state fits; the rest is the caller's contract.
+                unsafe {
+                    (&raw mut (*it).state).cast::<$state>().write(state);
+                    (&raw mut (*it).started).write($started);
+                }
+                Ok(())
+            }
+
+            /// # Safety
+            /// Unless it is null, `it` points to one that was started, or to memory that was initialised
+            /// otherwise.
+            unsafe fn state(it: *const Self) -> Result<*mut $state, Fault> {
+                if it.is_null() {
+                    return Err(Fault::Pointer);
+                }
+                // SAFETY: not null; the rest is the caller's contract.
+                match unsafe { (&raw const (*it).started).read() } {
+                    // SAFETY: not null.
+                    $started => Ok(unsafe { &raw const (*it).state }.cast::<$state>().cast_mut()),
+                    _ => Err(Fault::NotStarted),
+                }
+            }
+
+            /// # Safety
+            /// As for `state`; nobody writes it while `'a` lasts.
+            unsafe fn get<'a>(it: *const Self) -> Result<&'a $state, Fault> {
+                // SAFETY: the caller's contract; `start` has written a state there.
+                unsafe { Ok(&*Self::state(it)?) }
+            }
+
+            /// # Safety
+            /// As for `state`; nobody else uses it while `'a` lasts.
+            unsafe fn get_mut<'a>(it: *mut Self) -> Result<&'a mut $state, Fault> {
+                // SAFETY: the caller's contract; `start` has written a state there.
+                unsafe { Ok(&mut *Self::state(it)?) }
+            }
+        }
+    };
+}
+
+machine! {
+    /// A sender of an NC program.
+    AdsCncSender, 151, Sender<'static>, 0x0AD5_C001_5E4D_E201
+}
+
+machine! {
+    /// A host of services.
+    AdsCncHost, 55, Services, 0x0AD5_C001_4057_0001
+}
+
+/// A host, and the services it was started with.
+struct Services {
+    host: Host<'static>,
+    ids: &'static [ServiceId],
+}
+
+/// The UUID of a service: 36 characters.
+#[repr(transparent)]
+pub struct AdsCncServiceId(ServiceId);
+
+const _: () = assert!(size_of::<AdsCncServiceId>() == 36 && align_of::<AdsCncServiceId>() == 1);
+
+/// How far a sender is.
+#[repr(C)]
+pub struct AdsCncProgress {
+    /// `ADS_CNC_SENDER_READY` and so on.
+    pub state: u32,
+    /// Packets that were accepted.
+    pub packets: u32,
+    /// Lines that were accepted.
+    pub lines: u32,
+    /// Bytes that were accepted, with CR LF after each line.
+    pub bytes: u32,
+    /// Lines that were not accepted yet.
+    pub left_lines: u32,
+    /// Bytes that were not accepted yet, with CR LF after each line.
+    pub left_bytes: u32,
+    /// How often the CNC was busy for the present packet.
+    pub busy_count: u32,
+}
+
+/// What a host wants done.
+#[repr(C)]
+pub struct AdsCncHostStep {
+    /// `ADS_CNC_STEP_WAIT` and so on.
+    pub kind: u32,
+    /// Of a request to serve: which of the services, from 0.
+    pub service: u32,
+    /// Of a request to serve: its state.
+    pub request_state: u32,
+    /// Of a read or write: the name of the variable.
+    pub variable: AdsCncBytes,
+    /// Of a write: the value. Of a request to serve: its text, CP1252.
+    pub data: AdsCncBytes,
+}
+
+fn line_fault(kind: LineErrorKind) -> (u32, &'static str) {
+    match kind {
+        LineErrorKind::TooLong { length } => (length, "more than 990 characters"),
+        LineErrorKind::NotAscii { byte } => (byte.into(), "a byte that is not ASCII"),
+        LineErrorKind::Nul => (0, "a NUL"),
+        _ => (0, "another error"),
+    }
+}
+
+/// Begins to send an NC program, whose text stays where it is until the sender is done with. If a line
+/// cannot be sent, the error has its line in `expected` and its column in `offset`.
+///
+/// # Safety
+/// `sender` points to room for one; `text` to `length` bytes, as long as the sender is used; `error` is null
+/// or points to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_sender_start(
+    sender: *mut AdsCncSender,
+    text: *const u8,
+    length: u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let start = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract: the bytes last as long as the sender.
+        let text = NcText::new(unsafe { bytes(text, length)? }).map_err(|error| {
+            let (found, text) = line_fault(error.kind());
+            Fault::Line(error.line(), error.column(), found, text)
+        })?;
+        // SAFETY: the caller's contract.
+        unsafe { AdsCncSender::start(sender, Sender::new(text)) }
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(start(), error) }
+}
+
+/// The packet to write now; false if all were accepted, one was rejected, or the sender was never started.
+///
+/// # Safety
+/// `sender` points to one that was started, its text still there; `packet` is null or points to room for
+/// one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_sender_packet(
+    sender: *mut AdsCncSender,
+    packet: *mut AdsCncBytes,
+) -> bool {
+    // SAFETY: the caller's contract.
+    let found = unsafe { AdsCncSender::get_mut(sender) }.ok().and_then(|it| it.packet());
+    // SAFETY: the caller's contract.
+    unsafe { put(packet, found.map_or(AdsCncBytes::NONE, AdsCncBytes::of)) };
+    found.is_some()
+}
+
+/// What became of the packet in flight; false if there is none, or no such acknowledgement.
+///
+/// # Safety
+/// `sender` points to one that was started, its text still there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_sender_acknowledge(
+    sender: *mut AdsCncSender,
+    acknowledgement: u32,
+) -> bool {
+    let ack = match acknowledgement {
+        0 => Ack::Accepted,
+        1 => Ack::Busy,
+        2 => Ack::Rejected,
+        _ => return false,
+    };
+    // SAFETY: the caller's contract.
+    unsafe { AdsCncSender::get_mut(sender) }.is_ok_and(|it| it.acknowledge(ack).is_ok())
+}
+
+/// The acknowledgement that the result of a write is.
+#[unsafe(no_mangle)]
+pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
+    match Ack::from_result(AdsError(ads_error)) {
+        Ack::Accepted => 0,
+        Ack::Busy => 1,
+        Ack::Rejected => 2,
+    }
+}
+
+/// How far a sender is; false if it was never started.
+///
+/// # Safety
+/// `sender` points to one that was started; `progress` is null or points to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_sender_progress(
+    sender: *const AdsCncSender,
+    progress: *mut AdsCncProgress,
+) -> bool {
+    // SAFETY: the caller's contract.
+    let Ok(it) = (unsafe { AdsCncSender::get(sender) }) else { return false };
+    let sent = it.sent();
+    let found = AdsCncProgress {
+        state: match it.state() {
+            SenderState::Ready => 0,
+            SenderState::InFlight => 1,
+            SenderState::Waiting => 2,
+            SenderState::Stopped => 3,
+            SenderState::Done => 4,
+        },
+        packets: to_u32(sent.packets),
+        lines: to_u32(sent.lines),
+        bytes: to_u32(sent.bytes),
+        left_lines: to_u32(it.left_lines()),
+        left_bytes: to_u32(it.left_bytes()),
+        busy_count: it.busy_count(),
+    };
+    // SAFETY: the caller's contract.
+    unsafe { put(progress, found) };
+    true
+}
+
+/// The UUID of a service from its text.
+///
+/// # Safety
+/// `text` points to `length` bytes; `id` and `error` are null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_service_id(
+    text: *const u8,
+    length: u32,
+    id: *mut AdsCncServiceId,
+    error: *mut AdsCncError,
+) -> bool {
+    let parse = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let text = CncStr::from_bytes(unsafe { bytes(text, length)? })?;
+        // SAFETY: the caller's contract.
+        unsafe { put(id, AdsCncServiceId(ServiceId::from_text(text)?)) };
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(parse(), error) }
+}
+
+/// Begins to host services of one channel.
+///
+/// # Safety
+/// `host` points to room for one; `ids` to as many as `count`, as long as the host is used; `error` is null
+/// or points to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_host_start(
+    host: *mut AdsCncHost,
+    ids: *const AdsCncServiceId,
+    count: u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let start = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract: they last as long as the host, and are transparent.
+        let ids = unsafe { slice(ids.cast::<ServiceId>(), count)? };
+        // SAFETY: the caller's contract.
+        unsafe { AdsCncHost::start(host, Services { host: Host::new(ids), ids }) }
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(start(), error) }
+}
+
+/// What to do next; the same until it is done. False if the host was never started.
+///
+/// # Safety
+/// `host` points to one that was started, its IDs still there; `step` is null or points to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_host_step(
+    host: *const AdsCncHost,
+    step: *mut AdsCncHostStep,
+) -> bool {
+    // SAFETY: the caller's contract.
+    let Ok(it) = (unsafe { AdsCncHost::get(host) }) else { return false };
+    let name = |variable: ServiceVariable| AdsCncBytes::of(variable.name().as_bytes());
+    let none = AdsCncHostStep {
+        kind: 0,
+        service: 0,
+        request_state: 0,
+        variable: AdsCncBytes::NONE,
+        data: AdsCncBytes::NONE,
+    };
+    let found = match it.host.step() {
+        HostStep::Wait => none,
+        HostStep::Read(variable) => AdsCncHostStep { kind: 1, variable: name(variable), ..none },
+        HostStep::Write(variable, value) => AdsCncHostStep {
+            kind: 2,
+            variable: name(variable),
+            data: AdsCncBytes::of(value),
+            ..none
+        },
+        HostStep::Serve { uuid, request, request_state } => AdsCncHostStep {
+            kind: 3,
+            service: it.ids.iter().position(|id| core::ptr::eq(id, uuid)).map_or(0, to_u32),
+            request_state,
+            // A text that was read is CP1252 already.
+            data: request.as_cp1252().map_or(AdsCncBytes::NONE, AdsCncBytes::of),
+            ..none
+        },
+    };
+    // SAFETY: the caller's contract.
+    unsafe { put(step, found) };
+    true
+}
+
+/// The value that was read.
+///
+/// # Safety
+/// `host` points to one that was started, its IDs still there; `value` to `length` bytes; `error` is null
+/// or points to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_host_read(
+    host: *mut AdsCncHost,
+    value: *const u8,
+    length: u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let read = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (it, value) = unsafe { (AdsCncHost::get_mut(host)?, bytes(value, length)?) };
+        Ok(it.host.read(value)?)
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(read(), error) }
+}
+
+/// The answer to the request that the host has handed out: CP1252 without a NUL, and a state that is not 0.
+///
+/// # Safety
+/// `host` points to one that was started, its IDs still there; `response` to `length` bytes; `error` is
+/// null or points to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_host_answer(
+    host: *mut AdsCncHost,
+    response: *const u8,
+    length: u32,
+    response_state: u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let answer = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (it, response) = unsafe { (AdsCncHost::get_mut(host)?, bytes(response, length)?) };
+        Ok(it.host.answer(CncStr::from_bytes(response)?, response_state)?)
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(answer(), error) }
+}
+
+/// What happened: `ADS_CNC_WRITTEN`, `ADS_CNC_FAILED`, `ADS_CNC_POLL` or `ADS_CNC_RESTART`. False if there is
+/// no such event, or the host was never started.
+///
+/// # Safety
+/// `host` points to one that was started, its IDs still there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -> bool {
+    // SAFETY: the caller's contract.
+    let Ok(it) = (unsafe { AdsCncHost::get_mut(host) }) else { return false };
+    match event {
+        0 => it.host.written(),
+        1 => it.host.failed(),
+        2 => it.host.poll(),
+        3 => it.host.restart(),
+        _ => return false,
+    }
+    true
+}
+
+/// The outcome of the last answer: `ADS_CNC_NO_OUTCOME`, `ADS_CNC_ANSWERED` or `ADS_CNC_ABANDONED`.
+///
+/// # Safety
+/// `host` points to one that was started.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_host_outcome(host: *const AdsCncHost) -> u32 {
+    // SAFETY: the caller's contract.
+    match unsafe { AdsCncHost::get(host) }.map(|it| it.host.outcome()) {
+        Ok(Some(Outcome::Answered)) => 1,
+        Ok(Some(Outcome::Abandoned)) => 2,
+        _ => 0,
+    }
+}

@@ -1,0 +1,104 @@
+//! Memory of the caller. Every pointer becomes a reference here, or a value by `put`.
+
+use crate::error::Fault;
+
+/// Bytes of the caller; null if there are none.
+#[repr(C)]
+#[derive(Clone, Copy)]
+#[cfg_attr(test, derive(Debug))]
+pub struct AdsCncBytes {
+    /// The first byte.
+    pub data: *const u8,
+    /// How many there are.
+    pub length: u32,
+}
+
+impl AdsCncBytes {
+    pub(crate) const NONE: Self = Self { data: core::ptr::null(), length: 0 };
+
+    pub(crate) fn of(bytes: &[u8]) -> Self {
+        Self { data: bytes.as_ptr(), length: to_u32(bytes.len()) }
+    }
+
+    /// # Safety
+    /// As for [`bytes`].
+    pub(crate) unsafe fn get<'a>(self) -> Result<&'a [u8], Fault> {
+        // SAFETY: the caller's contract is the same.
+        unsafe { bytes(self.data, self.length) }
+    }
+}
+
+pub(crate) fn to_u32(length: usize) -> u32 {
+    u32::try_from(length).unwrap_or(u32::MAX)
+}
+
+pub(crate) fn to_usize(length: u32) -> usize {
+    usize::try_from(length).unwrap_or(usize::MAX)
+}
+
+/// The number of items, unless no slice can have so many or there is no pointer to them.
+fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
+    let count = to_usize(count);
+    let size = count.checked_mul(size_of::<T>()).and_then(|size| isize::try_from(size).ok());
+    match size {
+        Some(_) if !data.is_null() => Ok(count),
+        Some(0) => Ok(0),
+        _ => Err(Fault::Pointer),
+    }
+}
+
+/// # Safety
+/// Unless it is null, `data` points to `length` items, aligned, which nobody writes while `'a` lasts.
+pub(crate) unsafe fn slice<'a, T>(data: *const T, count: u32) -> Result<&'a [T], Fault> {
+    match items(data, count)? {
+        0 => Ok(&[]),
+        // SAFETY: not null and no longer than a slice can be; the rest is the caller's contract.
+        count => Ok(unsafe { core::slice::from_raw_parts(data, count) }),
+    }
+}
+
+/// # Safety
+/// As for [`slice`].
+pub(crate) unsafe fn bytes<'a>(data: *const u8, length: u32) -> Result<&'a [u8], Fault> {
+    // SAFETY: the caller's contract is the same.
+    unsafe { slice(data, length) }
+}
+
+/// # Safety
+/// Unless it is null, `data` points to `length` bytes, which nobody else reads or writes while `'a` lasts.
+pub(crate) unsafe fn room<'a>(data: *mut u8, length: u32) -> Result<&'a mut [u8], Fault> {
+    match items(data.cast_const(), length)? {
+        0 => Ok(&mut []),
+        // SAFETY: not null and no longer than a slice can be; the rest is the caller's contract.
+        length => Ok(unsafe { core::slice::from_raw_parts_mut(data, length) }),
+    }
+}
+
+/// # Safety
+/// Unless it is null, `it` points to a `T`, aligned, which nobody writes while `'a` lasts.
+pub(crate) unsafe fn get<'a, T>(it: *const T) -> Result<&'a T, Fault> {
+    // SAFETY: the caller's contract.
+    unsafe { it.as_ref() }.ok_or(Fault::Pointer)
+}
+
+/// Writes where the caller wants a value; does nothing at null.
+///
+/// # Safety
+/// Unless it is null, `out` points to room for a `T`, aligned.
+pub(crate) unsafe fn put<T>(out: *mut T, value: T) {
+    if !out.is_null() {
+        // SAFETY: not null; the rest is the caller's contract.
+        unsafe { out.write(value) }
+    }
+}
+
+/// Writes to an item of an array; does nothing beyond its end.
+///
+/// # Safety
+/// Unless it is null, `array` points to room for `room` items, aligned.
+pub(crate) unsafe fn put_item<T>(array: *mut T, room: u32, at: u32, value: T) {
+    if at < room && items(array.cast_const(), room).is_ok() {
+        // SAFETY: there is room for more than `at` items, as many as a slice could have.
+        unsafe { array.wrapping_add(to_usize(at)).write(value) }
+    }
+}

@@ -1,0 +1,460 @@
+//! Operations, for a client that encodes them and for a server that receives them.
+
+use codec::address::{
+    Addressing, AxisStride, Channel, ChannelAxis, Class, ComTable, ElementAddress, Group,
+    IndexGroup, IndexOffset, PlatformAxis,
+};
+use codec::ads::AmsPort;
+use codec::dynamic::DynamicKind;
+use codec::operation::{self as op, Call, Function, GroupRule, OffsetRule, Request};
+use codec::{CncStr, Handle, Kind, U32List};
+
+use crate::error::{AdsCncError, Fault, told};
+use crate::memory::{AdsCncBytes, bytes, get, put, put_item, room, slice, to_u32};
+use crate::stream::{AdsCncField, walk};
+use crate::tables::{argument, function, service};
+
+/// The arguments of any function. Those count that the function takes; the others are zero.
+#[repr(C)]
+#[derive(Clone, Copy)]
+#[cfg_attr(test, derive(Debug))]
+pub struct AdsCncRequest {
+    /// The number of the function.
+    pub function: u32,
+    /// The channel, from 1; 0 is the platform, where a function has it.
+    pub channel: u32,
+    /// 1 if the channel, or what else is counted, is meant by its index among the active ones.
+    pub by_index: u32,
+    /// An axis of the channel, from 1; of a list of objects without a channel, a platform axis.
+    pub axis: u32,
+    /// Index of a variable, from 0; of a parameter or an object, from 1.
+    pub index: u32,
+    /// How many descriptors to read.
+    pub count: u32,
+    /// The most bytes of a content to read.
+    pub size: u32,
+    /// Handle of a variable.
+    pub handle: u32,
+    /// Index group of an element or object.
+    pub index_group: u32,
+    /// Index offset of an element or object.
+    pub index_offset: u32,
+    /// Kind of variables or parameters, such as "V.E" or "P"; class, such as "decoder".
+    pub kind: AdsCncBytes,
+    /// Name of a variable or parameter, CP1252, without a NUL.
+    pub name: AdsCncBytes,
+    /// The bytes to write.
+    pub value: AdsCncBytes,
+    /// Index in each dimension, from 0.
+    pub indices: *const u32,
+    /// How many there are.
+    pub indices_count: u32,
+}
+
+/// A call as ADS carries it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct AdsCncCall {
+    /// The AMS port.
+    pub port: u32,
+    /// The AMS command: 2 Read, 3 Write, 9 ReadWrite.
+    pub command: u32,
+    /// The index group.
+    pub index_group: u32,
+    /// The index offset.
+    pub index_offset: u32,
+    /// The most bytes of the reply.
+    pub read_length: u32,
+    /// The data of the request.
+    pub data: AdsCncBytes,
+}
+
+impl AdsCncCall {
+    pub(crate) fn of(call: &Call<'_>) -> Self {
+        Self {
+            port: call.port.0.into(),
+            command: call.service.command().0.into(),
+            index_group: call.index_group.get(),
+            index_offset: call.index_offset.get(),
+            read_length: call.read_length,
+            data: AdsCncBytes::of(call.data),
+        }
+    }
+
+    /// # Safety
+    /// `data` points to its bytes.
+    pub(crate) unsafe fn call<'a>(&self) -> Result<Call<'a>, Fault> {
+        Ok(Call {
+            port: AmsPort(u16::try_from(self.port).map_err(|_| Fault::Argument("port"))?),
+            service: service(self.command).ok_or(Fault::Argument("command"))?,
+            index_group: IndexGroup::new(self.index_group),
+            index_offset: IndexOffset::new(self.index_offset),
+            read_length: self.read_length,
+            // SAFETY: the caller's contract.
+            data: unsafe { self.data.get()? },
+        })
+    }
+}
+
+/// Names that the codec shows and does not return; a test holds them against what it shows.
+pub(crate) const KINDS: [&str; 4] = ["P", "V.L", "V.P", "V.S"];
+pub(crate) const CLASSES: [&str; 6] =
+    ["position controller", "interpolator", "decoder", "HLD", "path preparation", "spindle"];
+
+/// A request whose pointers were read.
+struct Arguments<'a> {
+    it: &'a AdsCncRequest,
+    kind: &'a [u8],
+    name: &'a [u8],
+    value: &'a [u8],
+    indices: &'a [u32],
+}
+
+impl<'a> Arguments<'a> {
+    fn by_index(&self) -> Result<bool, Fault> {
+        match self.it.by_index {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => Err(Fault::Argument("by_index")),
+        }
+    }
+
+    fn channel(&self) -> Result<Channel, Fault> {
+        let new = if self.by_index()? { Channel::by_index } else { Channel::new };
+        Ok(new(self.it.channel)?)
+    }
+
+    fn list(&self) -> Result<op::ObjectList, Fault> {
+        Ok(match (self.it.channel, self.it.axis) {
+            (0, 0) => op::ObjectList::PLATFORM,
+            (0, axis) => PlatformAxis::new(axis)?.into(),
+            _ => self.channel()?.into(),
+        })
+    }
+
+    fn axis(&self) -> Result<ChannelAxis, Fault> {
+        Ok(ChannelAxis::new(self.it.axis)?)
+    }
+
+    fn name(&self) -> Result<CncStr<'a>, Fault> {
+        Ok(CncStr::from_bytes(self.name)?)
+    }
+
+    fn kind(&self) -> Result<Kind<'a>, Fault> {
+        Ok(Kind::from_field(CncStr::from_bytes(self.kind)?.into()))
+    }
+
+    /// One of these, by its name in `kind`.
+    fn one_of<T>(&self, all: impl IntoIterator<Item = T>, names: &[&str]) -> Result<T, Fault> {
+        let named = all.into_iter().zip(names).find(|(_, name)| name.as_bytes() == self.kind);
+        named.map(|(one, _)| one).ok_or(Fault::Argument("kind"))
+    }
+
+    fn parameters(&self) -> Result<DynamicKind, Fault> {
+        self.one_of(DynamicKind::ALL, &KINDS)
+    }
+
+    fn instance(&self) -> Result<op::FindInstance, Fault> {
+        let class = self.one_of(Class::ALL, &CLASSES)?;
+        let find = op::FindInstance::new(class, self.it.channel, self.it.axis);
+        Ok(if self.by_index()? { find.by_index() } else { find })
+    }
+
+    fn element(&self) -> Result<ElementAddress, Fault> {
+        match self.group().parts() {
+            Some(Group::Class(group)) => Ok(ElementAddress::new(group, self.offset())),
+            _ => Err(Fault::Argument("index_group")),
+        }
+    }
+
+    fn group(&self) -> IndexGroup {
+        IndexGroup::new(self.it.index_group)
+    }
+
+    fn offset(&self) -> IndexOffset {
+        IndexOffset::new(self.it.index_offset)
+    }
+
+    fn handle(&self) -> Handle {
+        Handle(self.it.handle)
+    }
+
+    fn indices(&self) -> U32List<'a> {
+        self.indices.into()
+    }
+}
+
+/// How each operation is made of the arguments. What a function takes is in the codec's tables.
+macro_rules! operations {
+    ($all:ident: $( $how:ident $function:ident($( $argument:expr ),+); )+) => {
+        fn made<'a>(function: Function, $all: &Arguments<'a>) -> Result<Request<'a>, Fault> {
+            Ok(match function {
+                $( Function::$function => operations!(@$how op::$function::new($( $argument ),+)).into(), )+
+                Function::FindInstance => $all.instance()?.into(),
+                _ => return Err(Fault::NoFunction),
+            })
+        }
+
+        /// The name of the operation's type.
+        pub(crate) fn operation_name(function: Function) -> &'static str {
+            match function {
+                $( Function::$function => stringify!($function), )+
+                Function::FindInstance => "FindInstance",
+                _ => "",
+            }
+        }
+    };
+    (@plain $made:expr) => { $made };
+    (@checked $made:expr) => { $made? };
+}
+
+operations! { all:
+    plain CountObjects(all.list()?);
+    checked ReadDescriptors(all.list()?, all.it.index, all.it.count);
+    plain CountVariables(all.channel()?, all.kind()?);
+    plain DescribeByIndex(all.channel()?, all.it.index, all.kind()?);
+    checked HandleByName(all.channel()?, all.name()?);
+    plain ReadByHandle(all.channel()?, all.handle(), all.indices());
+    checked ReadByName(all.channel()?, all.name()?);
+    plain WriteByHandle(all.channel()?, all.handle(), all.indices(), all.value);
+    checked WriteByName(all.channel()?, all.name()?, all.value);
+    plain DescribeExtended(all.channel()?, all.it.index, all.kind()?);
+    checked DescribeByName(all.channel()?, all.name()?);
+    checked AxisHandleByName(all.channel()?, all.axis()?, all.name()?);
+    checked AxisReadByName(all.channel()?, all.axis()?, all.name()?);
+    checked AxisWriteByName(all.channel()?, all.axis()?, all.name()?, all.value);
+    plain CountDynamic(all.channel()?, all.parameters()?);
+    checked DynamicNameByIndex(all.channel()?, all.parameters()?, all.it.index);
+    checked DynamicValueByName(all.channel()?, all.parameters()?, all.name()?);
+    checked DynamicValueByIndex(all.channel()?, all.parameters()?, all.it.index);
+    checked CountElements(all.element()?);
+    checked ReadElement(all.element()?, all.it.size);
+    checked WriteElement(all.element()?, all.value);
+    plain ReadElementName(all.element()?);
+    plain ReadElementType(all.element()?);
+    plain ReadElementLength(all.element()?);
+    plain ReadElementUnit(all.element()?);
+    plain ReadElementWriteFlag(all.element()?);
+    plain WriteProgramStream(all.channel()?, all.value);
+    checked ReadObject(all.group(), all.offset(), all.it.size);
+    checked WriteObject(all.group(), all.offset(), all.value);
+}
+
+/// # Safety
+/// `it` points to a request, and its pointers to what they count, which nobody writes while `'a` lasts.
+unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
+    // SAFETY: the caller's contract.
+    let it = unsafe { get(it)? };
+    // SAFETY: the caller's contract.
+    let all = unsafe {
+        Arguments {
+            it,
+            kind: it.kind.get()?,
+            name: it.name.get()?,
+            value: it.value.get()?,
+            indices: slice(it.indices, it.indices_count)?,
+        }
+    };
+    made(function(it.function).ok_or(Fault::NoFunction)?, &all)
+}
+
+/// Writes the data of a request to `buffer`; `call` has where to send it.
+///
+/// # Safety
+/// The pointers of the request point to what they count, `buffer` to `room` bytes; `call` and `error` are
+/// null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_encode(
+    request: *const AdsCncRequest,
+    buffer: *mut u8,
+    room: u32,
+    call: *mut AdsCncCall,
+    error: *mut AdsCncError,
+) -> bool {
+    let encode = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (request, buffer) = unsafe { (self::request(request)?, self::room(buffer, room)?) };
+        let encoded = request.encode(buffer)?;
+        // SAFETY: the caller's contract.
+        unsafe { put(call, AdsCncCall::of(&encoded)) };
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(encode(), error) }
+}
+
+/// Checks the data received in reply to a request and gives the place of each field.
+///
+/// # Safety
+/// The pointers of the request point to what they count, `data` to `length` bytes, `fields` to room for as
+/// many as `room`; `count` and `error` are null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_decode_reply(
+    request: *const AdsCncRequest,
+    data: *const u8,
+    length: u32,
+    fields: *mut AdsCncField,
+    room: u32,
+    count: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let decode = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (request, data) = unsafe { (self::request(request)?, bytes(data, length)?) };
+        request.decode_reply(data)?;
+        let Some(stream) = request.function().spec().reply else {
+            // SAFETY: the caller's contract.
+            unsafe { put(count, 0) };
+            return Ok(());
+        };
+        // SAFETY: the caller's contract.
+        unsafe { walk(stream, data, fields, room, count) }
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(decode(), error) }
+}
+
+/// The arguments in the address of a call.
+fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
+    let spec = function.spec();
+    let Some(group) = call.index_group.parts() else { return };
+    let (addressing, instance) = match group {
+        Group::Com(com) => (com.addressing, com.instance),
+        Group::Class(class) => (class.addressing, class.instance),
+    };
+    let text = |text: &str| AdsCncBytes::of(text.as_bytes());
+    match (spec.group, group) {
+        (GroupRule::Elements(_) | GroupRule::ComContent, _) => {
+            (it.index_group, it.index_offset) = (call.index_group.get(), call.index_offset.get());
+            return;
+        }
+        (GroupRule::Instances, Group::Class(parts)) => {
+            let name = Class::ALL.into_iter().zip(CLASSES).find(|(class, _)| *class == parts.class);
+            it.kind = name.map_or(AdsCncBytes::NONE, |(_, name)| text(name));
+        }
+        (_, Group::Com(com)) if com.table == ComTable::Axis => it.axis = instance.into(),
+        _ => it.channel = instance.into(),
+    }
+    it.by_index = u32::from(addressing == Addressing::Index && instance > 0);
+    if let (GroupRule::Instances, Group::Class(parts)) = (spec.group, group) {
+        let is_spindle = parts.class == Class::Spindle;
+        it.by_index = u32::from(addressing == Addressing::Index && !is_spindle);
+    }
+    match spec.offset {
+        OffsetRule::AtLeast(_) => it.index = call.index_offset.get(),
+        OffsetRule::OfAxis(_) => {
+            let place = call.index_offset.axis_and_element(AxisStride::X10000);
+            it.axis = place.map_or(0, |(axis, _)| axis);
+        }
+        OffsetRule::OfKind(offsets) => {
+            let is = |(offset, _): &(u32, _)| *offset == call.index_offset.get();
+            let name = offsets.into_iter().zip(KINDS).find(is);
+            it.kind = name.map_or(AdsCncBytes::NONE, |(_, name)| text(name));
+        }
+        _ => {}
+    }
+}
+
+/// The arguments in the data of a call.
+///
+/// # Safety
+/// `indices` points to room for as many numbers as `room`.
+unsafe fn data(
+    function: Function,
+    call: &Call<'_>,
+    (indices, room): (*mut u32, u32),
+    it: &mut AdsCncRequest,
+) -> Result<(), Fault> {
+    let Some(stream) = function.spec().request else { return Ok(()) };
+    stream.walk(call.data, |segment| {
+        let four = segment.bytes.first_chunk().map_or(0, |four| u32::from_le_bytes(*four));
+        let text = segment.bytes.split(|byte| *byte == 0).next().unwrap_or_default();
+        match argument(segment.field) {
+            1 => it.channel = four,
+            2 => it.axis = four,
+            3 => it.index = four,
+            6 => it.handle = four,
+            9 => it.kind = AdsCncBytes::of(text),
+            10 => it.name = AdsCncBytes::of(text),
+            11 => it.value = AdsCncBytes::of(segment.bytes),
+            12 => {
+                // SAFETY: the caller's contract.
+                unsafe { put_item(indices, room, segment.item, four) };
+                it.indices_count = segment.item.saturating_add(1);
+            }
+            _ => {}
+        }
+    })?;
+    if it.indices_count > 0 {
+        it.indices = indices;
+    }
+    match it.indices_count > room || (it.indices_count > 0 && indices.is_null()) {
+        true => Err(Fault::Room(it.indices_count, room)),
+        false => Ok(()),
+    }
+}
+
+/// The function that a received call is to, with its arguments. Names and values are where the call's data
+/// is; `indices` has room for the indices, at most 510.
+///
+/// # Safety
+/// `call` points to a call and that to its data, `indices` to room for as many numbers as `room`; `request`,
+/// `ads_error` and `error` are null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_dispatch(
+    call: *const AdsCncCall,
+    indices: *mut u32,
+    room: u32,
+    request: *mut AdsCncRequest,
+    ads_error: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let dispatch = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let call = unsafe { get(call)?.call()? };
+        let dispatched = call.dispatch().map_err(Fault::Dispatch)?;
+        let function = dispatched.function();
+        let number = Function::ALL.iter().position(|it| *it == function).map_or(0, to_u32);
+        let mut it = AdsCncRequest { function: number, ..EMPTY };
+        address(function, &call, &mut it);
+        match dispatched {
+            Request::ReadDescriptors(read) => it.count = read.count(),
+            Request::ReadElement(_) | Request::ReadObject(_) => it.size = call.read_length,
+            _ => {}
+        }
+        // SAFETY: the caller's contract.
+        unsafe { data(function, &call, (indices, room), &mut it)? };
+        // SAFETY: the caller's contract.
+        unsafe { put(request, it) };
+        Ok(())
+    };
+    let result = dispatch();
+    let number = match result {
+        Ok(()) => 0,
+        Err(Fault::Dispatch(error)) => error.ads_error().0,
+        // The call has no command of these, or cannot be read.
+        Err(_) => codec::ads::AdsError::SERVICE_NOT_SUPPORTED.0,
+    };
+    // SAFETY: the caller's contract.
+    unsafe { put(ads_error, number) };
+    // SAFETY: the caller's contract.
+    unsafe { told(result, error) }
+}
+
+const EMPTY: AdsCncRequest = AdsCncRequest {
+    function: 0,
+    channel: 0,
+    by_index: 0,
+    axis: 0,
+    index: 0,
+    count: 0,
+    size: 0,
+    handle: 0,
+    index_group: 0,
+    index_offset: 0,
+    kind: AdsCncBytes::NONE,
+    name: AdsCncBytes::NONE,
+    value: AdsCncBytes::NONE,
+    indices: core::ptr::null(),
+    indices_count: 0,
+};

@@ -1,0 +1,252 @@
+//! Streams: their fields by the table, both ways, and texts.
+
+use codec::CncStr;
+use codec::layout::{Field, Size, Stream, Type};
+use codec::text::{char_to_cp1252, cp1252_to_char};
+
+use crate::error::{AdsCncError, Fault, told};
+use crate::memory::{AdsCncBytes, bytes, put, put_item, room, slice, to_u32, to_usize};
+use crate::tables::{field, field_number};
+
+/// A field of a decoded stream, or one item of a field that is a list.
+#[repr(C)]
+pub struct AdsCncField {
+    /// The number of the field.
+    pub field: u32,
+    /// Which record, from 0.
+    pub record: u32,
+    /// Which item of a list, from 0.
+    pub item: u32,
+    /// Where its bytes are in the stream.
+    pub offset: u32,
+    /// How many bytes it has.
+    pub length: u32,
+    /// The number, if the field is one of at most four bytes; else 0.
+    pub number: u32,
+}
+
+/// A field of a stream to write, or one item of a field that is a list.
+#[repr(C)]
+pub struct AdsCncPart {
+    /// The number of the field.
+    pub field: u32,
+    /// The number, if `data` is null and the field is a number of at most four bytes.
+    pub number: u32,
+    /// The bytes.
+    pub data: AdsCncBytes,
+}
+
+/// # Safety
+/// `fields` points to room for as many as `room`; `count` is null or points to room for a number.
+pub(crate) unsafe fn walk(
+    stream: Stream,
+    data: &[u8],
+    fields: *mut AdsCncField,
+    room: u32,
+    count: *mut u32,
+) -> Result<(), Fault> {
+    let mut found = 0_u32;
+    let walked = stream.walk(data, |segment| {
+        let is_number = segment.bytes.len() <= 4
+            && segment
+                .field
+                .spec()
+                .is_some_and(|row| row.ty != Type::String && row.ty != Type::Bytes);
+        let number =
+            segment.bytes.iter().rev().fold(0_u32, |sum, byte| sum << 8 | u32::from(*byte));
+        let place = AdsCncField {
+            field: field_number(segment.field),
+            record: segment.record,
+            item: segment.item,
+            offset: segment.offset,
+            length: to_u32(segment.bytes.len()),
+            number: if is_number { number } else { 0 },
+        };
+        // SAFETY: the caller's contract.
+        unsafe { put_item(fields, room, found, place) };
+        found = found.saturating_add(1);
+    });
+    // SAFETY: the caller's contract.
+    unsafe { put(count, found) };
+    walked?;
+    // Without an array the fields are counted.
+    match found > room && !fields.is_null() {
+        true => Err(Fault::Room(found, room)),
+        false => Ok(()),
+    }
+}
+
+/// Checks a stream and gives the place of each field.
+///
+/// # Safety
+/// `data` points to `length` bytes, `fields` to room for as many as `room`; `count` and `error` are null or
+/// point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_decode(
+    stream: u32,
+    data: *const u8,
+    length: u32,
+    fields: *mut AdsCncField,
+    room: u32,
+    count: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let decode = || -> Result<(), Fault> {
+        let stream = crate::tables::stream(stream).ok_or(Fault::NoStream)?;
+        // SAFETY: the caller's contract.
+        unsafe { walk(stream, bytes(data, length)?, fields, room, count) }
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(decode(), error) }
+}
+
+/// A part whose pointer and number were read: the number as little-endian bytes.
+#[derive(Clone, Copy)]
+enum Bytes<'a> {
+    Data(&'a [u8]),
+    Number([u8; 4], usize),
+}
+
+impl AsRef<[u8]> for Bytes<'_> {
+    fn as_ref(&self) -> &[u8] {
+        match self {
+            Self::Data(bytes) => bytes,
+            Self::Number(bytes, size) => bytes.get(..*size).unwrap_or(bytes),
+        }
+    }
+}
+
+/// # Safety
+/// The data of the part is where it points to while `'a` lasts.
+unsafe fn part<'a>(stream: Stream, part: &AdsCncPart) -> Result<(Field, Bytes<'a>), Fault> {
+    let field = field(stream, part.field).ok_or(Fault::NoField)?;
+    let row = field.spec().ok_or(Fault::NoField)?;
+    let is_text = matches!(row.ty, Type::String | Type::Bytes | Type::NetId);
+    let size = match row.size {
+        Size::Fixed(size) | Size::FixedOnSuccess(size) | Size::OptionalFixed(size) => size,
+        Size::Items { each, .. } => each,
+        Size::NonZero | Size::Uns8To32 => 4,
+        _ => 0,
+    };
+    if !part.data.data.is_null() || is_text || size > 4 {
+        // SAFETY: the caller's contract.
+        return Ok((field, Bytes::Data(unsafe { part.data.get()? })));
+    }
+    let (number, size) = (part.number.to_le_bytes(), to_usize(size));
+    match number.iter().skip(size).all(|byte| *byte == 0) {
+        true => Ok((field, Bytes::Number(number, size))),
+        false => Err(Fault::Argument(row.name)),
+    }
+}
+
+/// Writes a stream from its fields.
+///
+/// # Safety
+/// `parts` points to as many as `count` and each to its data, `buffer` to `room` bytes; `length` and `error`
+/// are null or point to room for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_build(
+    stream: u32,
+    parts: *const AdsCncPart,
+    count: u32,
+    buffer: *mut u8,
+    room: u32,
+    length: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let build = || -> Result<(), Fault> {
+        let stream = crate::tables::stream(stream).ok_or(Fault::NoStream)?;
+        // SAFETY: the caller's contract.
+        let (parts, buffer) = unsafe { (slice(parts, count)?, self::room(buffer, room)?) };
+        for part in parts {
+            // SAFETY: the caller's contract.
+            unsafe { self::part(stream, part)? };
+        }
+        // Again, now that none of them is an error.
+        // SAFETY: the caller's contract.
+        let parts = parts.iter().filter_map(|part| unsafe { self::part(stream, part).ok() });
+        let written = to_u32(stream.join(parts, buffer)?.len());
+        // SAFETY: the caller's contract.
+        unsafe { put(length, written) };
+        Ok(())
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(build(), error) }
+}
+
+/// Writes bytes, and counts those that have no room too.
+struct Out<'b> {
+    buffer: &'b mut [u8],
+    length: usize,
+}
+
+impl Out<'_> {
+    fn put(&mut self, bytes: &[u8]) {
+        let room = self.buffer.get_mut(self.length..).and_then(|room| room.get_mut(..bytes.len()));
+        room.into_iter().flatten().zip(bytes).for_each(|(to, from)| *to = *from);
+        self.length = self.length.saturating_add(bytes.len());
+    }
+
+    fn finish(&self) -> Result<u32, Fault> {
+        let [length, room] = [self.length, self.buffer.len()].map(to_u32);
+        if length > room { Err(Fault::Room(length, room)) } else { Ok(length) }
+    }
+}
+
+/// CP1252 up to its first NUL, or all, as UTF-8 without a NUL. `length` is what it needs, even without room.
+///
+/// # Safety
+/// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to room
+/// for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_text_to_utf8(
+    data: *const u8,
+    size: u32,
+    buffer: *mut u8,
+    room: u32,
+    length: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let convert = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (data, buffer) = unsafe { (bytes(data, size)?, self::room(buffer, room)?) };
+        let mut out = Out { buffer, length: 0 };
+        for byte in data.iter().take_while(|byte| **byte != 0) {
+            out.put(cp1252_to_char(*byte).encode_utf8(&mut [0; 4]).as_bytes());
+        }
+        // SAFETY: the caller's contract.
+        unsafe { put(length, to_u32(out.length)) };
+        out.finish().map(drop)
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(convert(), error) }
+}
+
+/// UTF-8 as CP1252, without a NUL. `length` is what it needs, even without room.
+///
+/// # Safety
+/// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to room
+/// for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ads_cnc_text_from_utf8(
+    data: *const u8,
+    size: u32,
+    buffer: *mut u8,
+    room: u32,
+    length: *mut u32,
+    error: *mut AdsCncError,
+) -> bool {
+    let convert = || -> Result<(), Fault> {
+        // SAFETY: the caller's contract.
+        let (data, buffer) = unsafe { (bytes(data, size)?, self::room(buffer, room)?) };
+        let text = core::str::from_utf8(data).map_err(|_| Fault::Argument("data"))?;
+        CncStr::new(text)?;
+        let mut out = Out { buffer, length: 0 };
+        text.chars().filter_map(char_to_cp1252).for_each(|byte| out.put(&[byte]));
+        // SAFETY: the caller's contract.
+        unsafe { put(length, to_u32(out.length)) };
+        out.finish().map(drop)
+    };
+    // SAFETY: the caller's contract.
+    unsafe { told(convert(), error) }
+}

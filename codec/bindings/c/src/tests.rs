@@ -1,0 +1,697 @@
+//! The functions as C calls them, and what C must not be able to do to them.
+
+#![allow(clippy::as_conversions, clippy::indexing_slicing, clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::arithmetic_side_effects, reason = "tests may fail")]
+
+use core::mem::{MaybeUninit, offset_of, zeroed};
+use core::ptr::{null, null_mut};
+
+use codec::address::Class;
+use codec::dynamic::DynamicKind;
+use codec::layout::Stream;
+use codec::operation::Function;
+
+use crate::frame::*;
+use crate::machines::*;
+use crate::memory::to_usize;
+use crate::request::*;
+use crate::stream::*;
+use crate::tables::*;
+use crate::*;
+use common::{CALLS, SAMPLES};
+
+mod common;
+
+const ROOM: u32 = 4096;
+
+fn zero<T>() -> T {
+    // SAFETY: every struct of the ABI is numbers and pointers, of which all may be zero.
+    unsafe { zeroed() }
+}
+
+/// What was told, in words.
+fn text(error: &AdsCncError) -> String {
+    let [subject, name, text] = [error.subject, error.name, error.text].map(string);
+    format!(
+        "{subject}: {name} at offset {}: {text}, expected {}, found {}",
+        error.offset, error.expected, error.found
+    )
+}
+
+fn string(it: AdsCncBytes) -> String {
+    // SAFETY: what the library gives points to bytes.
+    String::from_utf8(unsafe { it.get() }.unwrap_or_default().to_vec()).unwrap()
+}
+
+fn bytes(text: &str) -> AdsCncBytes {
+    AdsCncBytes::of(text.as_bytes())
+}
+
+fn number(name: &str) -> u32 {
+    // SAFETY: the name is a slice.
+    unsafe { ads_cnc_function(name.as_ptr(), name.len() as u32) }
+}
+
+/// Encodes into a buffer of its own.
+fn encode(request: &AdsCncRequest, room: u32) -> Result<(AdsCncCall, Vec<u8>), String> {
+    let (mut buffer, mut call, mut error) = (vec![0; to_usize(room)], zero::<AdsCncCall>(), zero());
+    // SAFETY: all of it is there.
+    match unsafe { ads_cnc_encode(request, buffer.as_mut_ptr(), room, &mut call, &mut error) } {
+        true => {
+            buffer.truncate(to_usize(call.data.length));
+            Ok((call, buffer))
+        }
+        false => Err(text(&error)),
+    }
+}
+
+fn dispatch(call: &AdsCncCall, indices: &mut [u32]) -> Result<AdsCncRequest, (u32, String)> {
+    let (mut request, mut number, mut error) = (zero(), 77, zero());
+    let (room, count) = (indices.as_mut_ptr(), indices.len() as u32);
+    // SAFETY: all of it is there.
+    match unsafe { ads_cnc_dispatch(call, room, count, &mut request, &mut number, &mut error) } {
+        true => Ok(request),
+        false => Err((number, text(&error))),
+    }
+}
+
+fn decode(stream: u32, data: &[u8]) -> Result<Vec<AdsCncField>, String> {
+    let (mut count, mut error) = (0, zero());
+    let (at, length) = (data.as_ptr(), data.len() as u32);
+    // SAFETY: all of it is there; without room for fields they are counted.
+    unsafe { ads_cnc_decode(stream, at, length, null_mut(), 0, &mut count, null_mut()) };
+    let mut fields: Vec<MaybeUninit<AdsCncField>> = Vec::new();
+    fields.resize_with(to_usize(count), MaybeUninit::uninit);
+    let room = fields.as_mut_ptr().cast();
+    // SAFETY: all of it is there.
+    match unsafe { ads_cnc_decode(stream, at, length, room, count, &mut count, &mut error) } {
+        // SAFETY: they were written.
+        true => Ok(fields.into_iter().map(|it| unsafe { it.assume_init() }).collect()),
+        false => Err(text(&error)),
+    }
+}
+
+fn build(stream: u32, parts: &[AdsCncPart], room: usize) -> Result<Vec<u8>, String> {
+    let (mut buffer, mut length, mut error) = (vec![0; room], 0, zero());
+    let (at, count) = (parts.as_ptr(), parts.len() as u32);
+    // SAFETY: all of it is there.
+    let is_built = unsafe {
+        ads_cnc_build(stream, at, count, buffer.as_mut_ptr(), room as u32, &mut length, &mut error)
+    };
+    buffer.truncate(to_usize(length));
+    if is_built { Ok(buffer) } else { Err(text(&error)) }
+}
+
+macro_rules! layouts {
+    ($( $type:ident { $( $field:ident ),* } )+) => {
+        /// Size and offsets here, as rows of tests/layout.h.
+        fn layouts() -> Vec<(String, usize)> {
+            let mut rows = Vec::new();
+            $(
+                rows.push((format!("SIZE({}", stringify!($type)), size_of::<$type>()));
+                $( rows.push((
+                    format!("FIELD({}, {}", stringify!($type), stringify!($field)),
+                    offset_of!($type, $field),
+                )); )*
+            )+
+            rows
+        }
+    };
+}
+
+layouts! {
+    AdsCncBytes { data, length }
+    AdsCncError { kind, stream, field, offset, expected, found, subject, name, text }
+    AdsCncRequest {
+        function, channel, by_index, axis, index, count, size, handle, index_group, index_offset, kind, name,
+        value, indices, indices_count
+    }
+    AdsCncCall { port, command, index_group, index_offset, read_length, data }
+    AdsCncField { field, record, item, offset, length, number }
+    AdsCncPart { field, number, data }
+    AdsCncFunctionInfo {
+        name, operation, port, command, effect, request, reply, argument_count, arguments
+    }
+    AdsCncStreamInfo { name, title, max, field_count, repeats }
+    AdsCncFieldInfo { name, meaning, clause, kind, size, is_count, is_list }
+    AdsCncType { name, object_name, code, kind, size }
+    AdsCncAddress { net_id, port }
+    AdsCncFrame { target, source, command, state_flags, error, invoke_id, data }
+    AdsCncSender {}
+    AdsCncProgress { state, packets, lines, bytes, left_lines, left_bytes, busy_count }
+    AdsCncHost {}
+    AdsCncServiceId {}
+    AdsCncHostStep { kind, service, request_state, variable, data }
+}
+
+/// The header is compiled against the same rows: `codec/bindings/run` compiles tests/layout.c.
+#[test]
+fn structs_are_laid_out_as_the_header_has_them() {
+    let rows: Vec<&str> = include_str!("../tests/layout.h").lines().collect();
+    let rows: Vec<&str> = rows.into_iter().filter(|row| row.ends_with(')')).collect();
+    let column = if size_of::<usize>() == 8 { 0 } else { 1 };
+    assert_eq!(rows.len(), layouts().len());
+    for (row, (name, here)) in rows.iter().zip(layouts()) {
+        let numbers = row.strip_prefix(&name).unwrap_or_else(|| panic!("{row}: {name}"));
+        let mut numbers = numbers.trim_end_matches(')').split(", ").skip(1);
+        assert_eq!(numbers.nth(column).unwrap().parse(), Ok(here), "{row}");
+    }
+}
+
+#[test]
+fn names_are_those_that_the_codec_shows() {
+    assert_eq!(Class::ALL.map(|it| it.to_string()), CLASSES);
+    assert_eq!(DynamicKind::ALL.map(|it| it.to_string()), KINDS);
+    for (at, function) in (0..).zip(Function::ALL) {
+        let name = format!("{function:?}");
+        assert_eq!(operation_name(*function), name);
+        assert_eq!((number(&name), number(function.spec().name)), (at, at));
+    }
+    assert_eq!([number("ReadByNam"), number("")], [ADS_CNC_NONE; 2]);
+    assert_eq!(ads_cnc_abi(), 1);
+}
+
+/// What a function takes is in its row: with these arguments alone it is encoded.
+#[test]
+fn functions_take_the_arguments_that_they_list() {
+    let mut seen = Vec::new();
+    for at in 0..30 {
+        let mut info = zero::<AdsCncFunctionInfo>();
+        // SAFETY: there is room for it.
+        assert!(unsafe { ads_cnc_function_info(at, &mut info) });
+        let mut request = AdsCncRequest { function: at, ..zero() };
+        let operation = string(info.operation);
+        for &argument in &info.arguments[..to_usize(info.argument_count)] {
+            match argument {
+                1 => request.channel = 1,
+                2 => request.axis = 1,
+                3 => request.index = 1,
+                4 => request.count = 1,
+                5 => request.size = 8,
+                6 => request.handle = 7,
+                // An object of COM, or an element of the HLD.
+                7 => {
+                    request.index_group =
+                        if operation.ends_with("Object") { 0x12_0101 } else { 0x12_3301 }
+                }
+                8 => request.index_offset = if operation == "CountElements" { 0 } else { 3 },
+                9 => {
+                    request.kind = bytes(if operation == "FindInstance" { "decoder" } else { "P" })
+                }
+                10 => request.name = bytes("V.E.a"),
+                11 => request.value = bytes("G0 X1\r\n"),
+                12 => (request.indices, request.indices_count) = (&4, 1),
+                other => panic!("{other}"),
+            }
+            seen.push(argument);
+        }
+        let (call, data) =
+            encode(&request, 64).unwrap_or_else(|error| panic!("{operation}: {error}"));
+        assert_eq!((call.port, call.command), (info.port, info.command), "{operation}");
+        let call = AdsCncCall { data: AdsCncBytes::of(&data), ..call };
+        let mut indices = [0; 8];
+        let again = dispatch(&call, &mut indices).unwrap();
+        assert_eq!(encode(&again, 64).unwrap().1, data, "{operation}");
+        for argument in 1..=12 {
+            let is_set = match argument {
+                1 => again.channel > 0,
+                2 => again.axis > 0,
+                3 => again.index > 0,
+                4 => again.count > 0,
+                5 => again.size > 0,
+                6 => again.handle > 0,
+                7 => again.index_group > 0,
+                8 => again.index_offset > 0 || operation == "CountElements",
+                9 => again.kind.length > 0,
+                10 => again.name.length > 0,
+                11 => again.value.length > 0,
+                _ => again.indices_count > 0,
+            };
+            let is_listed = info.arguments[..to_usize(info.argument_count)].contains(&argument);
+            let is_first = argument == 8 && operation == "CountElements";
+            assert!(is_set == is_listed || is_first, "{operation}, argument {argument}");
+        }
+    }
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen, (1..=12).collect::<Vec<_>>());
+    // SAFETY: null is not written to.
+    unsafe {
+        assert!(!ads_cnc_function_info(30, null_mut()) && ads_cnc_function_info(29, null_mut()));
+        assert!(!ads_cnc_argument_name(0, null_mut()) && !ads_cnc_argument_name(13, null_mut()));
+    }
+}
+
+/// A call that is dispatched encodes to the call.
+#[test]
+fn calls_are_dispatched_and_encoded_again() {
+    let mut indices = [0; 510];
+    for sample in CALLS {
+        let call = AdsCncCall::of(&sample.call);
+        let request = dispatch(&call, &mut indices)
+            .unwrap_or_else(|error| panic!("{}: {error:?}", sample.slug));
+        assert_eq!(request.function, number(sample.function.spec().name), "{}", sample.slug);
+        let (again, data) =
+            encode(&request, ROOM).unwrap_or_else(|error| panic!("{}: {error}", sample.slug));
+        // GEO serves what SDA does, so the port may be another.
+        let address = |it: &AdsCncCall| (it.command, it.index_group, it.index_offset);
+        assert_eq!(address(&again), address(&call), "{}", sample.slug);
+        // A text is written with one NUL, however many there were.
+        let text = |data: &[u8]| {
+            data.iter().rposition(|byte| *byte != 0).map_or(0, |at| at.saturating_add(1))
+        };
+        let is_padded = sample.call.data.get(..text(sample.call.data)) == data.get(..text(&data));
+        assert!(data == sample.call.data || is_padded, "{}", sample.slug);
+    }
+}
+
+#[test]
+fn calls_without_a_function_are_refused() {
+    let call = AdsCncCall {
+        port: 552,
+        command: 9,
+        index_group: 0x12_2301,
+        index_offset: 0x46,
+        read_length: 4,
+        data: bytes("V.E.a\0"),
+    };
+    let refusal = |call: AdsCncCall| dispatch(&call, &mut []).unwrap_err();
+    assert_eq!(refusal(AdsCncCall { port: 851, ..call }).0, 6);
+    assert_eq!(
+        refusal(AdsCncCall { port: 0x1_0228, ..call }).1,
+        "call: port at offset 0: an argument the function does not take, expected 0, found 0"
+    );
+    assert_eq!(refusal(AdsCncCall { index_group: 1, ..call }).0, 0x702);
+    let (number, told) = refusal(AdsCncCall { index_offset: 0x4E, ..call });
+    assert_eq!(number, 0x703);
+    let offset = "call: index_offset at offset 0: no function has this index offset";
+    assert_eq!(told, format!("{offset}, expected 0, found 78"));
+    assert_eq!(
+        refusal(AdsCncCall { command: 2, ..call }).1,
+        "call: command at offset 0: the function takes another command, expected 9, found 2"
+    );
+    assert_eq!(refusal(AdsCncCall { command: 77, ..call }).0, 0x701);
+    assert_eq!(
+        refusal(AdsCncCall { data: bytes("V.E.a"), ..call }),
+        (0x705, "variable-name: name at offset 0: no NUL, expected 256, found 5".to_string())
+    );
+    let indices = AdsCncBytes::of(b"\x01\0\0\0\x02\0\0\0\x05\0\0\0\x06\0\0\0");
+    let read = AdsCncCall { index_offset: 0x47, data: indices, ..call };
+    assert_eq!(refusal(read).1, "call:  at offset 0: room for too few items, expected 2, found 0");
+    let mut room = [0; 2];
+    let request = dispatch(&read, &mut room).unwrap();
+    assert_eq!((request.handle, request.indices_count), (1, 2));
+    assert_eq!(room, [5, 6]);
+}
+
+/// The fields of a stream are those of a walk, and a stream is built from them.
+#[test]
+fn streams_are_taken_apart_and_built() {
+    for (stream, samples) in SAMPLES {
+        let number = stream_number(*stream);
+        let name = stream.layout().name;
+        // SAFETY: the name is a slice.
+        assert_eq!(unsafe { ads_cnc_stream(name.as_ptr(), name.len() as u32) }, number);
+        for sample in *samples {
+            let data = sample.bytes();
+            let fields =
+                decode(number, &data).unwrap_or_else(|error| panic!("{}: {error}", sample.slug));
+            let mut walked = Vec::new();
+            stream
+                .walk(&data, |it| walked.push((field_number(it.field), it.offset, it.bytes)))
+                .unwrap();
+            let part = |it: &AdsCncField| {
+                let bytes = &data[to_usize(it.offset)..][..to_usize(it.length)];
+                (it.field, it.offset, bytes)
+            };
+            assert_eq!(fields.iter().map(part).collect::<Vec<_>>(), walked, "{}", sample.slug);
+            for by_number in [false, true] {
+                let parts: Vec<AdsCncPart> = fields
+                    .iter()
+                    .filter_map(|it| {
+                        let mut info = zero();
+                        // SAFETY: there is room for it.
+                        assert!(unsafe { ads_cnc_field_info(number, it.field, &mut info) });
+                        let is_number = by_number && [1, 2].contains(&info.kind) && info.size > 0;
+                        let data =
+                            if is_number { AdsCncBytes::NONE } else { AdsCncBytes::of(part(it).2) };
+                        // A count is that of its items, unless a reply ends before it.
+                        let is_left_out = info.is_count == 1 && it.number > 0 && by_number;
+                        (!is_left_out).then_some(AdsCncPart {
+                            field: it.field,
+                            number: it.number,
+                            data,
+                        })
+                    })
+                    .collect();
+                let built = build(number, &parts, data.len());
+                assert_eq!(built.as_ref(), Ok(&data), "{}, {by_number}", sample.slug);
+                if let Some(room) = data.len().checked_sub(1) {
+                    assert!(build(number, &parts, room).unwrap_err().contains("buffer too small"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_number_fits_its_field() {
+    let flag = stream_number(Stream::ElementWriteFlag);
+    let part = AdsCncPart { field: 0, number: 255, data: AdsCncBytes::NONE };
+    assert_eq!(build(flag, &[part], 1), Ok(vec![255]));
+    let part = AdsCncPart { field: 0, number: 256, data: AdsCncBytes::NONE };
+    assert_eq!(
+        build(flag, &[part], 1).unwrap_err(),
+        "call: flag at offset 0: an argument the function does not take, expected 0, found 0"
+    );
+    let part = AdsCncPart { field: 1, number: 0, data: AdsCncBytes::NONE };
+    assert_eq!(
+        build(flag, &[part], 1).unwrap_err(),
+        "call:  at offset 0: no field of the stream has this number, expected 0, found 0"
+    );
+}
+
+#[test]
+fn replies_are_held_against_their_request() {
+    let of = |name: &str| AdsCncRequest { function: number(name), channel: 1, ..zero() };
+    let reply = |request: &AdsCncRequest, data: &[u8]| {
+        let (mut count, mut error) = (77, zero());
+        let (at, length) = (data.as_ptr(), data.len() as u32);
+        // SAFETY: all of it is there.
+        let is_one = unsafe {
+            ads_cnc_decode_reply(request, at, length, null_mut(), 0, &mut count, &mut error)
+        };
+        if is_one { Ok(count) } else { Err(text(&error)) }
+    };
+    let handle = AdsCncRequest { name: bytes("V.E.a"), ..of("HandleByName") };
+    assert_eq!(reply(&handle, &[4, 0, 0, 2]), Ok(1));
+    assert_eq!(
+        reply(&handle, &[4, 0, 0]).unwrap_err(),
+        "variable-handle: handle at offset 0: truncated, expected 4, found 3"
+    );
+    let write = AdsCncRequest { name: bytes("V.E.a"), value: bytes("x"), ..of("WriteByName") };
+    assert_eq!(reply(&write, &[]), Ok(0));
+    assert!(reply(&write, &[0]).unwrap_err().contains("trailing"));
+    let content =
+        AdsCncRequest { index_group: 0x12_0101, index_offset: 3, size: 1, ..of("ReadObject") };
+    assert_eq!(reply(&content, &[1]), Ok(1));
+    assert!(reply(&content, &[1, 2]).unwrap_err().contains("too long, expected 1, found 2"));
+}
+
+#[test]
+fn texts_are_converted_both_ways() {
+    type Convert =
+        unsafe extern "C" fn(*const u8, u32, *mut u8, u32, *mut u32, *mut AdsCncError) -> bool;
+    let convert = |by: Convert, text: &[u8], room: u32| {
+        let (mut buffer, mut length, mut error) = (vec![0; to_usize(room)], 0, zero());
+        let (at, size) = (text.as_ptr(), text.len() as u32);
+        // SAFETY: all of it is there.
+        let is_done = unsafe { by(at, size, buffer.as_mut_ptr(), room, &mut length, &mut error) };
+        buffer.truncate(to_usize(length));
+        (is_done, length, buffer, error)
+    };
+    let (is_done, length, utf8, _) = convert(ads_cnc_text_to_utf8, b"L\xE4nge \x80\0x", 20);
+    assert_eq!((is_done, length, &utf8[..]), (true, 10, "Länge €".as_bytes()));
+    let (is_done, length, ..) = convert(ads_cnc_text_to_utf8, b"L\xE4nge \x80", 9);
+    assert_eq!((is_done, length), (false, 10));
+    let (is_done, length, cp1252, _) = convert(ads_cnc_text_from_utf8, &utf8, 7);
+    assert_eq!((is_done, length, &cp1252[..]), (true, 7, &b"L\xE4nge \x80"[..]));
+    let (is_done, .., error) = convert(ads_cnc_text_from_utf8, "aΩ".as_bytes(), 7);
+    assert_eq!(
+        (is_done, text(&error)),
+        (false, "text: text at offset 1: not in CP1252, expected 0, found 937".to_string())
+    );
+    let (is_done, .., error) = convert(ads_cnc_text_from_utf8, b"\xFF", 7);
+    assert_eq!((is_done, error.kind), (false, 36));
+    // All bytes but NUL come back.
+    let all: Vec<u8> = (1..=255).collect();
+    let utf8 = convert(ads_cnc_text_to_utf8, &all, 1000).2;
+    assert_eq!(convert(ads_cnc_text_from_utf8, &utf8, 1000).2, all);
+}
+
+#[test]
+fn frames_carry_calls() {
+    let request = AdsCncRequest {
+        function: number("ReadByName"),
+        channel: 1,
+        name: bytes("V.E.a"),
+        ..zero()
+    };
+    let (call, data) = encode(&request, 64).unwrap();
+    let call = AdsCncCall { data: AdsCncBytes::of(&data), ..call };
+    let (mut payload, mut sent, mut length, mut used) = ([0; 64], [0; 128], 0, 0);
+    let frame = |data: AdsCncBytes| AdsCncFrame {
+        target: AdsCncAddress { net_id: [192, 0, 2, 7, 1, 1], port: 552 },
+        source: AdsCncAddress { net_id: [192, 0, 2, 1, 1, 1], port: 0x8001 },
+        command: 9,
+        state_flags: 4,
+        error: 0,
+        invoke_id: 3,
+        data,
+    };
+    // SAFETY: all of it is there.
+    unsafe {
+        assert!(ads_cnc_call_write(&call, payload.as_mut_ptr(), 64, &mut length, null_mut()));
+        let it = frame(AdsCncBytes { data: payload.as_ptr(), length });
+        assert!(ads_cnc_frame_write(&it, sent.as_mut_ptr(), 128, &mut length, null_mut()));
+        assert_eq!(length, 38 + 16 + 6);
+        let (mut read, mut got) = (zero::<AdsCncFrame>(), zero::<AdsCncCall>());
+        for cut in 0..length {
+            assert!(ads_cnc_frame_read(sent.as_ptr(), cut, 1000, &mut read, &mut used, null_mut()));
+            assert_eq!(used, 0);
+        }
+        assert!(ads_cnc_frame_read(sent.as_ptr(), 128, 1000, &mut read, &mut used, null_mut()));
+        assert_eq!((used, read.invoke_id, read.target.net_id), (length, 3, [192, 0, 2, 7, 1, 1]));
+        assert!(ads_cnc_call_read(&read, &mut got, null_mut()));
+        assert_eq!(
+            (got.index_offset, got.read_length, got.data.get().unwrap_or_default()),
+            (0x48, 2048, &data[..])
+        );
+        let mut error = zero();
+        sent[0] = 1;
+        assert!(!ads_cnc_frame_read(sent.as_ptr(), 128, 1000, &mut read, &mut used, &mut error));
+        assert_eq!(
+            text(&error),
+            "ams-tcp-header: reserved at offset 0: mismatch, expected 0, found 1"
+        );
+        assert!(!ads_cnc_call_read(&AdsCncFrame { command: 1, ..read }, &mut got, &mut error));
+        assert!(!ads_cnc_call_read(
+            &AdsCncFrame { command: 0x1_0002, ..read },
+            &mut got,
+            &mut error
+        ));
+    }
+}
+
+#[test]
+fn a_program_is_sent_in_packets() {
+    let program = b"N10 G0 X0\nN20 M30";
+    let (mut sender, mut progress, mut packet) =
+        (zero::<AdsCncSender>(), zero::<AdsCncProgress>(), AdsCncBytes::NONE);
+    // SAFETY: all of it is there.
+    unsafe {
+        // Memory that was never started.
+        assert!(
+            !ads_cnc_sender_packet(&mut sender, &mut packet)
+                && !ads_cnc_sender_acknowledge(&mut sender, 0)
+        );
+        assert!(!ads_cnc_sender_progress(&sender, &mut progress));
+        assert!(ads_cnc_sender_start(&mut sender, program.as_ptr(), 17, null_mut()));
+        assert!(!ads_cnc_sender_acknowledge(&mut sender, 0), "no packet is in flight");
+        for acknowledgement in [1, 0] {
+            // Moving it moves nothing that it points to.
+            let mut moved = core::ptr::read(&sender);
+            assert!(ads_cnc_sender_packet(&mut moved, &mut packet));
+            assert_eq!(packet.get().unwrap_or_default(), b"N10 G0 X0\r\nN20 M30\r\n");
+            assert!(!ads_cnc_sender_acknowledge(&mut moved, 3));
+            assert!(ads_cnc_sender_acknowledge(&mut moved, acknowledgement));
+            sender = moved;
+            assert!(ads_cnc_sender_progress(&sender, &mut progress));
+            assert_eq!(
+                (progress.state, progress.busy_count),
+                if acknowledgement == 1 { (2, 1) } else { (4, 0) }
+            );
+        }
+        assert_eq!(
+            (progress.packets, progress.lines, progress.bytes, progress.left_lines),
+            (1, 2, 20, 0)
+        );
+        assert!(!ads_cnc_sender_packet(&mut sender, &mut packet));
+        assert_eq!([0, 0x705, 0x706].map(|result| ads_cnc_acknowledgement(result)), [0, 2, 1]);
+        let mut error = zero();
+        assert!(!ads_cnc_sender_start(&mut sender, b"N10\nN20 \xE4".as_ptr(), 9, &mut error));
+        assert_eq!(
+            text(&error),
+            "nc-text: line at offset 5: a byte that is not ASCII, expected 2, found 228"
+        );
+    }
+}
+
+#[test]
+fn a_host_serves_a_request() {
+    const UUID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
+    let (mut ids, mut host) = (
+        [zero::<[u8; 36]>(); 2].map(|_| MaybeUninit::<AdsCncServiceId>::uninit()),
+        zero::<AdsCncHost>(),
+    );
+    let (mut step, mut written, mut error) = (zero::<AdsCncHostStep>(), Vec::new(), zero());
+    // SAFETY: all of it is there.
+    unsafe {
+        assert!(!ads_cnc_host_step(&host, &mut step) && !ads_cnc_host_event(&mut host, 2));
+        let other = UUID.replace('5', "6");
+        assert!(ads_cnc_service_id(other.as_ptr(), 36, ids[0].as_mut_ptr(), null_mut()));
+        assert!(ads_cnc_service_id(UUID.as_ptr(), 36, ids[1].as_mut_ptr(), null_mut()));
+        assert!(!ads_cnc_service_id(UUID.as_ptr(), 35, null_mut(), &mut error));
+        assert_eq!(text(&error), "service: uuid at offset 0: truncated, expected 36, found 35");
+        assert!(ads_cnc_host_start(&mut host, ids.as_ptr().cast(), 2, null_mut()));
+        for _ in 0..30 {
+            assert!(ads_cnc_host_step(&host, &mut step));
+            let name = string(step.variable);
+            match step.kind {
+                1 => {
+                    let value: &[u8] = match name.as_str() {
+                        "V.G.SERVICE.UUID" => UUID.as_bytes(),
+                        "V.G.SERVICE.REQUEST" => b"L\xE4nge\0",
+                        _ => &[7, 0, 0, 0],
+                    };
+                    assert!(ads_cnc_host_read(
+                        &mut host,
+                        value.as_ptr(),
+                        value.len() as u32,
+                        null_mut()
+                    ));
+                }
+                2 => {
+                    written.push((name, step.data.get().unwrap_or_default().to_vec()));
+                    assert!(ads_cnc_host_event(&mut host, 0));
+                }
+                3 => {
+                    assert_eq!((step.service, step.request_state), (1, 7));
+                    assert_eq!(step.data.get().unwrap_or_default(), b"L\xE4nge");
+                    assert!(!ads_cnc_host_answer(&mut host, b"5".as_ptr(), 1, 0, &mut error));
+                    assert!(ads_cnc_host_answer(&mut host, b"5".as_ptr(), 1, 1, null_mut()));
+                }
+                _ => break,
+            }
+        }
+        assert_eq!(written.len(), 3);
+        assert_eq!(written[0], ("V.G.SERVICE.RESPONSE".to_string(), b"5\0".to_vec()));
+        assert_eq!(ads_cnc_host_outcome(&host), 1);
+        assert!(ads_cnc_host_event(&mut host, 2) && !ads_cnc_host_event(&mut host, 4));
+        assert!(!ads_cnc_host_read(&mut host, b"".as_ptr(), 0, &mut error));
+    }
+}
+
+/// Null for whatever may be null, and lengths that no memory has.
+#[test]
+fn null_and_impossible_lengths_are_errors() {
+    let (most, mut error) = (u32::MAX, zero::<AdsCncError>());
+    // SAFETY: null is never read or written.
+    unsafe {
+        assert!(!ads_cnc_encode(null(), null_mut(), 0, null_mut(), &mut error));
+        assert_eq!(error.kind, 32);
+        let request = AdsCncRequest { name: AdsCncBytes { data: null(), length: 1 }, ..zero() };
+        assert!(!ads_cnc_encode(&request, null_mut(), 0, null_mut(), null_mut()));
+        let request = AdsCncRequest { channel: 1, indices_count: most, ..zero() };
+        assert!(!ads_cnc_encode(&request, null_mut(), 0, null_mut(), null_mut()));
+        // CountObjects has no data.
+        assert!(ads_cnc_encode(
+            &AdsCncRequest { channel: 1, ..zero() },
+            null_mut(),
+            0,
+            null_mut(),
+            null_mut()
+        ));
+        assert!(!ads_cnc_encode(
+            &AdsCncRequest { channel: 1, by_index: 2, ..zero() },
+            null_mut(),
+            0,
+            null_mut(),
+            null_mut()
+        ));
+        assert!(!ads_cnc_decode(0, null(), most, null_mut(), most, null_mut(), null_mut()));
+        assert!(!ads_cnc_decode(38, null(), 0, null_mut(), 0, null_mut(), &mut error));
+        assert_eq!(error.kind, 34);
+        let content = stream_number(Stream::Content);
+        assert!(ads_cnc_decode(content, null(), 0, null_mut(), most, null_mut(), null_mut()));
+        assert!(!ads_cnc_build(most, null(), 0, null_mut(), 0, null_mut(), null_mut()));
+        assert!(!ads_cnc_build(0, null(), most, null_mut(), 0, null_mut(), null_mut()));
+        assert!(!ads_cnc_dispatch(null(), null_mut(), 0, null_mut(), null_mut(), null_mut()));
+        assert!(!ads_cnc_frame_write(null(), null_mut(), 0, null_mut(), null_mut()));
+        assert!(!ads_cnc_frame_read(null(), most, 0, null_mut(), null_mut(), null_mut()));
+        assert!(!ads_cnc_call_write(null(), null_mut(), 0, null_mut(), null_mut()));
+        assert!(!ads_cnc_call_read(null(), null_mut(), null_mut()));
+        assert!(!ads_cnc_sender_start(null_mut(), null(), 0, null_mut()));
+        assert!(
+            !ads_cnc_sender_packet(null_mut(), null_mut())
+                && !ads_cnc_sender_progress(null(), null_mut())
+        );
+        assert!(
+            !ads_cnc_host_start(null_mut(), null(), 0, null_mut())
+                && !ads_cnc_host_step(null(), null_mut())
+        );
+        assert_eq!((ads_cnc_host_outcome(null()), ads_cnc_function(null(), 1)), (0, ADS_CNC_NONE));
+        assert_eq!(
+            (ads_cnc_stream(null(), most), ads_cnc_field(0, null(), 1)),
+            (ADS_CNC_NONE, ADS_CNC_NONE)
+        );
+        assert_eq!(ads_cnc_field(most, b"id".as_ptr(), 2), ADS_CNC_NONE);
+        assert!(!ads_cnc_stream_info(38, null_mut()) && !ads_cnc_type(12, null_mut()));
+        assert!(
+            !ads_cnc_field_info(0, most, null_mut()) && !ads_cnc_field_info(most, 0, null_mut())
+        );
+    }
+}
+
+/// Whatever the numbers are, there is an answer.
+#[test]
+fn any_numbers_have_an_answer() {
+    let mut seed = 0x9E37_79B9_u32;
+    let mut next = || {
+        seed ^= seed << 13;
+        seed ^= seed >> 17;
+        seed ^= seed << 5;
+        let near = [0, 1, 2, 7, 29, 30, 255, 256, 0x12_2301, 0x12_0101, 0x13_0101, u32::MAX];
+        if seed & 1 == 0 { near[(seed >> 8) as usize % near.len()] } else { seed >> (seed % 31) }
+    };
+    let data: Vec<u8> = (0..80).collect();
+    let rounds = if cfg!(miri) { 100 } else { 20_000 };
+    let (mut encoded, mut indices) = (0, [0; 4]);
+    for _ in 0..rounds {
+        let request = AdsCncRequest {
+            function: next() % 32,
+            channel: next(),
+            by_index: next() % 3,
+            axis: next(),
+            index: next(),
+            count: next(),
+            size: next(),
+            handle: next(),
+            index_group: next(),
+            index_offset: next(),
+            kind: bytes(["", "P", "V.E", "decoder", "\u{e4}"][next() as usize % 5]),
+            name: bytes(["", "V.E.a", "a\0b"][next() as usize % 3]),
+            value: AdsCncBytes::of(&data[..next() as usize % 80]),
+            indices: indices.as_ptr(),
+            indices_count: next() % 5,
+        };
+        encoded += u32::from(encode(&request, next() % 200).is_ok());
+        let call = AdsCncCall {
+            port: [551, 552, 553, next()][next() as usize % 4],
+            command: [2, 3, 9, next()][next() as usize % 4],
+            index_group: next(),
+            index_offset: next(),
+            read_length: next(),
+            data: request.value,
+        };
+        let _answer = dispatch(&call, &mut indices);
+        let _fields = decode(next() % 40, &data[..next() as usize % 80]);
+        let parts = [0; 3].map(|_| AdsCncPart {
+            field: next() % 10,
+            number: next(),
+            data: if next() & 1 == 0 { AdsCncBytes::NONE } else { request.name },
+        });
+        let _built = build(next() % 40, &parts[..next() as usize % 4], next() as usize % 200);
+    }
+    assert!(encoded > rounds / 20, "{encoded}");
+}

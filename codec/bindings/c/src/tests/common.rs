@@ -1,0 +1,15 @@
+//! Streams and calls written by hand, as the codec's own tests have them.
+
+#![allow(dead_code, reason = "written for other tests")]
+
+#[path = "../../../../tests/common/calls.rs"]
+mod calls;
+#[path = "../../../../tests/common/samples.rs"]
+mod samples;
+#[path = "../../../../tests/common/samples_ads.rs"]
+mod samples_ads;
+#[path = "../../../../tests/common/samples_elements.rs"]
+mod samples_elements;
+
+pub(crate) use calls::CALLS;
+pub(crate) use samples::{SAMPLES, Sample};
