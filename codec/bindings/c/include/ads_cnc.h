@@ -111,8 +111,8 @@ typedef struct AdsCncRequest {
     uint32_t count;         /* descriptors to read */
     uint32_t size;          /* the most bytes of a content to read */
     uint32_t handle;        /* of a variable */
-    uint32_t index_group;   /* of an element or object */
-    uint32_t index_offset;  /* of an element or object */
+    uint32_t index_group;   /* of an element's content, or of an object */
+    uint32_t index_offset;  /* likewise */
     AdsCncBytes kind;       /* "V.E", "V.G", "V.A" or none for all; "P", "V.L", "V.P", "V.S" of parameters;
                                of object addresses the class: "position controller", "interpolator",
                                "decoder", "HLD", "path preparation", "spindle" */

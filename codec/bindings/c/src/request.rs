@@ -1,8 +1,8 @@
 //! Operations, for a client that encodes them and for a server that receives them.
 
 use codec::address::{
-    Addressing, AxisStride, Channel, ChannelAxis, Class, ComTable, ElementAddress, Group,
-    IndexGroup, IndexOffset, PlatformAxis,
+    Addressing, Attribute, AxisStride, Channel, ChannelAxis, Class, ClassGroup, ComTable,
+    ElementAddress, Group, IndexGroup, IndexOffset, PlatformAxis,
 };
 use codec::ads::AmsPort;
 use codec::dynamic::DynamicKind;
@@ -324,7 +324,14 @@ fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
     };
     let text = |text: &str| AdsCncBytes::of(text.as_bytes());
     match (spec.group, group) {
-        (GroupRule::Elements(_) | GroupRule::ComContent, _) => {
+        // An element is where its content is.
+        (GroupRule::Elements(_), Group::Class(parts)) => {
+            let content = ClassGroup { attribute: Attribute::Content, ..parts };
+            (it.index_group, it.index_offset) =
+                (content.index_group().get(), call.index_offset.get());
+            return;
+        }
+        (GroupRule::ComContent, _) => {
             (it.index_group, it.index_offset) = (call.index_group.get(), call.index_offset.get());
             return;
         }

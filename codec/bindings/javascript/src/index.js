@@ -1,0 +1,500 @@
+// The byte streams with which an ISG/TwinCAT CNC is read and written over ADS. The codec is WebAssembly;
+// ads_cnc.h documents its functions. What is behind the last line of this file is generated at the build.
+
+const ABI = 1, NONE = 0xffffffff;
+const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0));
+const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});
+if (codec.ads_cnc_abi() !== ABI) throw new Error(`ABI ${codec.ads_cnc_abi()}, ${ABI} needed`);
+
+// Memory behind that of the codec: each call begins at its front, so nothing has to be freed.
+const BASE = codec.memory.buffer.byteLength;
+let top = BASE;
+
+function room(size) {
+  const at = (top + 7) & ~7;
+  top = at + size;
+  const missing = top - codec.memory.buffer.byteLength;
+  if (missing > 0) codec.memory.grow(Math.ceil(missing / 65536));
+  return at;
+}
+
+const view = () => new DataView(codec.memory.buffer);
+const u32 = (at) => view().getUint32(at, true);
+const bytes = (at, size) => new Uint8Array(codec.memory.buffer, at, size);
+const taken = (at, size) => bytes(at, size).slice();
+const numbers = (at, count) => Array.from({ length: count }, (_, n) => u32(at + 4 * n));
+
+/** The address of a copy; not null, even of nothing. */
+function put(data) {
+  const at = room(data.length + 1);
+  bytes(at, data.length).set(data);
+  return at;
+}
+
+function putNumbers(...all) {
+  const at = room(4 * all.length);
+  all.forEach((number, n) => view().setUint32(at + 4 * n, number, true));
+  return at;
+}
+
+/** What an AdsCncBytes points to. */
+const lent = (at) => taken(u32(at), u32(at + 4));
+const word = (at) => new TextDecoder().decode(lent(at));
+
+/** Bytes, or a value, that cannot be. */
+export class AdsCncError extends Error {
+  constructor(at) {
+    const [, , , offset, expected, found] = numbers(at, 6);
+    const [stream, field, kind] = [24, 32, 40].map((part) => word(at + part));
+    const place = [stream, field].filter(Boolean).join(': ');
+    super(`${place} at offset ${offset}: ${kind}${expected || found ? `, expected ${expected}, found ${found}` : ''}`);
+    Object.assign(this, { name: 'AdsCncError', stream, field, offset, kind, expected, found, adsError: 0 });
+    // Its number is for this module.
+    Object.defineProperty(this, 'number', { value: u32(at) });
+  }
+}
+
+/** Calls a function whose last argument is the error. */
+function call(name, ...given) {
+  const error = room(48);
+  if (!codec[`ads_cnc_${name}`](...given, error)) throw new AdsCncError(error);
+}
+
+/** As `call`, for a function that fills a buffer, which gets the room it asks for if this is too little. */
+function sized(size, name, ...given) {
+  const length = room(4);
+  for (;;) {
+    const buffer = room(size);
+    try {
+      call(name, ...given, buffer, size, length);
+      return taken(buffer, u32(length));
+    } catch (error) {
+      if (![15, 37].includes(error.number) || error.expected <= size) throw error;
+      size = error.expected;
+    }
+  }
+}
+
+/** Does something with all of the memory. */
+function begin(work) {
+  top = BASE;
+  return work();
+}
+
+/** The rows of a table, from 0 on. */
+function each(name, size, read, ...before) {
+  const rows = [], at = room(size);
+  while (codec[`ads_cnc_${name}`](...before, rows.length, at)) rows.push(read(at, rows.length));
+  return rows;
+}
+
+const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
+
+const streams = begin(() => each('stream_info', 28, (at, number) => {
+  const fields = each('field_info', 40, (row) => {
+    const [kind, size, isCount, isList] = numbers(row + 24, 4);
+    const [name, meaning, clause] = [0, 8, 16].map((part) => word(row + part));
+    return { name, meaning, clause, kind, size, isCount: !!isCount, isList: !!isList };
+  }, number);
+  return { name: word(at), title: word(at + 8), max: u32(at + 16), repeats: !!u32(at + 24), fields, number };
+}));
+export const STREAMS = Object.fromEntries(streams.map((stream) => [stream.name, stream]));
+
+const argument = (number) => {
+  const at = room(8);
+  codec.ads_cnc_argument_name(number, at);
+  return word(at);
+};
+
+export const FUNCTIONS = begin(() => each('function_info', 72, (at, number) => {
+  const [port, command, effect, request, reply, count] = numbers(at + 16, 6);
+  const [asked, answered] = [request, reply].map((one) => (one === NONE ? null : streams[one].name));
+  const names = numbers(at + 40, count).map(argument);
+  return { name: word(at), operation: word(at + 8), port, command, effect, request: asked, reply: answered,
+    arguments: names, number };
+}));
+
+/** CP1252 before the first NUL, or all, as text. */
+export const textFromCp1252 = (data) => begin(() =>
+  new TextDecoder('utf-8', { ignoreBOM: true })
+    .decode(sized(3 * data.length, 'text_to_utf8', put(data), data.length)));
+
+/** A text as CP1252, without a NUL. */
+export const textToCp1252 = (text) => begin(() => {
+  const utf8 = new TextEncoder().encode(text);
+  return sized(utf8.length, 'text_from_utf8', put(utf8), utf8.length);
+});
+
+function found(stream, data, name, before) {
+  const at = put(data), count = room(4);
+  for (let size = 64; ; size = u32(count)) {
+    const array = room(24 * size);
+    try {
+      call(name, before, at, data.length, array, size, count);
+    } catch (error) {
+      if (error.number === 37) continue;
+      throw error;
+    }
+    return Array.from({ length: u32(count) }, (_, n) => {
+      const [field, record, item, offset, length] = numbers(array + 24 * n, 5);
+      return { name: stream.fields[field].name, record, item, offset, data: data.slice(offset, offset + length) };
+    });
+  }
+}
+
+function named(stream) {
+  const it = STREAMS[stream];
+  if (!it) throw new TypeError(`${stream} is no stream`);
+  return it;
+}
+
+/** The fields of a stream, with their bytes. */
+export const fields = (stream, data) => begin(() => found(named(stream), data, 'decode', named(stream).number));
+
+/** A stream from the bytes of its fields, [name, bytes] each; the reverse of `fields`. Counts may be left out. */
+export const join = (stream, parts) => begin(() => {
+  const it = named(stream);
+  const all = parts.flatMap(([name, data]) => {
+    const field = it.fields.findIndex((row) => row.name === name);
+    return [field < 0 ? NONE : field, 0, put(data), data.length];
+  });
+  const size = parts.reduce((sum, [, data]) => sum + data.length, 64);
+  return sized(size, 'build', it.number, putNumbers(...all), parts.length);
+});
+
+const little = (data) => data.reduceRight((sum, byte) => sum * 256 + byte, 0);
+const dataView = (data) => new DataView(data.buffer, data.byteOffset, data.byteLength);
+
+function read(row, data) {
+  if (row.kind === 1) return little(data);
+  if (row.kind === 2) return data[0] !== 0;
+  if (row.kind === 3) return dataView(data).getFloat64(0, true);
+  if (row.kind === 4) return textFromCp1252(data);
+  return row.kind === 5 ? data.join('.') : data;
+}
+
+const ended = (text) => Uint8Array.of(...textToCp1252(text), 0);
+
+function write(row, value) {
+  if (value instanceof Uint8Array) return value;
+  if (row.kind <= 2) {
+    const [number, size] = [Number(value), row.size || 4];
+    if (!Number.isInteger(number) || number < 0 || number >= 256 ** size) {
+      throw new RangeError(`${row.name}: ${value} is no number of ${size} bytes`);
+    }
+    return Uint8Array.from({ length: size }, (_, at) => Math.floor(number / 256 ** at) % 256);
+  }
+  if (row.kind === 3) return new Uint8Array(Float64Array.of(value).buffer);
+  if (row.kind === 4) return textToCp1252(value).length === row.size ? textToCp1252(value) : ended(value);
+  return Uint8Array.from(value.split('.'));
+}
+
+const shown = (stream) => stream.fields.filter((row) => !row.isCount);
+
+function valueOf(stream, parts) {
+  const rows = shown(stream), records = [];
+  for (const part of parts) {
+    if (part.record === records.length) records.push(Object.fromEntries(rows.map((row) => [camel(row.name), row.isList ? [] : null])));
+    const row = rows.find((one) => one.name === part.name);
+    if (row?.isList) records[part.record][camel(row.name)].push(read(row, part.data));
+    else if (row) records[part.record][camel(row.name)] = read(row, part.data);
+  }
+  if (stream.repeats) return records;
+  if (!records.length) return null;
+  return rows.length === 1 ? records[0][camel(rows[0].name)] : records[0];
+}
+
+/** The value of a stream: its only field, or a record; a list of records of a stream of such. */
+export const decode = (stream, data) => valueOf(named(stream), fields(stream, data));
+
+/** The bytes of a stream, the reverse of `decode`; bytes are written as they are. */
+export function encode(stream, value) {
+  const it = named(stream), rows = shown(it);
+  const records = it.repeats ? value : value === null || value === undefined ? [] : [value];
+  return join(stream, records.flatMap((record) => rows.flatMap((row) => {
+    const one = rows.length > 1 ? record[camel(row.name)] : record;
+    if (one === null || one === undefined) return [];
+    return (row.isList ? Array.from(one) : [one]).map((item) => [row.name, write(row, item)]);
+  })));
+}
+
+const NUMBERS = 'function channel by_index axis index count size handle index_group index_offset'.split(' ');
+const TEXTS = ['kind', 'name', 'value'];
+
+/** The address of an AdsCncRequest; texts were converted before, as that uses the memory too. */
+function putRequest(number, given) {
+  const plain = NUMBERS.map((name) => {
+    const value = name === 'function' ? number : Number(given[name] ?? 0);
+    if (!Number.isInteger(value) || value < 0 || value > NONE) {
+      throw new RangeError(`${camel(name)}: ${given[name]} is no unsigned number of 32 bits`);
+    }
+    return value;
+  });
+  const texts = TEXTS.flatMap((name) => (given[name] ? [put(given[name]), given[name].length] : [0, 0]));
+  const indices = Array.from(given.indices ?? []);
+  return putNumbers(...plain, ...texts, putNumbers(...indices), indices.length);
+}
+
+const CALL = ['port', 'command', 'indexGroup', 'indexOffset', 'readLength'];
+const callAt = (at) => ({ ...Object.fromEntries(numbers(at, 5).map((number, n) => [CALL[n], number])), data: lent(at + 20) });
+const putCall = (it) => putNumbers(...CALL.map((name) => it[name]), put(it.data), it.data.length);
+
+/** A function of this module for a function of the CNC. */
+function operation(number) {
+  const it = FUNCTIONS[number];
+  return (...values) => {
+    const options = values[it.arguments.length] ?? {};
+    const given = Object.fromEntries(it.arguments.map((name, n) => [name, values[n]]));
+    if ('byIndex' in options) given.by_index = options.byIndex;
+    if ('axis' in options) given.axis = options.axis;
+    for (const name of ['kind', 'name']) if (typeof given[name] === 'string') given[name] = textToCp1252(given[name]);
+    if (given.value && !(given.value instanceof Uint8Array)) throw new TypeError('value: bytes expected, see `pack`');
+    const sent = begin(() => {
+      const at = putRequest(number, given), out = room(28), size = 4096 + (given.value?.length ?? 0);
+      call('encode', at, room(size), size, out);
+      return callAt(out);
+    });
+    return {
+      ...sent,
+      function: it,
+      decode(reply) {
+        const stream = it.reply && STREAMS[it.reply];
+        const parts = begin(() => found(stream, reply, 'decode_reply', putRequest(number, given)));
+        return stream ? valueOf(stream, parts) : undefined;
+      },
+    };
+  };
+}
+
+/** The function that a call received is to; the `adsError` of the exception is the number to answer with. */
+export function dispatch(received) {
+  const [it, indices, number, texts] = begin(() => {
+    const at = putCall(received), list = room(4 * 512), out = room(72), refusal = room(4);
+    try {
+      call('dispatch', at, list, 512, out, refusal);
+    } catch (error) {
+      throw Object.assign(error, { adsError: u32(refusal) });
+    }
+    const given = Object.fromEntries(numbers(out, 10).map((value, n) => [NUMBERS[n], value]));
+    return [given, numbers(list, u32(out + 68)), given.function, TEXTS.map((_, n) => lent(out + 40 + 8 * n))];
+  });
+  const [kind, name] = texts.slice(0, 2).map(textFromCp1252), row = FUNCTIONS[number];
+  const all = { ...it, kind, name, value: texts[2], indices };
+  const more = ['axis', 'by_index'].filter((one) => !row.arguments.includes(one) && it[one]);
+  const given = [...row.arguments, ...more].map((one) => [camel(one), one === 'by_index' ? true : all[one]]);
+  return {
+    function: row,
+    arguments: Object.fromEntries(given),
+    reply: (value) => (row.reply ? encode(row.reply, value) : new Uint8Array()),
+  };
+}
+
+// AMS/TCP frames, for programs without an ADS library.
+
+function putFrame(it) {
+  const end = ([netId, port]) => Uint8Array.of(...netId.split('.'), port & 255, port >> 8);
+  const at = room(40), data = put(it.data);
+  bytes(at, 16).set([...end(it.target), ...end(it.source)]);
+  [it.command, it.stateFlags, it.error, it.invokeId, data, it.data.length]
+    .forEach((number, n) => view().setUint32(at + 16 + 4 * n, number, true));
+  return at;
+}
+
+/** The frame of a request. An end is a NetId and a port: ['192.0.2.7.1.1', 552]. */
+export const frameOfCall = (it, targetNetId, source, invokeId) => ({
+  target: [targetNetId, it.port], source, command: it.command, stateFlags: 4, error: 0, invokeId,
+  data: begin(() => sized(64 + it.data.length, 'call_write', putCall(it))),
+});
+
+/** The call of a request's frame. */
+export const callOfFrame = (frame) => begin(() => {
+  const at = putFrame(frame), out = room(28);
+  call('call_read', at, out);
+  return callAt(out);
+});
+
+/** The bytes of a frame, with both lengths. */
+export const encodeFrame = (frame) => begin(() => sized(38 + frame.data.length, 'frame_write', putFrame(frame)));
+
+/** The frame at the front of what was received, and its length; null if bytes are missing. */
+export const readFrame = (received, maxData = 0x400000) => begin(() => {
+  const at = put(received), out = room(40), used = room(4);
+  call('frame_read', at, received.length, maxData, out, used);
+  if (!u32(used)) return null;
+  const end = (from) => [bytes(from, 6).join('.'), view().getUint16(from + 6, true)];
+  const [command, stateFlags, error, invokeId] = numbers(out + 16, 4);
+  const frame = { target: end(out), source: end(out + 8), command, stateFlags, error, invokeId, data: lent(out + 32) };
+  return { frame, length: u32(used) };
+});
+
+// Values by their types.
+
+const GETTERS = [() => 'Uint8', (size) => `${size > 4 ? 'BigUint' : 'Uint'}${8 * size}`,
+  (size) => `${size > 4 ? 'BigInt' : 'Int'}${8 * size}`, (size) => `Float${8 * size}`, () => ''];
+
+export const TYPES = begin(() => each('type', 28, (at) => {
+  const [code, kind, size] = numbers(at + 16, 3);
+  return { name: word(at), objectName: word(at + 8), code, kind, size };
+}));
+
+function typeOf(type) {
+  const it = TYPES.find((one) => [one.name, one.objectName].includes(type) || (one.code && one.code === type));
+  if (!it) throw new TypeError(`${type} is no type`);
+  return it;
+}
+
+function nested(items, dimensions) {
+  if (!dimensions.length) return items[0];
+  if (dimensions.length === 1) return items;
+  const step = dimensions.slice(1).reduce((product, one) => product * one, 1);
+  return Array.from({ length: dimensions[0] }, (_, at) =>
+    nested(items.slice(at * step, (at + 1) * step), dimensions.slice(1)));
+}
+
+/** A value by its type, which is a name or the code of a description; of arrays, nested arrays. */
+export function unpack(type, data, dimensions = []) {
+  const it = typeOf(type), count = dimensions.reduce((product, one) => product * one, 1);
+  const size = it.size || (dimensions.length ? Math.floor(data.length / Math.max(count, 1)) : data.length);
+  if (size * count !== data.length || (count && !size && dimensions.length)) {
+    throw new RangeError(`${it.name}: ${count} elements of ${size} bytes expected, ${data.length} bytes found`);
+  }
+  const get = `get${GETTERS[it.kind](size)}`;
+  return nested(Array.from({ length: count }, (_, at) => {
+    const part = data.subarray(at * size, (at + 1) * size);
+    if (it.kind === 4) return textFromCp1252(part);
+    const value = dataView(part)[get](0, true);
+    return it.kind ? value : value !== 0;
+  }), dimensions);
+}
+
+/** The bytes of a value, the reverse of `unpack`. A text is ended by a NUL; texts in an array need bytes. */
+export function pack(type, value) {
+  const it = typeOf(type);
+  if (value instanceof Uint8Array) return value;
+  if (Array.isArray(value)) return Uint8Array.from(value.flatMap((one) => Array.from(pack(type, one))));
+  if (it.kind === 4) return ended(value);
+  const data = new Uint8Array(it.size), name = GETTERS[it.kind](it.size);
+  dataView(data)[`set${name}`](0, it.size > 4 && it.kind < 3 ? BigInt(value) : Number(value), true);
+  const back = dataView(data)[`get${name}`](0, true);
+  // A float is rounded; whatever else does not come back does not fit.
+  if (it.kind < 3 && String(back) !== String(it.kind ? value : Number(value))) {
+    throw new RangeError(`${it.name}: ${value} does not fit`);
+  }
+  return data;
+}
+
+// The state machines, whose memory is put at the same place for every call.
+
+class Machine {
+  #memory;
+  #kept;
+
+  constructor(kept, size) {
+    [this.#kept, this.#memory] = [kept, new Uint8Array(size)];
+  }
+
+  /** Gives the addresses of what is kept and of the machine. */
+  use(work) {
+    return begin(() => {
+      const kept = put(this.#kept), at = put(this.#memory);
+      try {
+        return work(at, kept);
+      } finally {
+        this.#memory = taken(at, this.#memory.length);
+      }
+    });
+  }
+}
+
+export const BUSY = 1, REJECTED = 2;
+
+/** Sends an NC program: hands out packets to write by `writeProgramStream`, and takes what became of them. */
+export class Sender {
+  #it;
+
+  constructor(program) {
+    this.#it = new Machine(program, 1216);
+    this.#it.use((at, kept) => call('sender_start', at, kept, program.length));
+  }
+
+  /** The packet to write now; null if none is left. */
+  packet() {
+    return this.#it.use((at) => {
+      const out = room(8);
+      return codec.ads_cnc_sender_packet(at, out) ? lent(out) : null;
+    });
+  }
+
+  /** What the CNC answered: an ADS result, or null if the answer was lost. Gives 0, BUSY or REJECTED. */
+  acknowledge(adsError) {
+    const number = adsError === null ? REJECTED : codec.ads_cnc_acknowledgement(adsError);
+    if (!this.#it.use((at) => codec.ads_cnc_sender_acknowledge(at, number))) throw new Error('no packet is in flight');
+    return number;
+  }
+
+  get progress() {
+    return this.#it.use((at) => {
+      const out = room(28);
+      codec.ads_cnc_sender_progress(at, out);
+      const names = ['state', 'packets', 'lines', 'bytes', 'leftLines', 'leftBytes', 'busyCount'];
+      return Object.fromEntries(numbers(out, 7).map((number, n) => [names[n], number]));
+    });
+  }
+}
+
+/** Hosts services of one channel: gives the variable to read or write next. */
+export class Host {
+  #it;
+
+  constructor(services) {
+    const ids = begin(() => {
+      const at = room(36 * services.length);
+      services.forEach((service, n) => {
+        const text = new TextEncoder().encode(service);
+        call('service_id', put(text), text.length, at + 36 * n);
+      });
+      return taken(at, 36 * services.length);
+    });
+    this.#it = new Machine(ids, 448);
+    this.#it.use((at, kept) => call('host_start', at, kept, services.length));
+  }
+
+  /** What to do next; the same until it is done. */
+  step() {
+    const [kind, service, requestState, variable, data] = this.#it.use((at) => {
+      const out = room(28);
+      codec.ads_cnc_host_step(at, out);
+      return [...numbers(out, 3), word(out + 12), lent(out + 20)];
+    });
+    if (kind === 0) return { kind: 'wait' };
+    if (kind === 1) return { kind: 'read', variable };
+    if (kind === 2) return { kind: 'write', variable, data };
+    return { kind: 'serve', service, request: textFromCp1252(data), requestState };
+  }
+
+  /** The value that was read. */
+  read(value) {
+    this.#it.use((at) => call('host_read', at, put(value), value.length));
+  }
+
+  /** The response to the request, and its state, not 0. */
+  answer(response, state) {
+    const data = textToCp1252(response);
+    this.#it.use((at) => call('host_answer', at, put(data), data.length, state));
+  }
+
+  #event(number) {
+    this.#it.use((at) => codec.ads_cnc_host_event(at, number));
+  }
+
+  written() { this.#event(0); }
+  failed() { this.#event(1); }
+  poll() { this.#event(2); }
+  restart() { this.#event(3); }
+
+  /** What became of the last answer: 'answered' or 'abandoned'. */
+  get outcome() {
+    return [null, 'answered', 'abandoned'][this.#it.use((at) => codec.ads_cnc_host_outcome(at))];
+  }
+}
+

@@ -1,0 +1,143 @@
+"""The C library: its structs and calls, which ads_cnc.h documents."""
+
+from __future__ import annotations
+
+import ctypes
+import pathlib
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+ABI = 1
+NONE = 0xFFFFFFFF
+UINT32 = ctypes.c_uint32
+
+_FILES = {"win32": "ads_cnc.dll", "darwin": "libads_cnc.dylib"}
+_file = pathlib.Path(__file__).parent / _FILES.get(sys.platform, "libads_cnc.so")
+library = ctypes.CDLL(str(_file))
+if library.ads_cnc_abi() != ABI:
+    raise ImportError(f"{_file} has ABI {library.ads_cnc_abi()}, this package needs {ABI}")
+
+
+class Bytes(ctypes.Structure):
+    _fields_ = [("data", ctypes.c_void_p), ("length", UINT32)]
+
+    def get(self) -> bytes:
+        return ctypes.string_at(self.data, self.length) if self.length else b""
+
+    def text(self) -> str:
+        return self.get().decode()
+
+
+def _numbers(names: str) -> list[tuple[str, Any]]:
+    return [(name, UINT32) for name in names.split()]
+
+
+class Error(ctypes.Structure):
+    _fields_ = [
+        *_numbers("kind stream field offset expected found"),
+        ("subject", Bytes),
+        ("name", Bytes),
+        ("text", Bytes),
+    ]
+
+
+class Request(ctypes.Structure):
+    _fields_ = [
+        *_numbers("function channel by_index axis index count size handle index_group index_offset"),
+        ("kind", Bytes),
+        ("name", Bytes),
+        ("value", Bytes),
+        ("indices", ctypes.POINTER(UINT32)),
+        ("indices_count", UINT32),
+    ]
+
+
+class Call(ctypes.Structure):
+    _fields_ = [*_numbers("port command index_group index_offset read_length"), ("data", Bytes)]
+
+
+class Field(ctypes.Structure):
+    _fields_ = _numbers("field record item offset length number")
+
+
+class Part(ctypes.Structure):
+    _fields_ = [*_numbers("field number"), ("data", Bytes)]
+
+
+class FunctionInfo(ctypes.Structure):
+    _fields_ = [
+        ("name", Bytes),
+        ("operation", Bytes),
+        *_numbers("port command effect request reply argument_count"),
+        ("arguments", UINT32 * 8),
+    ]
+
+
+class StreamInfo(ctypes.Structure):
+    _fields_ = [("name", Bytes), ("title", Bytes), *_numbers("max field_count repeats")]
+
+
+class FieldInfo(ctypes.Structure):
+    _fields_ = [
+        ("name", Bytes),
+        ("meaning", Bytes),
+        ("clause", Bytes),
+        *_numbers("kind size is_count is_list"),
+    ]
+
+
+class Type(ctypes.Structure):
+    _fields_ = [("name", Bytes), ("object_name", Bytes), *_numbers("code kind size")]
+
+
+class Address(ctypes.Structure):
+    _fields_ = [("net_id", ctypes.c_uint8 * 6), ("port", ctypes.c_uint16)]
+
+
+class Frame(ctypes.Structure):
+    _fields_ = [
+        ("target", Address),
+        ("source", Address),
+        *_numbers("command state_flags error invoke_id"),
+        ("data", Bytes),
+    ]
+
+
+class Sender(ctypes.Structure):
+    _fields_ = [("opaque", ctypes.c_uint64 * 152)]
+
+
+class Progress(ctypes.Structure):
+    _fields_ = _numbers("state packets lines bytes left_lines left_bytes busy_count")
+
+
+class Host(ctypes.Structure):
+    _fields_ = [("opaque", ctypes.c_uint64 * 56)]
+
+
+class HostStep(ctypes.Structure):
+    _fields_ = [*_numbers("kind service request_state"), ("variable", Bytes), ("data", Bytes)]
+
+
+def function(name: str, result: Any = ctypes.c_bool) -> Callable[..., Any]:
+    it = getattr(library, "ads_cnc_" + name)
+    it.restype = result
+    return it  # type: ignore[no-any-return]
+
+
+def lent(data: bytes) -> Bytes:
+    """Bytes that the caller keeps alive."""
+    at = ctypes.cast(ctypes.c_char_p(data), ctypes.c_void_p) if data else None
+    return Bytes(at, len(data))
+
+
+def each(name: str, kind: type[Any], *before: int) -> Iterator[Any]:
+    """The rows of a table, from 0 on."""
+    give, number = function(name), 0
+    while True:
+        info = kind()
+        if not give(*map(UINT32, before), UINT32(number), ctypes.byref(info)):
+            return
+        yield info
+        number += 1

@@ -1,0 +1,205 @@
+"""What the package makes of the library: requests, values, errors, and the side of a server."""
+
+import doctest
+import pathlib
+import re
+import unittest
+
+import ads_cnc
+
+HERE = pathlib.Path(__file__).resolve().parent
+PLACE = {"index_group": 0x120101, "index_offset": 3}
+
+
+def arguments(function):
+    """Arguments that a function takes."""
+    given = dict(
+        channel=1, axis=1, index=1, count=1, size=8, handle=7, kind="P", name="V.E.a", indices=[4, 5]
+    )
+    given.update(PLACE, value=b"G0 X1\r\n")
+    if "element" in function.name:
+        given.update(index_group=0x123301, index_offset=0 if "number" in function.name else 3)
+    if function.operation == "FindInstance":
+        given["kind"] = "decoder"
+    return {name: given[name] for name in function.arguments}
+
+
+def operation(function):
+    return getattr(ads_cnc, re.sub(r"(?<!^)([A-Z])", r"_\1", function.operation).lower())
+
+
+class Requests(unittest.TestCase):
+    def test_a_variable_is_read_by_its_name(self):
+        request = ads_cnc.read_by_name(1, "V.E.Länge")
+        address = (request.port, request.command, request.index_group, request.index_offset)
+        self.assertEqual(address, (552, 9, 0x122301, 0x48))
+        self.assertEqual((request.read_length, request.data), (2048, b"V.E.L\xe4nge\0"))
+        self.assertEqual(request.decode(b"\x7b\0\0\0"), b"\x7b\0\0\0")
+
+    def test_every_function_is_dispatched_with_its_arguments(self):
+        for function in ads_cnc.FUNCTIONS:
+            given = arguments(function)
+            request = operation(function)(**given)
+            self.assertEqual((request.port, request.command), (function.port, function.command))
+            received = ads_cnc.dispatch(request)
+            self.assertEqual((received.function, received.arguments), (function, given))
+        self.assertEqual(len(ads_cnc.FUNCTIONS), 30)
+
+    def test_options_are_kept(self):
+        request = ads_cnc.count_objects(0, axis=2)
+        self.assertEqual(request.index_group, 0x130202)
+        self.assertEqual(ads_cnc.dispatch(request).arguments, {"channel": 0, "axis": 2})
+        request = ads_cnc.count_objects(1, by_index=True)
+        self.assertEqual((request.index_group, ads_cnc.dispatch(request).arguments["by_index"]), (0x30101, 1))
+
+    def test_a_reply_is_a_value(self):
+        self.assertEqual(ads_cnc.count_objects(1).decode(b"\5\0\0\0"), 5)
+        self.assertIs(ads_cnc.read_element_write_flag(0x123301, 1).decode(b"\2"), True)
+        self.assertEqual(ads_cnc.dynamic_value_by_index(1, "P", 1).decode(bytes(6) + b"\xf8\x3f"), 1.5)
+        self.assertEqual(ads_cnc.read_element_name(0x123301, 1).decode(b"L\xe4nge\0x"), "Länge")
+        self.assertIsNone(ads_cnc.write_by_name(1, "V.E.a", b"\1").decode(b""))
+        self.assertIsNone(ads_cnc.describe_extended(1, 0, "V.E").decode(b""))
+        description = ads_cnc.describe_by_index(1, 2, "V.E").decode(
+            b"\2\0\0\2\1\0\0\0\1\0\0\0\2\0\0\0\1\0\0\0\2\0\0\0V.E.Variable_3\0"
+        )
+        self.assertEqual(
+            (description.type, description.dimensions, description.name), (1, [2], "V.E.Variable_3")
+        )
+
+    def test_wrong_arguments_are_named(self):
+        for call, error in (
+            (lambda: ads_cnc.read_by_name(0, "V.E.a"), "index-group: instance at offset 0: out of range"),
+            (lambda: ads_cnc.read_by_name(1, "V.E.Ω"), "text: text at offset 4: not in CP1252"),
+            (
+                lambda: ads_cnc.count_dynamic(1, "Q"),
+                "call: kind at offset 0: an argument the function does not take",
+            ),
+            (lambda: ads_cnc.read_by_name(-1, "a"), "channel: -1 is no unsigned number of 32 bits"),
+        ):
+            with self.assertRaisesRegex(ValueError, error):
+                call()
+
+
+class Streams(unittest.TestCase):
+    def test_an_error_has_stream_field_and_offset(self):
+        with self.assertRaises(ads_cnc.AdsCncError) as raised:
+            ads_cnc.handle_by_name(1, "V.E.a").decode(b"\0\0")
+        error = raised.exception
+        self.assertEqual((error.stream, error.field, error.offset), ("variable-handle", "handle", 0))
+        self.assertEqual((error.kind, error.expected, error.found), ("truncated", 4, 2))
+        with self.assertRaisesRegex(ads_cnc.AdsCncError, "read-reply: data"):
+            ads_cnc.decode("read-reply", b"\0\0\0\0\4\0\0\0\1")
+
+    def test_values_are_encoded_as_they_were_decoded(self):
+        for stream, data in (
+            (
+                "object-descriptors",
+                bytes(16) + b"\1\1\x12\0" + bytes(64) + bytes(16) + b"\1\1\x12\0" + bytes(64),
+            ),
+            ("variable-handle-read", b"\4\0\0\2\2\0\0\0\1\0\0\0\2\0\0\0"),
+            ("dynamic-value", bytes(6) + b"\xf8\x3f"),
+            ("variable-extended-description", b""),
+            ("read-reply", b"\0\0\0\0\2\0\0\0ab"),
+            ("read-reply", b"\5\7\0\0"),
+            ("ams-header", bytes(range(32))),
+        ):
+            self.assertEqual(ads_cnc.encode(stream, ads_cnc.decode(stream, data)), data, stream)
+        record = {"handle": 4, "indices": [1, 2]}
+        self.assertEqual(ads_cnc.encode("variable-handle-read", record)[4:8], b"\2\0\0\0")
+        with self.assertRaisesRegex(ValueError, "flag: 256 is no number of 1 bytes"):
+            ads_cnc.encode("element-write-flag", 256)
+
+    def test_long_lists_are_whole(self):
+        data = ads_cnc.encode("variable-handle-read", {"handle": 4, "indices": list(range(510))})
+        self.assertEqual(ads_cnc.decode("variable-handle-read", data).indices, list(range(510)))
+        content = bytes(100_000)
+        self.assertEqual(ads_cnc.write_object(**PLACE, value=content).data, content)
+        self.assertEqual(ads_cnc.decode("content", content), content)
+
+    def test_values_are_read_by_their_types(self):
+        self.assertEqual(
+            ads_cnc.unpack("SGN16", bytes.fromhex("0b000c00ffff1500"), [2, 2]), [[11, 12], [-1, 21]]
+        )
+        self.assertEqual(ads_cnc.unpack(8, bytes(6) + b"\xf8\x3f"), 1.5)
+        self.assertEqual(ads_cnc.unpack("STRING", b"a\0b\0", [2]), ["a", "b"])
+        self.assertEqual(ads_cnc.unpack("STRING", b""), "")
+        self.assertEqual(ads_cnc.unpack("BOOL", b"\1"), True)
+        self.assertEqual(ads_cnc.pack("LREAL", [1.5, 0]), bytes(6) + b"\xf8\x3f" + bytes(8))
+        self.assertEqual(ads_cnc.pack("STRING", "Länge"), b"L\xe4nge\0")
+        for wrong in (
+            lambda: ads_cnc.unpack("SGN16", b"\0"),
+            lambda: ads_cnc.pack("SGN08", 200),
+            lambda: ads_cnc.unpack(77, b"\0"),
+            lambda: ads_cnc.unpack(0, b"\0"),
+        ):
+            self.assertRaises(ValueError, wrong)
+
+
+class Servers(unittest.TestCase):
+    def test_a_call_is_answered(self):
+        call = ads_cnc.Call(552, 9, 0x122301, 0x46, 4, b"V.E.vartest\0")
+        received = ads_cnc.dispatch(call)
+        self.assertEqual(
+            (received.function.operation, received.arguments["name"]), ("HandleByName", "V.E.vartest")
+        )
+        self.assertEqual(received.reply(33554436), b"\4\0\0\2")
+
+    def test_a_refusal_has_the_number_to_answer_with(self):
+        with self.assertRaises(ads_cnc.AdsCncError) as raised:
+            ads_cnc.dispatch(ads_cnc.Call(552, 9, 0x122301, 0x4E, 4, b""))
+        self.assertEqual(raised.exception.ads_error, 0x703)
+
+    def test_frames_carry_calls(self):
+        request = ads_cnc.read_by_name(1, "V.E.a")
+        frame = ads_cnc.Frame.of_call(request, "192.0.2.7.1.1", ("192.0.2.1.1.1", 0x8001), 7)
+        data = frame.encode()
+        self.assertIsNone(ads_cnc.read_frame(data[:-1]))
+        self.assertEqual(ads_cnc.read_frame(data + b"x"), (frame, len(data)))
+        self.assertEqual(ads_cnc.dispatch(frame.call()).arguments, {"channel": 1, "name": "V.E.a"})
+
+
+class Machines(unittest.TestCase):
+    def test_a_program_is_sent(self):
+        sender, results, sent = ads_cnc.Sender(b"N10 G0 X0\nN20 M30"), [0x706, 0], []
+        for packet in sender:
+            sent.append(packet)
+            sender.acknowledge(results.pop(0))
+        self.assertEqual(sent, [b"N10 G0 X0\r\nN20 M30\r\n"] * 2)
+        self.assertEqual((sender.progress["state"], sender.progress["lines"]), (4, 2))
+        stopped = ads_cnc.Sender(b"M30\n")
+        self.assertEqual([stopped.acknowledge(None) for _ in stopped], [ads_cnc.REJECTED])
+        with self.assertRaisesRegex(
+            ads_cnc.AdsCncError, "nc-text: line at offset 3: a byte that is not ASCII"
+        ):
+            ads_cnc.Sender(b"N1\xe4")
+
+    def test_a_request_is_served(self):
+        uuid, written = "560AACBF-6335-44a9-895A-8B27F3ED5E47", []
+        host = ads_cnc.Host([uuid])
+        values = {"UUID": uuid.encode(), "REQUEST": b"L\xe4nge\0", "REQUEST_STATE": b"\1\0\0\0"}
+        while (step := host.step()).kind != "wait":
+            if step.kind == "read":
+                host.read(values[step.variable.rsplit(".", 1)[1]])
+            elif step.kind == "serve":
+                self.assertEqual((step.service, step.request, step.request_state), (0, "Länge", 1))
+                host.answer("5", 1)
+            else:
+                written.append((step.variable, step.data))
+                host.written()
+        self.assertEqual(written[0], ("V.G.SERVICE.RESPONSE", b"5\0"))
+        self.assertEqual(host.outcome, "answered")
+        self.assertRaises(ads_cnc.AdsCncError, ads_cnc.Host, ["no UUID"])
+
+
+class Documents(unittest.TestCase):
+    def test_what_is_shown_is_true(self):
+        self.assertEqual(doctest.testmod(ads_cnc).failed, 0)
+        readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
+        shown = []
+        for block in re.findall(r"```python\n(.*?)```", readme, re.S):
+            exec(block, {"print": lambda *what: shown.append(" ".join(map(str, what)))})
+        self.assertEqual(shown, re.findall(r"print\(.*\)  # (.*)", readme))
+
+
+if __name__ == "__main__":
+    unittest.main()
