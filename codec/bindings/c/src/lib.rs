@@ -36,6 +36,13 @@ pub extern "C" fn ads_cnc_abi() -> u32 {
     const { decimal(env!("CARGO_PKG_VERSION_MINOR").as_bytes()) }
 }
 
+#[cfg(ads_cnc_negative)]
+#[allow(clippy::indexing_slicing, missing_docs)]
+#[unsafe(no_mangle)]
+pub extern "C" fn ads_cnc_negative(at: u8) -> u8 {
+    [1, 2, 3][usize::from(at)]
+}
+
 const fn decimal(mut digits: &[u8]) -> u32 {
     let mut number = 0_u32;
     while let [digit, rest @ ..] = digits {
