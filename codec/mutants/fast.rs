@@ -29,6 +29,8 @@ mod equality;
 mod errata;
 #[path = "../tests/frames.rs"]
 mod frames;
+#[path = "../tests/join.rs"]
+mod join;
 #[path = "../tests/json.rs"]
 mod json;
 #[path = "../tests/limits.rs"]

@@ -155,7 +155,7 @@ pub(super) fn tables(bytes: &[u8]) -> Result<(), Error> {
         seen((layout::Field::stream(field), layout::Field::by_name(stream, name)));
         layout::Stream::fields(stream).for_each(seen);
         seen(layout::Stream::walk(stream, bytes, |segment| seen(segment.bytes)));
-        let parts = layout::Stream::fields(stream).zip(bytes.chunks(4));
+        let parts = bytes.chunks(4).map(|part| (any(field), part));
         seen(layout::Stream::join(stream, parts, &mut [0; ROOM]));
     }
     seen(layout::Stream::by_name(name));
