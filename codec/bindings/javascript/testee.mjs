@@ -10,7 +10,7 @@ import * as cnc from './dist/index.js';
 const TYPED = { content: 'content', 'variable-value': 'value', 'variable-handle-write': 'value', 'variable-name-write': 'value' };
 const SERVICES = { '2,4': 'read-request', '3,4': 'write-request', '9,4': 'read-write-request',
   '2,5': 'read-reply', '3,5': 'write-reply', '9,5': 'read-write-reply' };
-const STREAMS = [...Object.keys(cnc.STREAMS), 'ams-frame'];
+const STREAMS = [...Object.keys(cnc.STREAMS), 'ams-frame', 'variable-path', 'index-group', 'index-offset'];
 const OPS = ['decode', 'encode', 'packets'], EDITIONS = ['en-1.05', 'de-1.051'];
 
 class Unsupported extends Error {}
@@ -53,6 +53,7 @@ function valueOf(row, data) {
 }
 
 function decode(stream, data, context) {
+  if (OTHERS[stream]) return OTHERS[stream].decode(data, context);
   if (stream === 'ams-frame') return decodeFrame(data);
   const rows = cnc.STREAMS[stream].fields.filter((row) => !row.isCount), records = [];
   for (const field of cnc.fields(stream, data)) {
@@ -65,6 +66,53 @@ function decode(stream, data, context) {
   }
   return cnc.STREAMS[stream].repeats ? { descriptors: records } : records[0] ?? {};
 }
+
+const numberOf = (type, value) => ({ type, value: String(value) });
+const openText = (value) => ({ type: 'STRING', hex: hex(cnc.textToCp1252(value)), value, open: true });
+const count = (data) => cnc.decode('object-count', data);
+const WORDS = { objectClass: 'class' };
+
+// What is no stream of the table. A group and an offset are numbers of four bytes, as a count is.
+const OTHERS = {
+  'variable-path': {
+    decode(data) {
+      if (data.includes(0)) throw new RangeError('a NUL in a name');
+      const { kind, parts } = cnc.path(cnc.textFromCp1252(data));
+      return { kind: openText(kind), parts: parts.map(({ name, indices }) =>
+        ({ name: openText(name), indices: indices.map((index) => numberOf('UNS32', index)) })) };
+    },
+    encode({ kind, parts }) {
+      const textOf = (part) => cnc.textFromCp1252(unhex(part.hex));
+      const all = parts.map((part) => textOf(part.name) + part.indices.map(({ value }) => `[${BigInt(value)}]`).join(''));
+      const name = [textOf(kind), ...all].join('.');
+      cnc.path(name);
+      return cnc.textToCp1252(name);
+    },
+  },
+  'index-group': {
+    decode(data, { base }) {
+      const number = count(data), out = { index_group: numberOf('UNS32', number) };
+      if (base && !(number >= Number(base) && number - Number(base) <= 255)) throw new RangeError('not of this base');
+      const group = cnc.groupParts(number);
+      if (!group) return out;
+      for (const [name, value] of Object.entries(group)) {
+        const isTask = name === 'task', words = isTask ? value : String(value).toLowerCase().replaceAll(' ', '-');
+        if (name !== 'instance' && value) out[WORDS[name] ?? name] = { type: 'NAME', value: words };
+      }
+      return { ...out, instance: numberOf('UNS08', group.instance) };
+    },
+    encode: ({ index_group: { value } }) => cnc.encode('object-count', Number(value)),
+  },
+  'index-offset': {
+    decode(data, { stride }) {
+      if (!stride) throw new Unsupported('context');
+      const [axis, element] = cnc.axisAndElement(count(data), Number(stride));
+      return { axis: numberOf('UNS16', axis), element: numberOf('UNS16', element) };
+    },
+    encode: ({ axis, element }, { stride }) =>
+      cnc.encode('object-count', cnc.axisOffset(Number(axis.value), Number(element.value), Number(stride))),
+  },
+};
 
 function decodeFrame(data) {
   const found = cnc.readFrame(data);
@@ -88,7 +136,8 @@ function write(part) {
   return unhex(bits.toString(16).padStart(2 * size, '0')).reverse();
 }
 
-function encode(stream, given) {
+function encode(stream, given, context) {
+  if (OTHERS[stream]) return OTHERS[stream].encode(given, context);
   if (stream === 'ams-frame') return encodeFrame(given);
   const { fields, repeats } = cnc.STREAMS[stream];
   return cnc.join(stream, (repeats ? given.descriptors : [given]).flatMap((record) => fields
@@ -119,7 +168,7 @@ function work(asked) {
   }
   if (!STREAMS.includes(asked.stream)) throw new Unsupported('stream');
   if (asked.op === 'decode') return { value: decode(asked.stream, unhex(asked.hex), asked.context) };
-  return { hex: hex(encode(asked.stream, asked.value)) };
+  return { hex: hex(encode(asked.stream, asked.value, asked.context)) };
 }
 
 function answer(line) {

@@ -25,7 +25,7 @@ SERVICES = {
     (3, 5): "write-reply",
     (9, 5): "read-write-reply",
 }
-STREAMS = [*ads_cnc.STREAMS, "ams-frame"]
+STREAMS = [*ads_cnc.STREAMS, "ams-frame", "variable-path", "index-group", "index-offset"]
 TYPES = {name: it for it in ads_cnc.TYPES for name in (it.name, it.object_name)}
 OPS, EDITIONS = ["decode", "encode", "packets"], ["en-1.05", "de-1.051"]
 
@@ -75,6 +75,8 @@ def value(row, data):
 
 
 def decode(stream, data, context):
+    if stream in OTHERS:
+        return OTHERS[stream][0](data, context)
     if stream == "ams-frame":
         return decode_frame(data)
     rows = {row.name: row for row in ads_cnc.STREAMS[stream].fields if not row.is_count}
@@ -94,6 +96,80 @@ def decode(stream, data, context):
     if ads_cnc.STREAMS[stream].repeats:
         return {"descriptors": records}
     return records[0] if records else {}
+
+
+def named(**words):
+    return {name: {"type": "NAME", "value": word} for name, word in words.items() if word}
+
+
+def open_text(text):
+    return {"type": "STRING", "hex": ads_cnc.text_to_cp1252(text).hex(" "), "value": text, "open": True}
+
+
+def number_of(kind, value):
+    return {"type": kind, "value": str(value)}
+
+
+def decode_path(data, _):
+    path = ads_cnc.path(ads_cnc.text_from_cp1252(data))
+    if b"\0" in data:
+        raise ValueError("a NUL in a name")
+    parts = [
+        {"name": open_text(name), "indices": [number_of("UNS32", index) for index in indices]}
+        for name, indices in path.parts
+    ]
+    return {"kind": open_text(path.kind), "parts": parts}
+
+
+def decode_group(data, context):
+    # Both are numbers of four bytes, as a count is.
+    number = ads_cnc.decode("object-count", data)
+    out = {"index_group": number_of("UNS32", number)}
+    if "base" in context and not 0 <= number - int(context["base"], 16) <= 255:
+        raise ValueError("not of this base")
+    group = ads_cnc.group_parts(number)
+    if group:
+        words = {"object_class": "class", "attribute": "attribute"}
+        out |= named(
+            **{words.get(name, name): word.lower().replace(" ", "-") for name, word in zip(group._fields, group[:-1])}
+        )
+        out |= named(task=group.task) | {"instance": number_of("UNS08", group.instance)}
+    return out
+
+
+def decode_offset(data, context):
+    if "stride" not in context:
+        raise Unsupported("context")
+    offset = ads_cnc.decode("object-count", data)
+    axis, element = ads_cnc.axis_and_element(offset, int(context["stride"], 16))
+    return {"axis": number_of("UNS16", axis), "element": number_of("UNS16", element)}
+
+
+def encode_path(given, _):
+    def text(part):
+        return ads_cnc.text_from_cp1252(bytes.fromhex(part["hex"]))
+
+    parts = [text(part["name"]) + "".join(f"[{int(one['value'])}]" for one in part["indices"]) for part in given["parts"]]
+    name = ".".join([text(given["kind"]), *parts])
+    ads_cnc.path(name)
+    return ads_cnc.text_to_cp1252(name)
+
+
+def encode_group(given, _):
+    return ads_cnc.encode("object-count", int(given["index_group"]["value"]))
+
+
+def encode_offset(given, context):
+    axis, element = (int(given[name]["value"]) for name in ("axis", "element"))
+    return ads_cnc.encode("object-count", ads_cnc.axis_offset(axis, element, int(context["stride"], 16)))
+
+
+# What is no stream of the table.
+OTHERS = {
+    "variable-path": (decode_path, encode_path),
+    "index-group": (decode_group, encode_group),
+    "index-offset": (decode_offset, encode_offset),
+}
 
 
 def decode_frame(data):
@@ -127,7 +203,9 @@ def write(part):
     return int(part["value"]).to_bytes(kind.size, "little", signed=kind.format in "bhiq")
 
 
-def encode(stream, given):
+def encode(stream, given, context):
+    if stream in OTHERS:
+        return OTHERS[stream][1](given, context)
     if stream == "ams-frame":
         return encode_frame(given)
     parts = []
@@ -149,7 +227,7 @@ def encode_frame(given):
     data = b""
     if service:
         part = given[service]
-        data = write(part) if service == "data" else encode(service.replace("_", "-"), part)
+        data = write(part) if service == "data" else encode(service.replace("_", "-"), part, {})
     numbers = (int(header[name]) for name in ("command", "state_flags", "error", "invoke_id"))
     return ads_cnc.Frame(target, source, *numbers, data).encode()
 
@@ -168,7 +246,7 @@ def work(case):
         raise Unsupported("stream")
     if case["op"] == "decode":
         return {"value": decode(case["stream"], bytes.fromhex(case["hex"]), case["context"])}
-    return {"hex": encode(case["stream"], case["value"]).hex()}
+    return {"hex": encode(case["stream"], case["value"], case["context"]).hex()}
 
 
 def answer(line):

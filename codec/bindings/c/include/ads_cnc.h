@@ -286,6 +286,35 @@ bool ads_cnc_type(uint32_t number, AdsCncType *info);
 /* The name of an AdsCncArgument, from 1 on; false beyond the last. */
 bool ads_cnc_argument_name(uint32_t number, AdsCncBytes *name);
 
+/* ---------------------------------------------------------------------- addresses and names */
+
+/* An index group in words; none where a group has no such part. */
+typedef struct AdsCncGroup {
+    AdsCncBytes task;          /* "COM" or "SDA/GEO" */
+    AdsCncBytes access;        /* "element" or "object" */
+    AdsCncBytes addressing;    /* "index" or "logical" */
+    AdsCncBytes table;         /* of COM: "channel" or "axis" */
+    AdsCncBytes object_class;  /* of SDA and GEO: "decoder" and so on */
+    AdsCncBytes attribute;     /* of SDA and GEO: "content", "name", "type", "length", "unit", "write flag" or
+                                  "object address" */
+    uint32_t instance;         /* channel, axis or spindle; 0 for none */
+} AdsCncGroup;
+
+/* The parts of an index group; false for one that is not documented. */
+bool ads_cnc_group(uint32_t index_group, AdsCncGroup *parts);
+
+/* The index offset of an element of an axis, axis 0 being the channel itself, and back. The stride is 0x10000
+ * for SDA and GEO; for COM the manuals have both 0x10000 and 0x1000. */
+bool ads_cnc_offset(uint32_t stride, uint32_t axis, uint32_t element, uint32_t *offset, AdsCncError *error);
+bool ads_cnc_offset_parts(uint32_t stride, uint32_t offset, uint32_t *axis, uint32_t *element,
+                          AdsCncError *error);
+
+/* Takes the name of a variable apart, such as V.G.NP[0].V[1]. Of the fields that this gives, field is 0 for
+ * the kind (V.G), 1 for the name of a part and 2 for an index, which is `number`; record is which part, item
+ * which of its indices. */
+bool ads_cnc_path(const uint8_t *name, uint32_t length, AdsCncField *parts, uint32_t room, uint32_t *count,
+                  AdsCncError *error);
+
 /* --------------------------------------------------------------- frames, without an ADS library */
 
 typedef struct AdsCncAddress {

@@ -9,6 +9,7 @@
 #[cfg(test)]
 extern crate codec as ads_cnc;
 
+mod address;
 mod error;
 mod frame;
 mod machines;
@@ -19,6 +20,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use address::AdsCncGroup;
 pub use error::AdsCncError;
 pub use frame::{AdsCncAddress, AdsCncFrame};
 pub use machines::{AdsCncHost, AdsCncHostStep, AdsCncProgress, AdsCncSender, AdsCncServiceId};

@@ -6,11 +6,12 @@
 use core::mem::{MaybeUninit, offset_of, zeroed};
 use core::ptr::{null, null_mut};
 
-use codec::address::Class;
+use codec::address::{Attribute, Class};
 use codec::dynamic::DynamicKind;
 use codec::layout::Stream;
 use codec::operation::Function;
 
+use crate::address::*;
 use crate::frame::*;
 use crate::machines::*;
 use crate::memory::to_usize;
@@ -137,6 +138,7 @@ layouts! {
     AdsCncType { name, object_name, code, kind, size }
     AdsCncAddress { net_id, port }
     AdsCncFrame { target, source, command, state_flags, error, invoke_id, data }
+    AdsCncGroup { task, access, addressing, table, object_class, attribute, instance }
     AdsCncSender {}
     AdsCncProgress { state, packets, lines, bytes, left_lines, left_bytes, busy_count }
     AdsCncHost {}
@@ -161,6 +163,7 @@ fn structs_are_laid_out_as_the_header_has_them() {
 #[test]
 fn names_are_those_that_the_codec_shows() {
     assert_eq!(Class::ALL.map(|it| it.to_string()), CLASSES);
+    assert_eq!(Attribute::ALL.map(|it| it.to_string()), ATTRIBUTES);
     assert_eq!(DynamicKind::ALL.map(|it| it.to_string()), KINDS);
     for (at, function) in (0..).zip(Function::ALL) {
         let name = format!("{function:?}");
@@ -396,6 +399,79 @@ fn replies_are_held_against_their_request() {
         AdsCncRequest { index_group: 0x12_0101, index_offset: 3, size: 1, ..of("ReadObject") };
     assert_eq!(reply(&content, &[1]), Ok(1));
     assert!(reply(&content, &[1, 2]).unwrap_err().contains("too long, expected 1, found 2"));
+}
+
+#[test]
+fn addresses_are_taken_apart() {
+    let words = |group| {
+        let mut it = zero::<AdsCncGroup>();
+        // SAFETY: there is room for it.
+        let is_there = unsafe { ads_cnc_group(group, &mut it) };
+        let all = [it.task, it.access, it.addressing, it.table, it.object_class, it.attribute];
+        is_there.then(|| (all.map(string).join(" "), it.instance))
+    };
+    assert_eq!(words(0x12_2301), Some(("SDA/GEO element logical  decoder content".to_string(), 1)));
+    assert_eq!(words(0x13_0202), Some(("COM object logical axis  ".to_string(), 2)));
+    assert_eq!(words(0x2_5403).unwrap().0, "SDA/GEO element index  spindle name");
+    assert_eq!(words(0x13_3301), None);
+    let (mut offset, mut axis, mut element, mut error) = (0, 0, 0, zero());
+    // SAFETY: there is room for them.
+    unsafe {
+        assert!(ads_cnc_offset(0x1_0000, 2, 5, &mut offset, null_mut()) && offset == 0x2_0005);
+        assert!(ads_cnc_offset_parts(0x1000, offset, &mut axis, &mut element, null_mut()));
+        assert_eq!((axis, element), (0x20, 5));
+        assert!(!ads_cnc_offset(7, 2, 5, null_mut(), &mut error) && string(error.name) == "stride");
+        assert!(!ads_cnc_offset(0x1000, 2, 0x1000, null_mut(), &mut error));
+        assert_eq!(
+            text(&error),
+            "index-offset: element at offset 0: out of range, expected 4095, found 4096"
+        );
+        assert!(!ads_cnc_offset_parts(0x1000, u32::MAX, null_mut(), null_mut(), null_mut()));
+    }
+}
+
+#[test]
+fn names_are_taken_apart() {
+    let parts = |name: &[u8]| {
+        let (mut parts, mut count, mut error) = ([0; 9].map(|_| zero::<AdsCncField>()), 0, zero());
+        let (at, length) = (name.as_ptr(), name.len() as u32);
+        // SAFETY: all of it is there.
+        match unsafe { ads_cnc_path(at, length, parts.as_mut_ptr(), 9, &mut count, &mut error) } {
+            true => Ok(parts[..to_usize(count)]
+                .iter()
+                .map(|it| {
+                    let text = &name[to_usize(it.offset)..][..to_usize(it.length)];
+                    (
+                        it.field,
+                        it.record,
+                        it.item,
+                        String::from_utf8_lossy(text).into_owned(),
+                        it.number,
+                    )
+                })
+                .collect::<Vec<_>>()),
+            false => Err(text(&error)),
+        }
+    };
+    let part =
+        |field, record, item, text: &str, number| (field, record, item, text.to_string(), number);
+    assert_eq!(
+        parts(b"V.G.NP[0].V[1][02]"),
+        Ok(vec![
+            part(0, 0, 0, "V.G", 0),
+            part(1, 0, 0, "NP", 0),
+            part(2, 0, 0, "", 0),
+            part(1, 1, 0, "V", 0),
+            part(2, 1, 0, "", 1),
+            part(2, 1, 1, "", 2),
+        ])
+    );
+    assert!(parts(b"V.G.a[").unwrap_err().starts_with("variable-path: index at offset 6"));
+    assert!(
+        parts(b"V.G.a.b.c.d.e.f.g.h.i")
+            .unwrap_err()
+            .contains("too few items, expected 10, found 9")
+    );
 }
 
 #[test]

@@ -123,6 +123,31 @@ export interface Dispatched {
 /** The function that a call received is to; the `adsError` of the exception is the number to answer with. */
 export function dispatch(received: Call): Dispatched;
 
+/** An index group in words; those that it has not are empty. */
+export interface Group {
+  task: string;
+  access: string;
+  addressing: string;
+  table: string;
+  objectClass: string;
+  attribute: string;
+  instance: number;
+}
+/** The parts of an index group; null for one that is not documented. */
+export function groupParts(indexGroup: number): Group | null;
+/** The index offset of an element of an axis; axis 0 is the channel itself. */
+export function axisOffset(axis: number, element: number, stride?: number): number;
+/** The axis and the element of an index offset. */
+export function axisAndElement(offset: number, stride?: number): [axis: number, element: number];
+
+/** The name of a variable, by its parts. */
+export interface Path {
+  kind: string;
+  parts: { name: string; indices: number[] }[];
+}
+/** Takes the name of a variable apart. */
+export function path(name: string): Path;
+
 /** A NetId and a port: ['192.0.2.7.1.1', 552] */
 export type Address = [netId: string, port: number];
 /** An AMS/TCP frame. */

@@ -289,6 +289,48 @@ export function dispatch(received) {
   };
 }
 
+// Addresses and names.
+
+const GROUP = ['task', 'access', 'addressing', 'table', 'objectClass', 'attribute'];
+
+/** The parts of an index group in words; null for one that is not documented. */
+export const groupParts = (indexGroup) => begin(() => {
+  const at = room(52);
+  if (!codec.ads_cnc_group(indexGroup, at)) return null;
+  return { ...Object.fromEntries(GROUP.map((name, n) => [name, word(at + 8 * n)])), instance: u32(at + 48) };
+});
+
+/** The index offset of an element of an axis; axis 0 is the channel itself. */
+export const axisOffset = (axis, element, stride = 0x10000) => begin(() => {
+  const out = room(4);
+  call('offset', stride, axis, element, out);
+  return u32(out);
+});
+
+/** The axis and the element of an index offset. */
+export const axisAndElement = (offset, stride = 0x10000) => begin(() => {
+  const out = room(8);
+  call('offset_parts', stride, offset, out, out + 4);
+  return numbers(out, 2);
+});
+
+/** Takes the name of a variable apart. */
+export function path(name) {
+  const data = textToCp1252(name);
+  const all = begin(() => {
+    const array = room(24 * 256), count = room(4);
+    call('path', put(data), data.length, array, 256, count);
+    return Array.from({ length: u32(count) }, (_, n) => numbers(array + 24 * n, 6));
+  });
+  const text = ([, , , offset, length]) => textFromCp1252(data.slice(offset, offset + length));
+  const parts = [];
+  for (const part of all.slice(1)) {
+    if (part[0] === 2) parts[part[1]].indices.push(part[5]);
+    else parts.push({ name: text(part), indices: [] });
+  }
+  return { kind: text(all[0]), parts };
+}
+
 // AMS/TCP frames, for programs without an ADS library.
 
 function putFrame(it) {

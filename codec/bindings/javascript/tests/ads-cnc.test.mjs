@@ -112,6 +112,17 @@ test('values are read by their types', () => {
   assert.throws(() => cnc.unpack(77, bytes(0)), TypeError);
 });
 
+test('addresses and names are taken apart', () => {
+  const { objectClass, attribute, table, instance } = cnc.groupParts(0x122301);
+  assert.deepEqual([objectClass, attribute, table, instance], ['decoder', 'content', '', 1]);
+  assert.equal(cnc.groupParts(0x133301), null);
+  assert.equal(cnc.axisOffset(2, 5), 0x20005);
+  assert.deepEqual(cnc.axisAndElement(0x20005, 0x1000), [0x20, 5]);
+  const parts = [{ name: 'NP', indices: [0] }, { name: 'Länge', indices: [1, 2] }];
+  assert.deepEqual(cnc.path('V.G.NP[0].Länge[1][2]'), { kind: 'V.G', parts });
+  assert.throws(() => cnc.path('V.G..a'), /variable-path: part/);
+});
+
 test('a server answers a call, or with a number', () => {
   const call = { port: 552, command: 9, indexGroup: 0x122301, indexOffset: 0x46, readLength: 4, data: ascii('V.E.vartest\0') };
   const received = cnc.dispatch(call);

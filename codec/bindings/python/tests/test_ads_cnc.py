@@ -135,6 +135,20 @@ class Streams(unittest.TestCase):
             self.assertRaises(ValueError, wrong)
 
 
+class Addresses(unittest.TestCase):
+    def test_they_are_taken_apart(self):
+        self.assertEqual(
+            ads_cnc.group_parts(0x122301),
+            ads_cnc.Group("SDA/GEO", "element", "logical", "", "decoder", "content", 1),
+        )
+        self.assertIsNone(ads_cnc.group_parts(0x133301))
+        self.assertEqual(ads_cnc.axis_offset(2, 5), 0x20005)
+        self.assertEqual(ads_cnc.axis_and_element(0x20005, 0x1000), (0x20, 5))
+        self.assertEqual(ads_cnc.path("V.G.NP[0].Länge[1][2]"), ("V.G", [("NP", [0]), ("Länge", [1, 2])]))
+        with self.assertRaisesRegex(ads_cnc.AdsCncError, "variable-path: part"):
+            ads_cnc.path("V.G..a")
+
+
 class Servers(unittest.TestCase):
     def test_a_call_is_answered(self):
         call = ads_cnc.Call(552, 9, 0x122301, 0x46, 4, b"V.E.vartest\0")

@@ -104,11 +104,19 @@ pub(crate) mod tables {
         layout::Stream::fields(stream).for_each(visit);
     }
 
+    fn join<'b>(
+        stream: Stream,
+        parts: &[(Field, &[u8])],
+        buf: &'b mut [u8],
+    ) -> Result<&'b [u8], Error> {
+        layout::Stream::join(stream, parts.iter().copied(), buf)
+    }
+
     fn walk(stream: Stream, bytes: &[u8], visit: fn(Segment<'_>)) -> Result<(), Error> {
         layout::Stream::walk(stream, bytes, visit)
     }
 
-    keep!(all, fields, walk);
+    keep!(all, fields, join, walk);
 }
 
 pub(crate) mod values {

@@ -104,6 +104,13 @@ class Frame(ctypes.Structure):
     ]
 
 
+class Group(ctypes.Structure):
+    _fields_ = [
+        *((name, Bytes) for name in "task access addressing table object_class attribute".split()),
+        ("instance", UINT32),
+    ]
+
+
 class Sender(ctypes.Structure):
     _fields_ = [("opaque", ctypes.c_uint64 * 152)]
 

@@ -382,6 +382,61 @@ def dispatch(call: Call) -> Dispatched:
     return Dispatched(function, arguments)
 
 
+class Group(NamedTuple):
+    """An index group in words; those that it has not are empty."""
+
+    task: str
+    access: str
+    addressing: str
+    table: str
+    object_class: str
+    attribute: str
+    instance: int
+
+
+def group_parts(index_group: int) -> Optional[Group]:
+    """The parts of an index group; None for one that is not documented."""
+    it = _abi.Group()
+    if not _abi.function("group")(UINT32(index_group), ctypes.byref(it)):
+        return None
+    return Group(*(getattr(it, name).text() for name in Group._fields[:-1]), it.instance)
+
+
+def axis_offset(axis: int, element: int, stride: int = 0x10000) -> int:
+    """The index offset of an element of an axis; axis 0 is the channel itself."""
+    offset = UINT32()
+    _call("offset", UINT32(stride), UINT32(axis), UINT32(element), ctypes.byref(offset))
+    return offset.value
+
+
+def axis_and_element(offset: int, stride: int = 0x10000) -> tuple[int, int]:
+    """The axis and the element of an index offset."""
+    axis, element = UINT32(), UINT32()
+    _call("offset_parts", UINT32(stride), UINT32(offset), ctypes.byref(axis), ctypes.byref(element))
+    return axis.value, element.value
+
+
+class Path(NamedTuple):
+    """The name of a variable, by its parts: each a name and its indices."""
+
+    kind: str
+    parts: list[tuple[str, list[int]]]
+
+
+def path(name: str) -> Path:
+    """Takes the name of a variable apart."""
+    data, room, count = text_to_cp1252(name), 256, UINT32()
+    array = (_abi.Field * room)()
+    _call("path", data, UINT32(len(data)), array, UINT32(room), ctypes.byref(count))
+    parts: list[tuple[str, list[int]]] = []
+    for it in array[1 : count.value]:
+        if it.field == 2:
+            parts[it.record][1].append(it.number)
+        else:
+            parts.append((text_from_cp1252(data[it.offset :][: it.length]), []))
+    return Path(text_from_cp1252(data[: array[0].length]), parts)
+
+
 class Frame(NamedTuple):
     """An AMS/TCP frame. A NetId is text, such as "192.0.2.7.1.1"."""
 
