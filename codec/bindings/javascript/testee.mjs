@@ -7,11 +7,23 @@ import { createInterface } from 'node:readline';
 import * as cnc from './dist/index.js';
 
 // What the streams say needs a type beside the bytes.
-const TYPED = { content: 'content', 'variable-value': 'value', 'variable-handle-write': 'value', 'variable-name-write': 'value' };
-const SERVICES = { '2,4': 'read-request', '3,4': 'write-request', '9,4': 'read-write-request',
-  '2,5': 'read-reply', '3,5': 'write-reply', '9,5': 'read-write-reply' };
+const TYPED = {
+  content: 'content',
+  'variable-value': 'value',
+  'variable-handle-write': 'value',
+  'variable-name-write': 'value',
+};
+const SERVICES = {
+  '2,4': 'read-request',
+  '3,4': 'write-request',
+  '9,4': 'read-write-request',
+  '2,5': 'read-reply',
+  '3,5': 'write-reply',
+  '9,5': 'read-write-reply',
+};
 const STREAMS = [...Object.keys(cnc.STREAMS), 'ams-frame', 'variable-path', 'index-group', 'index-offset'];
-const OPS = ['decode', 'encode', 'packets'], EDITIONS = ['en-1.05', 'de-1.051'];
+const OPS = ['decode', 'encode', 'packets'],
+  EDITIONS = ['en-1.05', 'de-1.051'];
 
 class Unsupported extends Error {}
 
@@ -22,7 +34,9 @@ const concat = (parts) => Uint8Array.from(parts.flatMap((part) => Array.from(par
 const typeOf = (name) => cnc.TYPES.find((it) => [it.name, it.objectName].includes(name));
 
 function text(data, isPadded) {
-  const at = data.indexOf(0), head = at < 0 ? data : data.slice(0, at), tail = data.slice(at + 1);
+  const at = data.indexOf(0),
+    head = at < 0 ? data : data.slice(0, at),
+    tail = data.slice(at + 1);
   const out = { type: 'STRING', hex: hex(head), value: cnc.textFromCp1252(head) };
   if (at < 0) out.open = true;
   else if (tail.length && !(isPadded && tail.every((byte) => byte === 0))) out.tail = hex(tail);
@@ -30,7 +44,8 @@ function text(data, isPadded) {
 }
 
 function number(type, data) {
-  const bits = BigInt(`0x${hex(Uint8Array.from(data).reverse())}`), it = typeOf(type);
+  const bits = BigInt(`0x${hex(Uint8Array.from(data).reverse())}`),
+    it = typeOf(type);
   if (it.kind === 3) return { type, bits: `0x${bits.toString(16).padStart(2 * it.size, '0')}` };
   return { type, value: String(it.kind === 2 ? BigInt.asIntN(8 * it.size, bits) : bits) };
 }
@@ -39,9 +54,11 @@ function elements({ type, dimensions = [] }, data) {
   if (!typeOf(type)) throw new Unsupported('context');
   // The package says whether so many bytes can be the value.
   cnc.unpack(type, data, dimensions);
-  const count = dimensions.reduce((product, one) => product * one, 1), size = data.length / Math.max(count, 1);
-  return Array.from({ length: count }, (_, at) => data.slice(at * size, (at + 1) * size))
-    .map((part) => (type === 'STRING' ? text(part) : number(type, part)));
+  const count = dimensions.reduce((product, one) => product * one, 1),
+    size = data.length / Math.max(count, 1);
+  return Array.from({ length: count }, (_, at) => data.slice(at * size, (at + 1) * size)).map((part) =>
+    type === 'STRING' ? text(part) : number(type, part),
+  );
 }
 
 function valueOf(row, data) {
@@ -55,16 +72,20 @@ function valueOf(row, data) {
 function decode(stream, data, context) {
   if (OTHERS[stream]) return OTHERS[stream].decode(data, context);
   if (stream === 'ams-frame') return decodeFrame(data);
-  const rows = cnc.STREAMS[stream].fields.filter((row) => !row.isCount), records = [];
+  const rows = cnc.STREAMS[stream].fields.filter((row) => !row.isCount),
+    records = [];
   for (const field of cnc.fields(stream, data)) {
-    if (field.record === records.length) records.push(Object.fromEntries(rows.filter((row) => row.isList).map((row) => [row.name, []])));
-    const row = rows.find((one) => one.name === field.name), record = records[field.record];
+    if (field.record === records.length)
+      records.push(Object.fromEntries(rows.filter((row) => row.isList).map((row) => [row.name, []])));
+    const row = rows.find((one) => one.name === field.name),
+      record = records[field.record];
     if (!row) continue;
-    if (TYPED[stream] === field.name && (stream !== 'content' || Object.keys(context).length)) record[field.name] = elements(context, field.data);
+    if (TYPED[stream] === field.name && (stream !== 'content' || Object.keys(context).length))
+      record[field.name] = elements(context, field.data);
     else if (row.isList) record[field.name].push(valueOf(row, field.data));
     else record[field.name] = valueOf(row, field.data);
   }
-  return cnc.STREAMS[stream].repeats ? { descriptors: records } : records[0] ?? {};
+  return cnc.STREAMS[stream].repeats ? { descriptors: records } : (records[0] ?? {});
 }
 
 const numberOf = (type, value) => ({ type, value: String(value) });
@@ -78,12 +99,19 @@ const OTHERS = {
     decode(data) {
       if (data.includes(0)) throw new RangeError('a NUL in a name');
       const { kind, parts } = cnc.path(cnc.textFromCp1252(data));
-      return { kind: openText(kind), parts: parts.map(({ name, indices }) =>
-        ({ name: openText(name), indices: indices.map((index) => numberOf('UNS32', index)) })) };
+      return {
+        kind: openText(kind),
+        parts: parts.map(({ name, indices }) => ({
+          name: openText(name),
+          indices: indices.map((index) => numberOf('UNS32', index)),
+        })),
+      };
     },
     encode({ kind, parts }) {
       const textOf = (part) => cnc.textFromCp1252(unhex(part.hex));
-      const all = parts.map((part) => textOf(part.name) + part.indices.map(({ value }) => `[${BigInt(value)}]`).join(''));
+      const all = parts.map(
+        (part) => textOf(part.name) + part.indices.map(({ value }) => `[${BigInt(value)}]`).join(''),
+      );
       const name = [textOf(kind), ...all].join('.');
       cnc.path(name);
       return cnc.textToCp1252(name);
@@ -91,12 +119,15 @@ const OTHERS = {
   },
   'index-group': {
     decode(data, { base }) {
-      const number = count(data), out = { index_group: numberOf('UNS32', number) };
-      if (base && !(number >= Number(base) && number - Number(base) <= 255)) throw new RangeError('not of this base');
+      const number = count(data),
+        out = { index_group: numberOf('UNS32', number) };
+      if (base && !(number >= Number(base) && number - Number(base) <= 255))
+        throw new RangeError('not of this base');
       const group = cnc.groupParts(number);
       if (!group) return out;
       for (const [name, value] of Object.entries(group)) {
-        const isTask = name === 'task', words = isTask ? value : String(value).toLowerCase().replaceAll(' ', '-');
+        const isTask = name === 'task',
+          words = isTask ? value : String(value).toLowerCase().replaceAll(' ', '-');
         if (name !== 'instance' && value) out[WORDS[name] ?? name] = { type: 'NAME', value: words };
       }
       return { ...out, instance: numberOf('UNS08', group.instance) };
@@ -118,12 +149,17 @@ function decodeFrame(data) {
   const found = cnc.readFrame(data);
   if (found?.length !== data.length) throw new RangeError('not one frame');
   const { frame } = found;
-  const out = { ams_tcp_header: decode('ams-tcp-header', data.slice(0, 6), {}), ams_header: decode('ams-header', data.slice(6, 38), {}) };
+  const out = {
+    ams_tcp_header: decode('ams-tcp-header', data.slice(0, 6), {}),
+    ams_header: decode('ams-header', data.slice(6, 38), {}),
+  };
   delete out.ams_tcp_header.length;
   delete out.ams_header.data_length;
   if (frame.data.length || !frame.error) {
     const service = SERVICES[[frame.command, frame.stateFlags]];
-    out[service ? under(service) : 'data'] = service ? decode(service, frame.data, {}) : { type: 'BYTES', hex: hex(frame.data) };
+    out[service ? under(service) : 'data'] = service
+      ? decode(service, frame.data, {})
+      : { type: 'BYTES', hex: hex(frame.data) };
   }
   return out;
 }
@@ -131,8 +167,14 @@ function decodeFrame(data) {
 function write(part) {
   if (Array.isArray(part)) return concat(part.map(write));
   if (part.type === 'NETID') return Uint8Array.from(part.value.split('.'));
-  if ('hex' in part) return concat([unhex(part.hex), 'open' in part || part.type === 'BYTES' ? [] : [0], unhex(part.tail ?? '')]);
-  const { size } = typeOf(part.type), bits = BigInt.asUintN(8 * size, BigInt(part.bits ?? part.value));
+  if ('hex' in part)
+    return concat([
+      unhex(part.hex),
+      'open' in part || part.type === 'BYTES' ? [] : [0],
+      unhex(part.tail ?? ''),
+    ]);
+  const { size } = typeOf(part.type),
+    bits = BigInt.asUintN(8 * size, BigInt(part.bits ?? part.value));
   return unhex(bits.toString(16).padStart(2 * size, '0')).reverse();
 }
 
@@ -140,29 +182,53 @@ function encode(stream, given, context) {
   if (OTHERS[stream]) return OTHERS[stream].encode(given, context);
   if (stream === 'ams-frame') return encodeFrame(given);
   const { fields, repeats } = cnc.STREAMS[stream];
-  return cnc.join(stream, (repeats ? given.descriptors : [given]).flatMap((record) => fields
-    .filter((row) => row.name in record)
-    .flatMap((row) => (row.isList ? record[row.name] : [record[row.name]]).map((item) => {
-      const data = write(item);
-      // A text that fills its field has no NUL.
-      return [row.name, row.kind === 4 && row.size ? data.slice(0, row.size) : data];
-    }))));
+  return cnc.join(
+    stream,
+    (repeats ? given.descriptors : [given]).flatMap((record) =>
+      fields
+        .filter((row) => row.name in record)
+        .flatMap((row) =>
+          (row.isList ? record[row.name] : [record[row.name]]).map((item) => {
+            const data = write(item);
+            // A text that fills its field has no NUL.
+            return [row.name, row.kind === 4 && row.size ? data.slice(0, row.size) : data];
+          }),
+        ),
+    ),
+  );
 }
 
 function encodeFrame(given) {
-  const header = Object.fromEntries(Object.entries(given.ams_header).map(([name, part]) => [name, part.value]));
+  const header = Object.fromEntries(
+    Object.entries(given.ams_header).map(([name, part]) => [name, part.value]),
+  );
   const end = (name) => [header[`${name}_net_id`], Number(header[`${name}_port`])];
   const service = Object.keys(given).find((name) => !['ams_tcp_header', 'ams_header'].includes(name));
-  const data = !service ? new Uint8Array() : service === 'data' ? write(given.data) : encode(service.replaceAll('_', '-'), given[service]);
-  const [command, stateFlags, error, invokeId] = ['command', 'state_flags', 'error', 'invoke_id'].map((name) => Number(header[name]));
-  return cnc.encodeFrame({ target: end('target'), source: end('source'), command, stateFlags, error, invokeId, data });
+  const data = !service
+    ? new Uint8Array()
+    : service === 'data'
+      ? write(given.data)
+      : encode(service.replaceAll('_', '-'), given[service]);
+  const [command, stateFlags, error, invokeId] = ['command', 'state_flags', 'error', 'invoke_id'].map(
+    (name) => Number(header[name]),
+  );
+  return cnc.encodeFrame({
+    target: end('target'),
+    source: end('source'),
+    command,
+    stateFlags,
+    error,
+    invokeId,
+    data,
+  });
 }
 
 function work(asked) {
   if (!OPS.includes(asked.op)) throw new Unsupported('op');
   if (!EDITIONS.includes(asked.edition)) throw new Unsupported('edition');
   if (asked.op === 'packets') {
-    const sender = new cnc.Sender(unhex(asked.hex)), packets = [];
+    const sender = new cnc.Sender(unhex(asked.hex)),
+      packets = [];
     for (let packet; (packet = sender.packet()); sender.acknowledge(0)) packets.push(hex(packet));
     return { packets };
   }
@@ -184,7 +250,8 @@ function answer(line) {
     return { seq, ok: work(asked) };
   } catch (error) {
     if (error instanceof Unsupported) return { seq, unsupported: { what: error.message } };
-    if (error instanceof cnc.AdsCncError) return { seq, reject: { class: error.kind, at: error.offset, message: error.message } };
+    if (error instanceof cnc.AdsCncError)
+      return { seq, reject: { class: error.kind, at: error.offset, message: error.message } };
     if (error instanceof RangeError) return { seq, reject: { class: 'value', message: error.message } };
     return { seq, error: { message: String(error) } };
   }

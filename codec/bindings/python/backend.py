@@ -23,6 +23,10 @@ def platform():
     return name.replace("linux_", "manylinux_2_17_") if name.startswith("linux_") else name
 
 
+def digest(data):
+    return base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     package = HERE / "src" / "ads_cnc"
     files = {
@@ -48,10 +52,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files[f"{info}/METADATA"] = "\n".join(metadata).encode()
     files[f"{info}/WHEEL"] = "\n".join(wheel).encode()
     files |= {f"{info}/licenses/{path.name}": path.read_bytes() for path in LICENCES}
-    record = [
-        f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
-        for path, data in files.items()
-    ]
+    record = [f"{path},sha256={digest(data)},{len(data)}" for path, data in files.items()]
     files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
     output = f"{name}-{version}-{tag}.whl"
     with zipfile.ZipFile(pathlib.Path(wheel_directory, output), "w", zipfile.ZIP_DEFLATED) as archive:

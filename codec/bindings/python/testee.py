@@ -131,7 +131,10 @@ def decode_group(data, context):
     if group:
         words = {"object_class": "class", "attribute": "attribute"}
         out |= named(
-            **{words.get(name, name): word.lower().replace(" ", "-") for name, word in zip(group._fields, group[:-1])}
+            **{
+                words.get(name, name): word.lower().replace(" ", "-")
+                for name, word in zip(group._fields, group[:-1])
+            }
         )
         out |= named(task=group.task) | {"instance": number_of("UNS08", group.instance)}
     return out
@@ -149,7 +152,10 @@ def encode_path(given, _):
     def text(part):
         return ads_cnc.text_from_cp1252(bytes.fromhex(part["hex"]))
 
-    parts = [text(part["name"]) + "".join(f"[{int(one['value'])}]" for one in part["indices"]) for part in given["parts"]]
+    parts = [
+        text(part["name"]) + "".join(f"[{int(one['value'])}]" for one in part["indices"])
+        for part in given["parts"]
+    ]
     name = ".".join([text(given["kind"]), *parts])
     ads_cnc.path(name)
     return ads_cnc.text_to_cp1252(name)

@@ -1,6 +1,6 @@
 // A client and a server, joined by the call of Beckhoff's AdsLib. `Send` has the signature of
-// AdsSyncReadWriteReqEx2, so with AdsLib it is that function; here a small CNC answers instead, which shows the
-// side of a server. Everything else stays as it is.
+// AdsSyncReadWriteReqEx2, so with AdsLib it is that function; here a small CNC answers instead, which shows
+// the side of a server. Everything else stays as it is.
 #include "ads_cnc.h"
 
 #include <cstdio>
@@ -9,10 +9,16 @@
 #include <vector>
 
 // As AdsDef.h has them.
-struct AmsNetId { uint8_t b[6]; };
-struct AmsAddr { AmsNetId netId; uint16_t port; };
-using Send = long (*)(long port, const AmsAddr *address, uint32_t group, uint32_t offset, uint32_t read_length,
-                      void *read, uint32_t write_length, const void *written, uint32_t *bytes_read);
+struct AmsNetId {
+    uint8_t b[6];
+};
+struct AmsAddr {
+    AmsNetId netId;
+    uint16_t port;
+};
+using Send = long (*)(long port, const AmsAddr *address, uint32_t group, uint32_t offset,
+                      uint32_t read_length, void *read, uint32_t write_length, const void *written,
+                      uint32_t *bytes_read);
 
 static std::string text(AdsCncBytes it) { return {reinterpret_cast<const char *>(it.data), it.length}; }
 static AdsCncBytes bytes(const std::string &it) {
@@ -26,13 +32,14 @@ static uint32_t function(const char *name) {
 }
 
 // A CNC with one variable, V.E.a, whose handle is 7.
-static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, uint32_t read_length, void *read,
-                uint32_t write_length, const void *written, uint32_t *bytes_read) {
-    AdsCncCall call{address->port, 9, group, offset, read_length,
-                    {static_cast<const uint8_t *>(written), write_length}};
+static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, uint32_t read_length,
+                void *read, uint32_t write_length, const void *written, uint32_t *bytes_read) {
+    const AdsCncBytes data{static_cast<const uint8_t *>(written), write_length};
+    const AdsCncCall call{address->port, 9, group, offset, read_length, data};
     AdsCncRequest request;
     uint32_t indices[510], refusal;
-    if (!ads_cnc_dispatch(&call, indices, 510, &request, &refusal, nullptr)) return static_cast<long>(refusal);
+    if (!ads_cnc_dispatch(&call, indices, 510, &request, &refusal, nullptr))
+        return static_cast<long>(refusal);
     const uint32_t invalid_size = 0x705, unknown = 0x710, unsupported = 0x701;
     if (request.function != function("HandleByName")) return unsupported;
     if (text(request.name) != "V.E.a") return unknown;
@@ -44,7 +51,8 @@ static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, u
 }
 
 // The handle of a variable.
-static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, uint32_t &handle, std::string &fault) {
+static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, uint32_t &handle,
+                      std::string &fault) {
     AdsCncRequest request{};
     request.function = function("HandleByName");
     request.channel = 1;
@@ -68,7 +76,8 @@ static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, ui
         return false;
     }
     // The length that was received, not that of the buffer.
-    if (!ads_cnc_decode_reply(&request, reply.data(), bytes_read, &field, 1, &count, &error)) return refused();
+    if (!ads_cnc_decode_reply(&request, reply.data(), bytes_read, &field, 1, &count, &error))
+        return refused();
     handle = field.number;
     return true;
 }
@@ -80,10 +89,8 @@ int main() {
         uint32_t handle = 0;
         std::string fault;
         const std::string whole = name[4] == '\n' ? std::string(name, 7) : name;
-        if (handle_of(cnc, address, whole, handle, fault))
-            std::printf("%s: handle %u\n", name, handle);
-        else
-            std::printf("%s\n", fault.c_str());
+        if (handle_of(cnc, address, whole, handle, fault)) std::printf("%s: handle %u\n", name, handle);
+        else std::printf("%s\n", fault.c_str());
     }
     return 0;
 }

@@ -72,7 +72,8 @@ static AdsCncBytes ask(int connection, const uint8_t net_id[6], const AdsCncCall
     /* The data of the frame is a stream too: result, length, data. */
     AdsCncField fields[3];
     uint32_t count = 0, reply = ads_cnc_stream("read-write-reply", 16);
-    if (!ads_cnc_decode(reply, frame.data.data, frame.data.length, fields, 3, &count, &error)) refuse(&error);
+    if (!ads_cnc_decode(reply, frame.data.data, frame.data.length, fields, 3, &count, &error))
+        refuse(&error);
     if (fields[0].number != 0) {
         fprintf(stderr, "ADS error 0x%x\n", fields[0].number);
         exit(1);
@@ -107,8 +108,8 @@ static void show(const AdsCncType *type, const uint8_t *at) {
 
 int main(int argc, char **argv) {
     unsigned part[6];
-    if (argc != 6 || sscanf(argv[3], "%u.%u.%u.%u.%u.%u", part, part + 1, part + 2, part + 3, part + 4,
-                            part + 5) != 6)
+    if (argc != 6 ||
+        sscanf(argv[3], "%u.%u.%u.%u.%u.%u", part, part + 1, part + 2, part + 3, part + 4, part + 5) != 6)
         die("read_variable HOST PORT NET-ID CHANNEL NAME");
     if (ads_cnc_abi() != ADS_CNC_ABI) die("a library of another version");
     uint8_t net_id[6], data[512];
@@ -119,8 +120,8 @@ int main(int argc, char **argv) {
     AdsCncRequest request = {0};
     uint8_t name[256];
     uint32_t length = 0;
-    if (!ads_cnc_text_from_utf8((const uint8_t *)argv[5], (uint32_t)strlen(argv[5]), name, sizeof name, &length,
-                                &error))
+    if (!ads_cnc_text_from_utf8((const uint8_t *)argv[5], (uint32_t)strlen(argv[5]), name, sizeof name,
+                                &length, &error))
         refuse(&error);
     request.channel = (uint32_t)strtoul(argv[4], NULL, 10);
     request.name = (AdsCncBytes){name, length};
@@ -132,7 +133,8 @@ int main(int argc, char **argv) {
     request.function = ads_cnc_function("DescribeByName", 14);
     if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) refuse(&error);
     AdsCncBytes reply = ask(connection, net_id, &call);
-    if (!ads_cnc_decode_reply(&request, reply.data, reply.length, fields, 512, &count, &error)) refuse(&error);
+    if (!ads_cnc_decode_reply(&request, reply.data, reply.length, fields, 512, &count, &error))
+        refuse(&error);
     uint32_t type_field = ads_cnc_field(ads_cnc_stream("variable-description-by-name", 28), "type", 4);
     for (uint32_t at = 0; at < count; at++)
         if (fields[at].field == type_field) code = fields[at].number;
@@ -145,12 +147,14 @@ int main(int argc, char **argv) {
     request.function = ads_cnc_function("ReadByName", 10);
     if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) refuse(&error);
     reply = ask(connection, net_id, &call);
-    if (!ads_cnc_decode_reply(&request, reply.data, reply.length, fields, 512, &count, &error)) refuse(&error);
+    if (!ads_cnc_decode_reply(&request, reply.data, reply.length, fields, 512, &count, &error))
+        refuse(&error);
     const uint8_t *value = reply.data + fields[0].offset;
     printf("%s: %.*s", argv[5], (int)type.name.length, (const char *)type.name.data);
     if (type.kind == ADS_CNC_TYPE_TEXT) {
         uint8_t text[3 * 2048];
-        if (!ads_cnc_text_to_utf8(value, fields[0].length, text, sizeof text, &length, &error)) refuse(&error);
+        if (!ads_cnc_text_to_utf8(value, fields[0].length, text, sizeof text, &length, &error))
+            refuse(&error);
         printf(" %.*s", (int)length, (const char *)text);
     } else {
         for (uint32_t at = 0; at + type.size <= fields[0].length; at += type.size) show(&type, value + at);

@@ -11,7 +11,7 @@
 
 #define PICK(of64, of32) (sizeof(void *) == 8 ? (of64) : (of32))
 #define SIZE(type, of64, of32) CHECK(sizeof(type) == PICK(of64, of32), "size of " #type);
-#define FIELD(type, field, of64, of32) \
+#define FIELD(type, field, of64, of32)                                                                     \
     CHECK(offsetof(type, field) == PICK(of64, of32), "offset of " #type "." #field);
 #include "layout.h"
 

@@ -221,4 +221,3 @@ export class Host {
   /** What became of the last answer. */
   get outcome(): 'answered' | 'abandoned' | null;
 }
-

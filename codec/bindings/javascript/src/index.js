@@ -1,7 +1,8 @@
 // The byte streams with which an ISG/TwinCAT CNC is read and written over ADS. The codec is WebAssembly;
 // ads_cnc.h documents its functions. What is behind the last line of this file is generated at the build.
 
-const ABI = 1, NONE = 0xffffffff;
+const ABI = 1,
+  NONE = 0xffffffff;
 const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0));
 const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});
 if (codec.ads_cnc_abi() !== ABI) throw new Error(`ABI ${codec.ads_cnc_abi()}, ${ABI} needed`);
@@ -47,7 +48,10 @@ export class AdsCncError extends Error {
     const [, , , offset, expected, found] = numbers(at, 6);
     const [stream, field, kind] = [24, 32, 40].map((part) => word(at + part));
     const place = [stream, field].filter(Boolean).join(': ');
-    super(`${place} at offset ${offset}: ${kind}${expected || found ? `, expected ${expected}, found ${found}` : ''}`);
+    super(
+      `${place} at offset ${offset}: ${kind}` +
+        (expected || found ? `, expected ${expected}, found ${found}` : ''),
+    );
     Object.assign(this, { name: 'AdsCncError', stream, field, offset, kind, expected, found, adsError: 0 });
     // Its number is for this module.
     Object.defineProperty(this, 'number', { value: u32(at) });
@@ -83,21 +87,36 @@ function begin(work) {
 
 /** The rows of a table, from 0 on. */
 function each(name, size, read, ...before) {
-  const rows = [], at = room(size);
+  const rows = [],
+    at = room(size);
   while (codec[`ads_cnc_${name}`](...before, rows.length, at)) rows.push(read(at, rows.length));
   return rows;
 }
 
 const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
 
-const streams = begin(() => each('stream_info', 28, (at, number) => {
-  const fields = each('field_info', 40, (row) => {
-    const [kind, size, isCount, isList] = numbers(row + 24, 4);
-    const [name, meaning, clause] = [0, 8, 16].map((part) => word(row + part));
-    return { name, meaning, clause, kind, size, isCount: !!isCount, isList: !!isList };
-  }, number);
-  return { name: word(at), title: word(at + 8), max: u32(at + 16), repeats: !!u32(at + 24), fields, number };
-}));
+const streams = begin(() =>
+  each('stream_info', 28, (at, number) => {
+    const fields = each(
+      'field_info',
+      40,
+      (row) => {
+        const [kind, size, isCount, isList] = numbers(row + 24, 4);
+        const [name, meaning, clause] = [0, 8, 16].map((part) => word(row + part));
+        return { name, meaning, clause, kind, size, isCount: !!isCount, isList: !!isList };
+      },
+      number,
+    );
+    return {
+      name: word(at),
+      title: word(at + 8),
+      max: u32(at + 16),
+      repeats: !!u32(at + 24),
+      fields,
+      number,
+    };
+  }),
+);
 export const STREAMS = Object.fromEntries(streams.map((stream) => [stream.name, stream]));
 
 const argument = (number) => {
@@ -106,27 +125,43 @@ const argument = (number) => {
   return word(at);
 };
 
-export const FUNCTIONS = begin(() => each('function_info', 72, (at, number) => {
-  const [port, command, effect, request, reply, count] = numbers(at + 16, 6);
-  const [asked, answered] = [request, reply].map((one) => (one === NONE ? null : streams[one].name));
-  const names = numbers(at + 40, count).map(argument);
-  return { name: word(at), operation: word(at + 8), port, command, effect, request: asked, reply: answered,
-    arguments: names, number };
-}));
+export const FUNCTIONS = begin(() =>
+  each('function_info', 72, (at, number) => {
+    const [port, command, effect, request, reply, count] = numbers(at + 16, 6);
+    const [asked, answered] = [request, reply].map((one) => (one === NONE ? null : streams[one].name));
+    const names = numbers(at + 40, count).map(argument);
+    return {
+      name: word(at),
+      operation: word(at + 8),
+      port,
+      command,
+      effect,
+      request: asked,
+      reply: answered,
+      arguments: names,
+      number,
+    };
+  }),
+);
 
 /** CP1252 before the first NUL, or all, as text. */
-export const textFromCp1252 = (data) => begin(() =>
-  new TextDecoder('utf-8', { ignoreBOM: true })
-    .decode(sized(3 * data.length, 'text_to_utf8', put(data), data.length)));
+export const textFromCp1252 = (data) =>
+  begin(() =>
+    new TextDecoder('utf-8', { ignoreBOM: true }).decode(
+      sized(3 * data.length, 'text_to_utf8', put(data), data.length),
+    ),
+  );
 
 /** A text as CP1252, without a NUL. */
-export const textToCp1252 = (text) => begin(() => {
-  const utf8 = new TextEncoder().encode(text);
-  return sized(utf8.length, 'text_from_utf8', put(utf8), utf8.length);
-});
+export const textToCp1252 = (text) =>
+  begin(() => {
+    const utf8 = new TextEncoder().encode(text);
+    return sized(utf8.length, 'text_from_utf8', put(utf8), utf8.length);
+  });
 
 function found(stream, data, name, before) {
-  const at = put(data), count = room(4);
+  const at = put(data),
+    count = room(4);
   for (let size = 64; ; size = u32(count)) {
     const array = room(24 * size);
     try {
@@ -137,7 +172,13 @@ function found(stream, data, name, before) {
     }
     return Array.from({ length: u32(count) }, (_, n) => {
       const [field, record, item, offset, length] = numbers(array + 24 * n, 5);
-      return { name: stream.fields[field].name, record, item, offset, data: data.slice(offset, offset + length) };
+      return {
+        name: stream.fields[field].name,
+        record,
+        item,
+        offset,
+        data: data.slice(offset, offset + length),
+      };
     });
   }
 }
@@ -149,18 +190,20 @@ function named(stream) {
 }
 
 /** The fields of a stream, with their bytes. */
-export const fields = (stream, data) => begin(() => found(named(stream), data, 'decode', named(stream).number));
+export const fields = (stream, data) =>
+  begin(() => found(named(stream), data, 'decode', named(stream).number));
 
-/** A stream from the bytes of its fields, [name, bytes] each; the reverse of `fields`. Counts may be left out. */
-export const join = (stream, parts) => begin(() => {
-  const it = named(stream);
-  const all = parts.flatMap(([name, data]) => {
-    const field = it.fields.findIndex((row) => row.name === name);
-    return [field < 0 ? NONE : field, 0, put(data), data.length];
+/** A stream from the bytes of its fields, [name, bytes] each: the reverse of `fields`, without counts. */
+export const join = (stream, parts) =>
+  begin(() => {
+    const it = named(stream);
+    const all = parts.flatMap(([name, data]) => {
+      const field = it.fields.findIndex((row) => row.name === name);
+      return [field < 0 ? NONE : field, 0, put(data), data.length];
+    });
+    const size = parts.reduce((sum, [, data]) => sum + data.length, 64);
+    return sized(size, 'build', it.number, putNumbers(...all), parts.length);
   });
-  const size = parts.reduce((sum, [, data]) => sum + data.length, 64);
-  return sized(size, 'build', it.number, putNumbers(...all), parts.length);
-});
 
 const little = (data) => data.reduceRight((sum, byte) => sum * 256 + byte, 0);
 const dataView = (data) => new DataView(data.buffer, data.byteOffset, data.byteLength);
@@ -192,9 +235,11 @@ function write(row, value) {
 const shown = (stream) => stream.fields.filter((row) => !row.isCount);
 
 function valueOf(stream, parts) {
-  const rows = shown(stream), records = [];
+  const rows = shown(stream),
+    records = [];
   for (const part of parts) {
-    if (part.record === records.length) records.push(Object.fromEntries(rows.map((row) => [camel(row.name), row.isList ? [] : null])));
+    if (part.record === records.length)
+      records.push(Object.fromEntries(rows.map((row) => [camel(row.name), row.isList ? [] : null])));
     const row = rows.find((one) => one.name === part.name);
     if (row?.isList) records[part.record][camel(row.name)].push(read(row, part.data));
     else if (row) records[part.record][camel(row.name)] = read(row, part.data);
@@ -209,16 +254,24 @@ export const decode = (stream, data) => valueOf(named(stream), fields(stream, da
 
 /** The bytes of a stream, the reverse of `decode`; bytes are written as they are. */
 export function encode(stream, value) {
-  const it = named(stream), rows = shown(it);
+  const it = named(stream),
+    rows = shown(it);
   const records = it.repeats ? value : value === null || value === undefined ? [] : [value];
-  return join(stream, records.flatMap((record) => rows.flatMap((row) => {
-    const one = rows.length > 1 ? record[camel(row.name)] : record;
-    if (one === null || one === undefined) return [];
-    return (row.isList ? Array.from(one) : [one]).map((item) => [row.name, write(row, item)]);
-  })));
+  return join(
+    stream,
+    records.flatMap((record) =>
+      rows.flatMap((row) => {
+        const one = rows.length > 1 ? record[camel(row.name)] : record;
+        if (one === null || one === undefined) return [];
+        return (row.isList ? Array.from(one) : [one]).map((item) => [row.name, write(row, item)]);
+      }),
+    ),
+  );
 }
 
-const NUMBERS = 'function channel by_index axis index count size handle index_group index_offset'.split(' ');
+const NUMBERS = 'function channel by_index axis index count size handle index_group index_offset'.split(
+  ' ',
+);
 const TEXTS = ['kind', 'name', 'value'];
 
 /** The address of an AdsCncRequest; texts were converted before, as that uses the memory too. */
@@ -236,7 +289,10 @@ function putRequest(number, given) {
 }
 
 const CALL = ['port', 'command', 'indexGroup', 'indexOffset', 'readLength'];
-const callAt = (at) => ({ ...Object.fromEntries(numbers(at, 5).map((number, n) => [CALL[n], number])), data: lent(at + 20) });
+const callAt = (at) => ({
+  ...Object.fromEntries(numbers(at, 5).map((number, n) => [CALL[n], number])),
+  data: lent(at + 20),
+});
 const putCall = (it) => putNumbers(...CALL.map((name) => it[name]), put(it.data), it.data.length);
 
 /** A function of this module for a function of the CNC. */
@@ -247,10 +303,14 @@ function operation(number) {
     const given = Object.fromEntries(it.arguments.map((name, n) => [name, values[n]]));
     if ('byIndex' in options) given.by_index = options.byIndex;
     if ('axis' in options) given.axis = options.axis;
-    for (const name of ['kind', 'name']) if (typeof given[name] === 'string') given[name] = textToCp1252(given[name]);
-    if (given.value && !(given.value instanceof Uint8Array)) throw new TypeError('value: bytes expected, see `pack`');
+    for (const name of ['kind', 'name'])
+      if (typeof given[name] === 'string') given[name] = textToCp1252(given[name]);
+    if (given.value && !(given.value instanceof Uint8Array))
+      throw new TypeError('value: bytes expected, see `pack`');
     const sent = begin(() => {
-      const at = putRequest(number, given), out = room(28), size = 4096 + (given.value?.length ?? 0);
+      const at = putRequest(number, given),
+        out = room(28),
+        size = 4096 + (given.value?.length ?? 0);
       call('encode', at, room(size), size, out);
       return callAt(out);
     });
@@ -269,19 +329,31 @@ function operation(number) {
 /** The function that a call received is to; the `adsError` of the exception is the number to answer with. */
 export function dispatch(received) {
   const [it, indices, number, texts] = begin(() => {
-    const at = putCall(received), list = room(4 * 512), out = room(72), refusal = room(4);
+    const at = putCall(received),
+      list = room(4 * 512),
+      out = room(72),
+      refusal = room(4);
     try {
       call('dispatch', at, list, 512, out, refusal);
     } catch (error) {
       throw Object.assign(error, { adsError: u32(refusal) });
     }
     const given = Object.fromEntries(numbers(out, 10).map((value, n) => [NUMBERS[n], value]));
-    return [given, numbers(list, u32(out + 68)), given.function, TEXTS.map((_, n) => lent(out + 40 + 8 * n))];
+    return [
+      given,
+      numbers(list, u32(out + 68)),
+      given.function,
+      TEXTS.map((_, n) => lent(out + 40 + 8 * n)),
+    ];
   });
-  const [kind, name] = texts.slice(0, 2).map(textFromCp1252), row = FUNCTIONS[number];
+  const [kind, name] = texts.slice(0, 2).map(textFromCp1252),
+    row = FUNCTIONS[number];
   const all = { ...it, kind, name, value: texts[2], indices };
   const more = ['axis', 'by_index'].filter((one) => !row.arguments.includes(one) && it[one]);
-  const given = [...row.arguments, ...more].map((one) => [camel(one), one === 'by_index' ? true : all[one]]);
+  const given = [...row.arguments, ...more].map((one) => [
+    camel(one),
+    one === 'by_index' ? true : all[one],
+  ]);
   return {
     function: row,
     arguments: Object.fromEntries(given),
@@ -294,31 +366,38 @@ export function dispatch(received) {
 const GROUP = ['task', 'access', 'addressing', 'table', 'objectClass', 'attribute'];
 
 /** The parts of an index group in words; null for one that is not documented. */
-export const groupParts = (indexGroup) => begin(() => {
-  const at = room(52);
-  if (!codec.ads_cnc_group(indexGroup, at)) return null;
-  return { ...Object.fromEntries(GROUP.map((name, n) => [name, word(at + 8 * n)])), instance: u32(at + 48) };
-});
+export const groupParts = (indexGroup) =>
+  begin(() => {
+    const at = room(52);
+    if (!codec.ads_cnc_group(indexGroup, at)) return null;
+    return {
+      ...Object.fromEntries(GROUP.map((name, n) => [name, word(at + 8 * n)])),
+      instance: u32(at + 48),
+    };
+  });
 
 /** The index offset of an element of an axis; axis 0 is the channel itself. */
-export const axisOffset = (axis, element, stride = 0x10000) => begin(() => {
-  const out = room(4);
-  call('offset', stride, axis, element, out);
-  return u32(out);
-});
+export const axisOffset = (axis, element, stride = 0x10000) =>
+  begin(() => {
+    const out = room(4);
+    call('offset', stride, axis, element, out);
+    return u32(out);
+  });
 
 /** The axis and the element of an index offset. */
-export const axisAndElement = (offset, stride = 0x10000) => begin(() => {
-  const out = room(8);
-  call('offset_parts', stride, offset, out, out + 4);
-  return numbers(out, 2);
-});
+export const axisAndElement = (offset, stride = 0x10000) =>
+  begin(() => {
+    const out = room(8);
+    call('offset_parts', stride, offset, out, out + 4);
+    return numbers(out, 2);
+  });
 
 /** Takes the name of a variable apart. */
 export function path(name) {
   const data = textToCp1252(name);
   const all = begin(() => {
-    const array = room(24 * 256), count = room(4);
+    const array = room(24 * 256),
+      count = room(4);
     call('path', put(data), data.length, array, 256, count);
     return Array.from({ length: u32(count) }, (_, n) => numbers(array + 24 * n, 6));
   });
@@ -335,52 +414,82 @@ export function path(name) {
 
 function putFrame(it) {
   const end = ([netId, port]) => Uint8Array.of(...netId.split('.'), port & 255, port >> 8);
-  const at = room(40), data = put(it.data);
+  const at = room(40),
+    data = put(it.data);
   bytes(at, 16).set([...end(it.target), ...end(it.source)]);
-  [it.command, it.stateFlags, it.error, it.invokeId, data, it.data.length]
-    .forEach((number, n) => view().setUint32(at + 16 + 4 * n, number, true));
+  [it.command, it.stateFlags, it.error, it.invokeId, data, it.data.length].forEach((number, n) =>
+    view().setUint32(at + 16 + 4 * n, number, true),
+  );
   return at;
 }
 
 /** The frame of a request. An end is a NetId and a port: ['192.0.2.7.1.1', 552]. */
 export const frameOfCall = (it, targetNetId, source, invokeId) => ({
-  target: [targetNetId, it.port], source, command: it.command, stateFlags: 4, error: 0, invokeId,
+  target: [targetNetId, it.port],
+  source,
+  command: it.command,
+  stateFlags: 4,
+  error: 0,
+  invokeId,
   data: begin(() => sized(64 + it.data.length, 'call_write', putCall(it))),
 });
 
 /** The call of a request's frame. */
-export const callOfFrame = (frame) => begin(() => {
-  const at = putFrame(frame), out = room(28);
-  call('call_read', at, out);
-  return callAt(out);
-});
+export const callOfFrame = (frame) =>
+  begin(() => {
+    const at = putFrame(frame),
+      out = room(28);
+    call('call_read', at, out);
+    return callAt(out);
+  });
 
 /** The bytes of a frame, with both lengths. */
-export const encodeFrame = (frame) => begin(() => sized(38 + frame.data.length, 'frame_write', putFrame(frame)));
+export const encodeFrame = (frame) =>
+  begin(() => sized(38 + frame.data.length, 'frame_write', putFrame(frame)));
 
 /** The frame at the front of what was received, and its length; null if bytes are missing. */
-export const readFrame = (received, maxData = 0x400000) => begin(() => {
-  const at = put(received), out = room(40), used = room(4);
-  call('frame_read', at, received.length, maxData, out, used);
-  if (!u32(used)) return null;
-  const end = (from) => [bytes(from, 6).join('.'), view().getUint16(from + 6, true)];
-  const [command, stateFlags, error, invokeId] = numbers(out + 16, 4);
-  const frame = { target: end(out), source: end(out + 8), command, stateFlags, error, invokeId, data: lent(out + 32) };
-  return { frame, length: u32(used) };
-});
+export const readFrame = (received, maxData = 0x400000) =>
+  begin(() => {
+    const at = put(received),
+      out = room(40),
+      used = room(4);
+    call('frame_read', at, received.length, maxData, out, used);
+    if (!u32(used)) return null;
+    const end = (from) => [bytes(from, 6).join('.'), view().getUint16(from + 6, true)];
+    const [command, stateFlags, error, invokeId] = numbers(out + 16, 4);
+    const frame = {
+      target: end(out),
+      source: end(out + 8),
+      command,
+      stateFlags,
+      error,
+      invokeId,
+      data: lent(out + 32),
+    };
+    return { frame, length: u32(used) };
+  });
 
 // Values by their types.
 
-const GETTERS = [() => 'Uint8', (size) => `${size > 4 ? 'BigUint' : 'Uint'}${8 * size}`,
-  (size) => `${size > 4 ? 'BigInt' : 'Int'}${8 * size}`, (size) => `Float${8 * size}`, () => ''];
+const GETTERS = [
+  () => 'Uint8',
+  (size) => `${size > 4 ? 'BigUint' : 'Uint'}${8 * size}`,
+  (size) => `${size > 4 ? 'BigInt' : 'Int'}${8 * size}`,
+  (size) => `Float${8 * size}`,
+  () => '',
+];
 
-export const TYPES = begin(() => each('type', 28, (at) => {
-  const [code, kind, size] = numbers(at + 16, 3);
-  return { name: word(at), objectName: word(at + 8), code, kind, size };
-}));
+export const TYPES = begin(() =>
+  each('type', 28, (at) => {
+    const [code, kind, size] = numbers(at + 16, 3);
+    return { name: word(at), objectName: word(at + 8), code, kind, size };
+  }),
+);
 
 function typeOf(type) {
-  const it = TYPES.find((one) => [one.name, one.objectName].includes(type) || (one.code && one.code === type));
+  const it = TYPES.find(
+    (one) => [one.name, one.objectName].includes(type) || (one.code && one.code === type),
+  );
   if (!it) throw new TypeError(`${type} is no type`);
   return it;
 }
@@ -390,23 +499,30 @@ function nested(items, dimensions) {
   if (dimensions.length === 1) return items;
   const step = dimensions.slice(1).reduce((product, one) => product * one, 1);
   return Array.from({ length: dimensions[0] }, (_, at) =>
-    nested(items.slice(at * step, (at + 1) * step), dimensions.slice(1)));
+    nested(items.slice(at * step, (at + 1) * step), dimensions.slice(1)),
+  );
 }
 
 /** A value by its type, which is a name or the code of a description; of arrays, nested arrays. */
 export function unpack(type, data, dimensions = []) {
-  const it = typeOf(type), count = dimensions.reduce((product, one) => product * one, 1);
+  const it = typeOf(type),
+    count = dimensions.reduce((product, one) => product * one, 1);
   const size = it.size || (dimensions.length ? Math.floor(data.length / Math.max(count, 1)) : data.length);
   if (size * count !== data.length || (count && !size && dimensions.length)) {
-    throw new RangeError(`${it.name}: ${count} elements of ${size} bytes expected, ${data.length} bytes found`);
+    throw new RangeError(
+      `${it.name}: ${count} elements of ${size} bytes expected, ${data.length} bytes found`,
+    );
   }
   const get = `get${GETTERS[it.kind](size)}`;
-  return nested(Array.from({ length: count }, (_, at) => {
-    const part = data.subarray(at * size, (at + 1) * size);
-    if (it.kind === 4) return textFromCp1252(part);
-    const value = dataView(part)[get](0, true);
-    return it.kind ? value : value !== 0;
-  }), dimensions);
+  return nested(
+    Array.from({ length: count }, (_, at) => {
+      const part = data.subarray(at * size, (at + 1) * size);
+      if (it.kind === 4) return textFromCp1252(part);
+      const value = dataView(part)[get](0, true);
+      return it.kind ? value : value !== 0;
+    }),
+    dimensions,
+  );
 }
 
 /** The bytes of a value, the reverse of `unpack`. A text is ended by a NUL; texts in an array need bytes. */
@@ -415,7 +531,8 @@ export function pack(type, value) {
   if (value instanceof Uint8Array) return value;
   if (Array.isArray(value)) return Uint8Array.from(value.flatMap((one) => Array.from(pack(type, one))));
   if (it.kind === 4) return ended(value);
-  const data = new Uint8Array(it.size), name = GETTERS[it.kind](it.size);
+  const data = new Uint8Array(it.size),
+    name = GETTERS[it.kind](it.size);
   dataView(data)[`set${name}`](0, it.size > 4 && it.kind < 3 ? BigInt(value) : Number(value), true);
   const back = dataView(data)[`get${name}`](0, true);
   // A float is rounded; whatever else does not come back does not fit.
@@ -438,7 +555,8 @@ class Machine {
   /** Gives the addresses of what is kept and of the machine. */
   use(work) {
     return begin(() => {
-      const kept = put(this.#kept), at = put(this.#memory);
+      const kept = put(this.#kept),
+        at = put(this.#memory);
       try {
         return work(at, kept);
       } finally {
@@ -448,7 +566,8 @@ class Machine {
   }
 }
 
-export const BUSY = 1, REJECTED = 2;
+export const BUSY = 1,
+  REJECTED = 2;
 
 /** Sends an NC program: hands out packets to write by `writeProgramStream`, and takes what became of them. */
 export class Sender {
@@ -470,7 +589,8 @@ export class Sender {
   /** What the CNC answered: an ADS result, or null if the answer was lost. Gives 0, BUSY or REJECTED. */
   acknowledge(adsError) {
     const number = adsError === null ? REJECTED : codec.ads_cnc_acknowledgement(adsError);
-    if (!this.#it.use((at) => codec.ads_cnc_sender_acknowledge(at, number))) throw new Error('no packet is in flight');
+    if (!this.#it.use((at) => codec.ads_cnc_sender_acknowledge(at, number)))
+      throw new Error('no packet is in flight');
     return number;
   }
 
@@ -529,14 +649,21 @@ export class Host {
     this.#it.use((at) => codec.ads_cnc_host_event(at, number));
   }
 
-  written() { this.#event(0); }
-  failed() { this.#event(1); }
-  poll() { this.#event(2); }
-  restart() { this.#event(3); }
+  written() {
+    this.#event(0);
+  }
+  failed() {
+    this.#event(1);
+  }
+  poll() {
+    this.#event(2);
+  }
+  restart() {
+    this.#event(3);
+  }
 
   /** What became of the last answer: 'answered' or 'abandoned'. */
   get outcome() {
     return [null, 'answered', 'abandoned'][this.#it.use((at) => codec.ads_cnc_host_outcome(at))];
   }
 }
-

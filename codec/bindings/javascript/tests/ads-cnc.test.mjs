@@ -12,14 +12,28 @@ const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase
 
 function given(row) {
   const isElement = row.name.includes('element');
-  return { channel: 1, axis: 1, index: 1, count: 1, size: 8, handle: 7, name: 'V.E.a', indices: [4, 5],
-    kind: row.operation === 'FindInstance' ? 'decoder' : 'P', value: ascii('G0 X1\r\n'),
-    index_group: isElement ? 0x123301 : 0x120101, index_offset: row.operation === 'CountElements' ? 0 : 3 };
+  return {
+    channel: 1,
+    axis: 1,
+    index: 1,
+    count: 1,
+    size: 8,
+    handle: 7,
+    name: 'V.E.a',
+    indices: [4, 5],
+    kind: row.operation === 'FindInstance' ? 'decoder' : 'P',
+    value: ascii('G0 X1\r\n'),
+    index_group: isElement ? 0x123301 : 0x120101,
+    index_offset: row.operation === 'CountElements' ? 0 : 3,
+  };
 }
 
 test('a variable is read by its name', () => {
   const request = cnc.readByName(1, 'V.E.Länge');
-  assert.deepEqual([request.port, request.command, request.indexGroup, request.indexOffset], [552, 9, 0x122301, 0x48]);
+  assert.deepEqual(
+    [request.port, request.command, request.indexGroup, request.indexOffset],
+    [552, 9, 0x122301, 0x48],
+  );
   assert.deepEqual(request.data, ascii('V.E.L\xe4nge\0'));
   assert.deepEqual(request.decode(bytes(123, 0, 0, 0)), bytes(123, 0, 0, 0));
   assert.deepEqual(request.decode(Buffer.from([1])).length, 1);
@@ -33,7 +47,10 @@ test('every function is dispatched with its arguments', () => {
     assert.deepEqual([request.port, request.command], [row.port, row.command]);
     const received = cnc.dispatch(request);
     assert.equal(received.function, row);
-    assert.deepEqual(received.arguments, Object.fromEntries(row.arguments.map((name, n) => [camel(name), values[n]])));
+    assert.deepEqual(
+      received.arguments,
+      Object.fromEntries(row.arguments.map((name, n) => [camel(name), values[n]])),
+    );
   }
 });
 
@@ -41,7 +58,10 @@ test('options are kept', () => {
   const request = cnc.countObjects(0, { axis: 2 });
   assert.equal(request.indexGroup, 0x130202);
   assert.deepEqual(cnc.dispatch(request).arguments, { channel: 0, axis: 2 });
-  assert.deepEqual(cnc.dispatch(cnc.countObjects(1, { byIndex: true })).arguments, { channel: 1, byIndex: true });
+  assert.deepEqual(cnc.dispatch(cnc.countObjects(1, { byIndex: true })).arguments, {
+    channel: 1,
+    byIndex: true,
+  });
 });
 
 test('a reply is a value', () => {
@@ -53,20 +73,36 @@ test('a reply is a value', () => {
   assert.equal(cnc.describeExtended(1, 0, 'V.E').decode(bytes()), null);
   const reply = ascii('\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0');
   const description = cnc.describeByIndex(1, 2, 'V.E').decode(reply);
-  assert.deepEqual(description, { handle: 33554434, type: 1, access: 1, size: 2, dimensions: [2], name: 'V.E.Variable_3' });
+  assert.deepEqual(description, {
+    handle: 33554434,
+    type: 1,
+    access: 1,
+    size: 2,
+    dimensions: [2],
+    name: 'V.E.Variable_3',
+  });
 });
 
 test('wrong arguments are named', () => {
   assert.throws(() => cnc.readByName(0, 'V.E.a'), /index-group: instance at offset 0: out of range/);
   assert.throws(() => cnc.readByName(1, 'V.E.Ω'), /text: text at offset 4: not in CP1252/);
-  assert.throws(() => cnc.countDynamic(1, 'Q'), /call: kind at offset 0: an argument the function does not take/);
+  assert.throws(
+    () => cnc.countDynamic(1, 'Q'),
+    /call: kind at offset 0: an argument the function does not take/,
+  );
   assert.throws(() => cnc.readByName(-1, 'a'), /channel: -1 is no unsigned number of 32 bits/);
   assert.throws(() => cnc.writeByName(1, 'a', 1), /value: bytes expected/);
 });
 
 test('an error has stream, field and offset', () => {
   const cut = () => cnc.handleByName(1, 'V.E.a').decode(bytes(0, 0));
-  assert.throws(cut, { name: 'AdsCncError', stream: 'variable-handle', field: 'handle', offset: 0, kind: 'truncated' });
+  assert.throws(cut, {
+    name: 'AdsCncError',
+    stream: 'variable-handle',
+    field: 'handle',
+    offset: 0,
+    kind: 'truncated',
+  });
   assert.throws(cut, cnc.AdsCncError);
   assert.throws(() => cnc.decode('nothing', bytes()), /nothing is no stream/);
 });
@@ -97,7 +133,10 @@ test('long lists and contents are whole', () => {
 });
 
 test('values are read by their types', () => {
-  assert.deepEqual(cnc.unpack('SGN16', bytes(11, 0, 12, 0, 255, 255, 21, 0), [2, 2]), [[11, 12], [-1, 21]]);
+  assert.deepEqual(cnc.unpack('SGN16', bytes(11, 0, 12, 0, 255, 255, 21, 0), [2, 2]), [
+    [11, 12],
+    [-1, 21],
+  ]);
   assert.equal(cnc.unpack(8, bytes(0, 0, 0, 0, 0, 0, 0xf8, 0x3f)), 1.5);
   assert.deepEqual(cnc.unpack('STRING', ascii('a\0b\0'), [2]), ['a', 'b']);
   assert.equal(cnc.unpack('LINT', bytes(...Array(8).fill(255))), -1n);
@@ -105,7 +144,11 @@ test('values are read by their types', () => {
   assert.deepEqual(cnc.pack('LREAL', [1.5, 0]), bytes(0, 0, 0, 0, 0, 0, 0xf8, 0x3f, ...Array(8).fill(0)));
   assert.deepEqual(cnc.pack('LWORD', 258), bytes(2, 1, 0, 0, 0, 0, 0, 0));
   assert.deepEqual(cnc.pack('STRING', 'Länge'), ascii('L\xe4nge\0'));
-  for (const [type, value] of [['SGN08', 200], ['UNS32', -1], ['SGN16', 1.5]]) {
+  for (const [type, value] of [
+    ['SGN08', 200],
+    ['UNS32', -1],
+    ['SGN16', 1.5],
+  ]) {
     assert.throws(() => cnc.pack(type, value), RangeError);
   }
   assert.throws(() => cnc.unpack('SGN16', bytes(0)), RangeError);
@@ -118,13 +161,23 @@ test('addresses and names are taken apart', () => {
   assert.equal(cnc.groupParts(0x133301), null);
   assert.equal(cnc.axisOffset(2, 5), 0x20005);
   assert.deepEqual(cnc.axisAndElement(0x20005, 0x1000), [0x20, 5]);
-  const parts = [{ name: 'NP', indices: [0] }, { name: 'Länge', indices: [1, 2] }];
+  const parts = [
+    { name: 'NP', indices: [0] },
+    { name: 'Länge', indices: [1, 2] },
+  ];
   assert.deepEqual(cnc.path('V.G.NP[0].Länge[1][2]'), { kind: 'V.G', parts });
   assert.throws(() => cnc.path('V.G..a'), /variable-path: part/);
 });
 
 test('a server answers a call, or with a number', () => {
-  const call = { port: 552, command: 9, indexGroup: 0x122301, indexOffset: 0x46, readLength: 4, data: ascii('V.E.vartest\0') };
+  const call = {
+    port: 552,
+    command: 9,
+    indexGroup: 0x122301,
+    indexOffset: 0x46,
+    readLength: 4,
+    data: ascii('V.E.vartest\0'),
+  };
   const received = cnc.dispatch(call);
   assert.equal(received.arguments.name, 'V.E.vartest');
   assert.deepEqual(received.reply(33554436), bytes(4, 0, 0, 2));
@@ -141,7 +194,8 @@ test('frames carry calls', () => {
 });
 
 test('a program is sent', () => {
-  const sender = new cnc.Sender(ascii('N10 G0 X0\nN20 M30')), sent = [];
+  const sender = new cnc.Sender(ascii('N10 G0 X0\nN20 M30')),
+    sent = [];
   for (const result of [0x706, 0]) {
     sent.push(Buffer.from(sender.packet()).toString());
     sender.acknowledge(result);
@@ -150,11 +204,15 @@ test('a program is sent', () => {
   assert.equal(sender.packet(), null);
   assert.deepEqual([sender.progress.state, sender.progress.lines], [4, 2]);
   assert.throws(() => sender.acknowledge(0), /no packet/);
-  assert.throws(() => new cnc.Sender(ascii('N1\xe4')), /nc-text: line at offset 3: a byte that is not ASCII/);
+  assert.throws(
+    () => new cnc.Sender(ascii('N1\xe4')),
+    /nc-text: line at offset 3: a byte that is not ASCII/,
+  );
 });
 
 test('a request is served', () => {
-  const uuid = '560AACBF-6335-44a9-895A-8B27F3ED5E47', written = [];
+  const uuid = '560AACBF-6335-44a9-895A-8B27F3ED5E47',
+    written = [];
   const host = new cnc.Host([uuid.replace('5', '6'), uuid]);
   const values = { UUID: ascii(uuid), REQUEST: ascii('L\xe4nge\0'), REQUEST_STATE: bytes(1, 0, 0, 0) };
   for (let step; (step = host.step()).kind !== 'wait';) {
@@ -173,10 +231,14 @@ test('a request is served', () => {
 });
 
 test('the document is true', async () => {
-  const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8'), shown = [];
+  const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8'),
+    shown = [];
   const [, code] = readme.match(/```js\n([^]*?)```/);
   const { inspect } = await import('node:util');
   const log = (...all) => shown.push(all.map((one) => inspect(one)).join(' '));
   new Function('cnc', 'console', code.replace(/^import.*$/m, ''))(cnc, { log });
-  assert.deepEqual(shown, [...code.matchAll(/console\.log\(.*\); \/\/ (.*)/g)].map(([, text]) => text));
+  assert.deepEqual(
+    shown,
+    [...code.matchAll(/console\.log\(.*\); \/\/ (.*)/g)].map(([, text]) => text),
+  );
 });

@@ -265,7 +265,7 @@ def decode(stream: str, data: bytes) -> Any:
 
 
 def encode(stream: str, value: Any) -> bytes:
-    """The bytes of a stream. A record is an object with its fields, or a dict; bytes are written as they are."""
+    """The bytes of a stream. A record is an object with its fields, or a dict; bytes stay as they are."""
     it = STREAMS[stream]
     rows = [row for row in it.fields if not row.is_count]
     parts: list[tuple[str, bytes]] = []
@@ -399,7 +399,8 @@ def group_parts(index_group: int) -> Optional[Group]:
     it = _abi.Group()
     if not _abi.function("group")(UINT32(index_group), ctypes.byref(it)):
         return None
-    return Group(*(getattr(it, name).text() for name in Group._fields[:-1]), it.instance)
+    words = (it.task, it.access, it.addressing, it.table, it.object_class, it.attribute)
+    return Group._make([*(word.text() for word in words), it.instance])
 
 
 def axis_offset(axis: int, element: int, stride: int = 0x10000) -> int:
@@ -533,7 +534,7 @@ def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -
 
 
 def pack(type: Union[str, int], value: Any) -> bytes:
-    """The bytes of a value, the reverse of `unpack`. A text is ended by a NUL; texts in an array need bytes."""
+    """The bytes of a value, the reverse of `unpack`. A text gets a NUL; texts in an array need bytes."""
     it = _type_of(type)
     if isinstance(value, (list, tuple)):
         return b"".join(pack(type, one) for one in value)
@@ -551,7 +552,7 @@ BUSY, REJECTED = 1, 2
 
 
 class Sender:
-    """Sends an NC program: hands out packets to write by `write_program_stream`, and takes what became of them.
+    """Sends an NC program: hands out packets to write, and takes what became of them.
 
     >>> sender = Sender(b"N10 G0 X0\\nN20 M30")
     >>> for packet in sender:
