@@ -10,40 +10,26 @@
 The functions are those of the CNC, from `count_objects` to `write_object`; each returns a `Request`.
 """
 
+from ._address import Frame, Group, Path, axis_and_element, axis_offset, group_parts, path, read_frame
 from ._codec import (
-    BUSY,
     FUNCTIONS,
-    REJECTED,
     STREAMS,
-    TYPES,
     AdsCncError,
     Call,
     Dispatched,
     Field,
     FieldInfo,
-    Frame,
     Function,
-    Group,
-    Host,
-    Path,
     Request,
-    Sender,
-    Step,
     Stream,
-    Type,
-    axis_and_element,
-    axis_offset,
     decode,
     dispatch,
     encode,
     fields,
-    group_parts,
     join,
-    pack,
-    path,
-    read_frame,
     text_from_cp1252,
     text_to_cp1252,
-    unpack,
 )
 from ._functions import *  # noqa: F403: generated from the library's tables
+from ._machines import BUSY, REJECTED, Host, Sender, Step
+from ._values import TYPES, Type, pack, unpack

@@ -259,7 +259,9 @@ def count_objects(channel: int, *, axis: int = 0, by_index: bool = False) -> Req
     return cast("Request[int]", request(0, channel=channel, axis=axis, by_index=by_index))
 
 
-def read_descriptors(channel: int, index: int, count: int, *, axis: int = 0, by_index: bool = False) -> Request[list[ObjectDescriptor]]:
+def read_descriptors(
+    channel: int, index: int, count: int, *, axis: int = 0, by_index: bool = False
+) -> Request[list[ObjectDescriptor]]:
     """Object descriptors: Read to port 553; changes nothing.
 
     channel: from 1; 0 is the platform, where there is one
@@ -268,7 +270,10 @@ def read_descriptors(channel: int, index: int, count: int, *, axis: int = 0, by_
     axis: axis of the channel, from 1; of a list with channel 0, a platform axis
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[list[ObjectDescriptor]]", request(1, channel=channel, index=index, count=count, axis=axis, by_index=by_index))
+    return cast(
+        "Request[list[ObjectDescriptor]]",
+        request(1, channel=channel, index=index, count=count, axis=axis, by_index=by_index),
+    )
 
 
 def count_variables(channel: int, kind: str, *, by_index: bool = False) -> Request[int]:
@@ -281,7 +286,9 @@ def count_variables(channel: int, kind: str, *, by_index: bool = False) -> Reque
     return cast("Request[int]", request(2, channel=channel, kind=kind, by_index=by_index))
 
 
-def describe_by_index(channel: int, index: int, kind: str, *, by_index: bool = False) -> Request[VariableDescription]:
+def describe_by_index(
+    channel: int, index: int, kind: str, *, by_index: bool = False
+) -> Request[VariableDescription]:
     """Variable description by index: ReadWrite to port 552; changes nothing.
 
     channel: from 1; 0 is the platform, where there is one
@@ -289,7 +296,9 @@ def describe_by_index(channel: int, index: int, kind: str, *, by_index: bool = F
     kind: such as V.E, P or decoder
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[VariableDescription]", request(3, channel=channel, index=index, kind=kind, by_index=by_index))
+    return cast(
+        "Request[VariableDescription]", request(3, channel=channel, index=index, kind=kind, by_index=by_index)
+    )
 
 
 def handle_by_name(channel: int, name: str, *, by_index: bool = False) -> Request[int]:
@@ -302,7 +311,9 @@ def handle_by_name(channel: int, name: str, *, by_index: bool = False) -> Reques
     return cast("Request[int]", request(4, channel=channel, name=name, by_index=by_index))
 
 
-def read_by_handle(channel: int, handle: int, indices: Sequence[int], *, by_index: bool = False) -> Request[bytes]:
+def read_by_handle(
+    channel: int, handle: int, indices: Sequence[int], *, by_index: bool = False
+) -> Request[bytes]:
     """Read variable value by handle: ReadWrite to port 552; changes nothing.
 
     channel: from 1; 0 is the platform, where there is one
@@ -310,7 +321,9 @@ def read_by_handle(channel: int, handle: int, indices: Sequence[int], *, by_inde
     indices: one for each dimension, from 0; none for the whole
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[bytes]", request(5, channel=channel, handle=handle, indices=indices, by_index=by_index))
+    return cast(
+        "Request[bytes]", request(5, channel=channel, handle=handle, indices=indices, by_index=by_index)
+    )
 
 
 def read_by_name(channel: int, name: str, *, by_index: bool = False) -> Request[bytes]:
@@ -323,7 +336,9 @@ def read_by_name(channel: int, name: str, *, by_index: bool = False) -> Request[
     return cast("Request[bytes]", request(6, channel=channel, name=name, by_index=by_index))
 
 
-def write_by_handle(channel: int, handle: int, indices: Sequence[int], value: bytes, *, by_index: bool = False) -> Request[None]:
+def write_by_handle(
+    channel: int, handle: int, indices: Sequence[int], value: bytes, *, by_index: bool = False
+) -> Request[None]:
     """Write variable value by handle: Write to port 552; changes a value.
 
     channel: from 1; 0 is the platform, where there is one
@@ -332,7 +347,10 @@ def write_by_handle(channel: int, handle: int, indices: Sequence[int], value: by
     value: the bytes to write
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[None]", request(7, channel=channel, handle=handle, indices=indices, value=value, by_index=by_index))
+    return cast(
+        "Request[None]",
+        request(7, channel=channel, handle=handle, indices=indices, value=value, by_index=by_index),
+    )
 
 
 def write_by_name(channel: int, name: str, value: bytes, *, by_index: bool = False) -> Request[None]:
@@ -346,7 +364,9 @@ def write_by_name(channel: int, name: str, value: bytes, *, by_index: bool = Fal
     return cast("Request[None]", request(8, channel=channel, name=name, value=value, by_index=by_index))
 
 
-def describe_extended(channel: int, index: int, kind: str, *, by_index: bool = False) -> Request[Optional[VariableExtendedDescription]]:
+def describe_extended(
+    channel: int, index: int, kind: str, *, by_index: bool = False
+) -> Request[Optional[VariableExtendedDescription]]:
     """Extended variable description by index: ReadWrite to port 552; changes nothing.
 
     channel: from 1; 0 is the platform, where there is one
@@ -354,17 +374,24 @@ def describe_extended(channel: int, index: int, kind: str, *, by_index: bool = F
     kind: such as V.E, P or decoder
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[Optional[VariableExtendedDescription]]", request(9, channel=channel, index=index, kind=kind, by_index=by_index))
+    return cast(
+        "Request[Optional[VariableExtendedDescription]]",
+        request(9, channel=channel, index=index, kind=kind, by_index=by_index),
+    )
 
 
-def describe_by_name(channel: int, name: str, *, by_index: bool = False) -> Request[VariableDescriptionByName]:
+def describe_by_name(
+    channel: int, name: str, *, by_index: bool = False
+) -> Request[VariableDescriptionByName]:
     """Variable description by name: ReadWrite to port 552; changes nothing.
 
     channel: from 1; 0 is the platform, where there is one
     name: of the variable or parameter
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[VariableDescriptionByName]", request(10, channel=channel, name=name, by_index=by_index))
+    return cast(
+        "Request[VariableDescriptionByName]", request(10, channel=channel, name=name, by_index=by_index)
+    )
 
 
 def axis_handle_by_name(channel: int, axis: int, name: str, *, by_index: bool = False) -> Request[int]:
@@ -389,7 +416,9 @@ def axis_read_by_name(channel: int, axis: int, name: str, *, by_index: bool = Fa
     return cast("Request[bytes]", request(12, channel=channel, axis=axis, name=name, by_index=by_index))
 
 
-def axis_write_by_name(channel: int, axis: int, name: str, value: bytes, *, by_index: bool = False) -> Request[None]:
+def axis_write_by_name(
+    channel: int, axis: int, name: str, value: bytes, *, by_index: bool = False
+) -> Request[None]:
     """Write axis variable value by name: Write to port 552; changes a value.
 
     channel: from 1; 0 is the platform, where there is one
@@ -398,7 +427,9 @@ def axis_write_by_name(channel: int, axis: int, name: str, value: bytes, *, by_i
     value: the bytes to write
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[None]", request(13, channel=channel, axis=axis, name=name, value=value, by_index=by_index))
+    return cast(
+        "Request[None]", request(13, channel=channel, axis=axis, name=name, value=value, by_index=by_index)
+    )
 
 
 def count_dynamic(channel: int, kind: str, *, by_index: bool = False) -> Request[int]:
@@ -452,7 +483,9 @@ def find_instance(kind: str, channel: int, axis: int, *, by_index: bool = False)
     axis: axis of the channel, from 1; of a list with channel 0, a platform axis
     by_index: whether the channel is counted among the active ones
     """
-    return cast("Request[ObjectAddress]", request(18, kind=kind, channel=channel, axis=axis, by_index=by_index))
+    return cast(
+        "Request[ObjectAddress]", request(18, kind=kind, channel=channel, axis=axis, by_index=by_index)
+    )
 
 
 def count_elements(index_group: int, index_offset: int) -> Request[int]:

@@ -1,0 +1,114 @@
+"""Index groups, index offsets and names by their parts; AMS/TCP frames."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import NamedTuple, Optional
+
+from . import _abi
+from ._abi import UINT32
+from ._codec import Call, call_of, invoke, sized, text_from_cp1252, text_to_cp1252
+
+
+class Group(NamedTuple):
+    """An index group in words; those that it has not are empty."""
+
+    task: str
+    access: str
+    addressing: str
+    table: str
+    object_class: str
+    attribute: str
+    instance: int
+
+
+def group_parts(index_group: int) -> Optional[Group]:
+    """The parts of an index group; None for one that is not documented."""
+    it = _abi.Group()
+    if not _abi.function("group")(UINT32(index_group), ctypes.byref(it)):
+        return None
+    words = (it.task, it.access, it.addressing, it.table, it.object_class, it.attribute)
+    return Group._make([*(word.text() for word in words), it.instance])
+
+
+def axis_offset(axis: int, element: int, stride: int = 0x10000) -> int:
+    """The index offset of an element of an axis; axis 0 is the channel itself."""
+    offset = UINT32()
+    invoke("offset", UINT32(stride), UINT32(axis), UINT32(element), ctypes.byref(offset))
+    return offset.value
+
+
+def axis_and_element(offset: int, stride: int = 0x10000) -> tuple[int, int]:
+    """The axis and the element of an index offset."""
+    axis, element = UINT32(), UINT32()
+    invoke("offset_parts", UINT32(stride), UINT32(offset), ctypes.byref(axis), ctypes.byref(element))
+    return axis.value, element.value
+
+
+class Path(NamedTuple):
+    """The name of a variable, by its parts: each a name and its indices."""
+
+    kind: str
+    parts: list[tuple[str, list[int]]]
+
+
+def path(name: str) -> Path:
+    """Takes the name of a variable apart."""
+    data, room, count = text_to_cp1252(name), 256, UINT32()
+    array = (_abi.Field * room)()
+    invoke("path", data, UINT32(len(data)), array, UINT32(room), ctypes.byref(count))
+    parts: list[tuple[str, list[int]]] = []
+    for it in array[1 : count.value]:
+        if it.field == 2:
+            parts[it.record][1].append(it.number)
+        else:
+            parts.append((text_from_cp1252(data[it.offset :][: it.length]), []))
+    return Path(text_from_cp1252(data[: array[0].length]), parts)
+
+
+class Frame(NamedTuple):
+    """An AMS/TCP frame. A NetId is text, such as "192.0.2.7.1.1"."""
+
+    target: tuple[str, int]
+    source: tuple[str, int]
+    command: int
+    state_flags: int
+    error: int
+    invoke_id: int
+    data: bytes
+
+    @classmethod
+    def of_call(cls, call: Call, target: str, source: tuple[str, int], invoke_id: int) -> Frame:
+        """The frame of a request."""
+        it = call.c()
+        data = sized("call_write", 64 + len(call.data), ctypes.byref(it))
+        return cls((target, call.port), source, call.command, 4, 0, invoke_id, data)
+
+    def call(self) -> Call:
+        """The call of a request's frame."""
+        it, call = self.c(), _abi.Call()
+        invoke("call_read", ctypes.byref(it), ctypes.byref(call))
+        return Call(*call_of(call))
+
+    def encode(self) -> bytes:
+        """The bytes, with both lengths."""
+        it = self.c()
+        return sized("frame_write", 38 + len(self.data), ctypes.byref(it))
+
+    def c(self) -> _abi.Frame:
+        ends = []
+        for net_id, port in (self.target, self.source):
+            ends.append(_abi.Address((ctypes.c_uint8 * 6)(*map(int, net_id.split("."))), port))
+        return _abi.Frame(*ends, *self[2:6], _abi.lent(self.data))
+
+
+def read_frame(received: bytes, max_data: int = 0x40_0000) -> Optional[tuple[Frame, int]]:
+    """The frame at the front of what was received and its length; None if bytes are missing."""
+    it, used = _abi.Frame(), UINT32()
+    limits = (received, UINT32(len(received)), UINT32(max_data))
+    invoke("frame_read", *limits, ctypes.byref(it), ctypes.byref(used))
+    if not used.value:
+        return None
+    ends = [(".".join(map(str, end.net_id)), end.port) for end in (it.target, it.source)]
+    found = Frame(ends[0], ends[1], it.command, it.state_flags, it.error, it.invoke_id, it.data.get())
+    return found, used.value

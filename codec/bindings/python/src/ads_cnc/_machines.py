@@ -1,0 +1,116 @@
+"""The state machines: the sender of an NC program and the host of services."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, Optional
+
+from . import _abi
+from ._abi import UINT32
+from ._codec import invoke, text_from_cp1252, text_to_cp1252
+
+
+BUSY, REJECTED = 1, 2
+
+
+class Sender:
+    """Sends an NC program: hands out packets to write, and takes what became of them.
+
+    >>> sender = Sender(b"N10 G0 X0\\nN20 M30")
+    >>> for packet in sender:
+    ...     sender.acknowledge(0)  # the ADS result; after BUSY the same packet comes again
+    """
+
+    def __init__(self, program: bytes) -> None:
+        self._program, self._it = bytes(program), _abi.Sender()
+        invoke("sender_start", ctypes.byref(self._it), self._program, UINT32(len(self._program)))
+
+    def __iter__(self) -> Iterator[bytes]:
+        packet = _abi.Bytes()
+        while _abi.function("sender_packet")(ctypes.byref(self._it), ctypes.byref(packet)):
+            yield packet.get()
+            if self.progress["state"] == 1:
+                raise RuntimeError("the packet in flight was not acknowledged")
+
+    def acknowledge(self, ads_error: Optional[int]) -> int:
+        """What the CNC answered: an ADS result, or None if the answer was lost.
+
+        Returns 0, BUSY (then wait about half a second) or REJECTED.
+        """
+        number = REJECTED
+        if ads_error is not None:
+            number = _abi.function("acknowledgement", UINT32)(UINT32(ads_error))
+        if not _abi.function("sender_acknowledge")(ctypes.byref(self._it), UINT32(number)):
+            raise RuntimeError("no packet is in flight")
+        return number
+
+    @property
+    def progress(self) -> dict[str, int]:
+        """Packets, lines and bytes that were accepted, what is left, the state."""
+        it = _abi.Progress()
+        _abi.function("sender_progress")(ctypes.byref(self._it), ctypes.byref(it))
+        return {name: getattr(it, name) for name, _ in it._fields_}
+
+
+class Step(NamedTuple):
+    """What a host wants done: "wait", "read", "write" or "serve"."""
+
+    kind: str
+    variable: str
+    data: bytes
+    service: int
+    request: str
+    request_state: int
+
+
+class Host:
+    """Hosts services of one channel: returns the variable to read or write next."""
+
+    def __init__(self, services: Sequence[str]) -> None:
+        self._it, self._ids = _abi.Host(), (ctypes.c_uint8 * (36 * len(services)))()
+        for at, service in enumerate(services):
+            text = service.encode()
+            invoke("service_id", text, UINT32(len(text)), ctypes.byref(self._ids, 36 * at))
+        invoke("host_start", ctypes.byref(self._it), self._ids, UINT32(len(services)))
+
+    def step(self) -> Step:
+        """What to do next; the same until it is done."""
+        it = _abi.HostStep()
+        _abi.function("host_step")(ctypes.byref(self._it), ctypes.byref(it))
+        kind, data = ("wait", "read", "write", "serve")[it.kind], it.data.get()
+        request = text_from_cp1252(data) if kind == "serve" else ""
+        return Step(kind, it.variable.text(), data, it.service, request, it.request_state)
+
+    def read(self, value: bytes) -> None:
+        """The value that was read."""
+        invoke("host_read", ctypes.byref(self._it), value, UINT32(len(value)))
+
+    def answer(self, response: str, state: int) -> None:
+        """The response to the request, and its state, not 0."""
+        data = text_to_cp1252(response)
+        invoke("host_answer", ctypes.byref(self._it), data, UINT32(len(data)), UINT32(state))
+
+    def _event(self, number: int) -> None:
+        _abi.function("host_event")(ctypes.byref(self._it), UINT32(number))
+
+    def written(self) -> None:
+        """The write was done."""
+        self._event(0)
+
+    def failed(self) -> None:
+        """The step failed: a write may have been done."""
+        self._event(1)
+
+    def poll(self) -> None:
+        """The wait is over."""
+        self._event(2)
+
+    def restart(self) -> None:
+        """The CNC was reset, or the connection is new."""
+        self._event(3)
+
+    @property
+    def outcome(self) -> Optional[str]:
+        """What became of the last answer: "answered" or "abandoned"."""
+        return (None, "answered", "abandoned")[_abi.function("host_outcome", UINT32)(ctypes.byref(self._it))]
