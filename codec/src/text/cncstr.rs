@@ -110,24 +110,6 @@ impl<'a> CncStr<'a> {
         self.chars().filter_map(char_to_cp1252)
     }
 
-    /// The CP1252 bytes in memory, without a copy: of all text that was decoded, and of all ASCII. `None`
-    /// for a Rust string with other characters.
-    ///
-    /// ```
-    /// use ads_cnc::CncStr;
-    ///
-    /// assert_eq!(CncStr::from_bytes(b"L\xE4nge")?.as_cp1252(), Some(&b"L\xE4nge"[..]));
-    /// assert_eq!(CncStr::new("V.E.a")?.as_cp1252(), Some(&b"V.E.a"[..]));
-    /// assert_eq!(CncStr::new("Länge")?.as_cp1252(), None);
-    /// # Ok::<(), ads_cnc::Error>(())
-    /// ```
-    pub const fn as_cp1252(&self) -> Option<&'a [u8]> {
-        match self.0 {
-            Source::Bytes(bytes) => Some(bytes),
-            Source::Str(_) => None,
-        }
-    }
-
     /// The bytes in memory, CP1252 or UTF-8. ASCII characters are the same in both.
     #[inline]
     pub(crate) const fn raw(self) -> &'a [u8] {

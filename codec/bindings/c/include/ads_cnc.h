@@ -400,7 +400,7 @@ bool ads_cnc_sender_progress(const AdsCncSender *sender, AdsCncProgress *progres
 
 /* As AdsCncSender. One host serves all services of a channel. */
 typedef struct AdsCncHost {
-    uint64_t opaque[56];
+    uint64_t opaque[72];
 } AdsCncHost;
 
 /* The UUID of a service. */

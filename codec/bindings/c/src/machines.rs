@@ -2,10 +2,11 @@
 
 use core::mem::MaybeUninit;
 
-use codec::CncStr;
 use codec::ads::AdsError;
+use codec::limits::SERVICE_TEXT_MAX;
 use codec::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use codec::streaming::{Ack, LineErrorKind, NcText, Sender, SenderState};
+use codec::{CncStr, Error};
 
 use crate::error::{AdsCncError, Fault, told};
 use crate::memory::{AdsCncBytes, bytes, put, slice, to_u32};
@@ -77,13 +78,32 @@ machine! {
 
 machine! {
     /// A host of services.
-    AdsCncHost, 55, Services, 0x0AD5_C001_4057_0001
+    AdsCncHost, 71, Services, 0x0AD5_C001_4057_0001
 }
 
-/// A host, and the services it was started with.
+/// A host, the services it was started with, and the text that it has read last as a request's.
 struct Services {
     host: Host<'static>,
     ids: &'static [ServiceId],
+    request: [u8; SERVICE_TEXT_MAX],
+    length: usize,
+}
+
+impl Services {
+    fn new(ids: &'static [ServiceId]) -> Self {
+        Self { host: Host::new(ids), ids, request: [0; SERVICE_TEXT_MAX], length: 0 }
+    }
+
+    fn read(&mut self, value: &[u8]) -> Result<(), Error> {
+        let is_request = self.host.step() == HostStep::Read(ServiceVariable::Request);
+        self.host.read(value)?;
+        if is_request {
+            let text = value.split(|byte| *byte == 0).next().unwrap_or_default();
+            self.length = text.len().min(SERVICE_TEXT_MAX);
+            self.request.iter_mut().zip(text).for_each(|(to, from)| *to = *from);
+        }
+        Ok(())
+    }
 }
 
 /// The UUID of a service: 36 characters.
@@ -277,7 +297,7 @@ pub unsafe extern "C" fn ads_cnc_host_start(
         // SAFETY: the caller's contract: they last as long as the host, and are transparent.
         let ids = unsafe { slice(ids.cast::<ServiceId>(), count)? };
         // SAFETY: the caller's contract.
-        unsafe { AdsCncHost::start(host, Services { host: Host::new(ids), ids }) }
+        unsafe { AdsCncHost::start(host, Services::new(ids)) }
     };
     // SAFETY: the caller's contract.
     unsafe { told(start(), error) }
@@ -311,12 +331,12 @@ pub unsafe extern "C" fn ads_cnc_host_step(
             data: AdsCncBytes::of(value),
             ..none
         },
-        HostStep::Serve { uuid, request, request_state } => AdsCncHostStep {
+        HostStep::Serve { uuid, request_state, .. } => AdsCncHostStep {
             kind: 3,
             service: it.ids.iter().position(|id| core::ptr::eq(id, uuid)).map_or(0, to_u32),
             request_state,
-            // A text that was read is CP1252 already.
-            data: request.as_cp1252().map_or(AdsCncBytes::NONE, AdsCncBytes::of),
+            // The last that was read: only one that is read twice the same is handed out.
+            data: it.request.get(..it.length).map_or(AdsCncBytes::NONE, AdsCncBytes::of),
             ..none
         },
     };
@@ -340,7 +360,7 @@ pub unsafe extern "C" fn ads_cnc_host_read(
     let read = || -> Result<(), Fault> {
         // SAFETY: the caller's contract.
         let (it, value) = unsafe { (AdsCncHost::get_mut(host)?, bytes(value, length)?) };
-        Ok(it.host.read(value)?)
+        Ok(it.read(value)?)
     };
     // SAFETY: the caller's contract.
     unsafe { told(read(), error) }

@@ -617,7 +617,7 @@ export class Host {
       });
       return taken(at, 36 * services.length);
     });
-    this.#it = new Machine(ids, 448);
+    this.#it = new Machine(ids, 576);
     this.#it.use((at, kept) => call('host_start', at, kept, services.length));
   }
 

@@ -79,7 +79,6 @@ fn texts(bytes: &[u8]) {
     let text = cnc(bytes);
     seen((CncStr::len(&text), CncStr::is_empty(&text)));
     seen(CncStr::bytes(&text).fold(0, u8::wrapping_add));
-    seen(CncStr::as_cp1252(&text));
     seen(CncStr::chars(&text).map(text::char_to_cp1252).filter(Option::is_some).count());
     seen(CncStr::new(super::text(bytes, "text")));
     seen(text == *super::text(bytes, "text"));

@@ -120,7 +120,7 @@ class Progress(ctypes.Structure):
 
 
 class Host(ctypes.Structure):
-    _fields_ = [("opaque", ctypes.c_uint64 * 56)]
+    _fields_ = [("opaque", ctypes.c_uint64 * 72)]
 
 
 class HostStep(ctypes.Structure):
