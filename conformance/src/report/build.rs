@@ -306,7 +306,14 @@ mod tests {
         let outcome = |requirement, verdict| {
             let case = crate::suite::cases().swap_remove(0);
             let judged = RequirementVerdict { requirement, verdict, judgements: Vec::new() };
-            CaseOutcome { case, verdicts: vec![judged], checks: 1, note: None, refused: false, time: None }
+            CaseOutcome {
+                case,
+                verdicts: vec![judged],
+                checks: 1,
+                note: None,
+                refused: false,
+                time: None,
+            }
         };
         let exit = |verdicts: &[(&'static str, Verdict)]| {
             let about = About {

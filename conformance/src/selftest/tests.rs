@@ -13,7 +13,14 @@ fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<CaseOutcome> {
         verdict,
         judgements: Vec::new(),
     });
-    vec![CaseOutcome { case, verdicts: verdicts.collect(), checks: 1, note: None, refused: false, time: None }]
+    vec![CaseOutcome {
+        case,
+        verdicts: verdicts.collect(),
+        checks: 1,
+        note: None,
+        refused: false,
+        time: None,
+    }]
 }
 
 fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> TrialResult {
