@@ -29,7 +29,7 @@ pub use request::{AdsCncCall, AdsCncRequest};
 pub use stream::{AdsCncField, AdsCncPart};
 pub use tables::{AdsCncFieldInfo, AdsCncFunctionInfo, AdsCncStreamInfo, AdsCncType};
 
-/// No number: of a function, stream or field that is not there.
+/// In place of the number of a function, stream or field that does not exist.
 pub const ADS_CNC_NONE: u32 = u32::MAX;
 
 /// The number of the ABI: programs built with a header of another number must not use this library.
@@ -55,16 +55,16 @@ const fn decimal(mut digits: &[u8]) -> u32 {
     number
 }
 
-/// A panic needs a symbol that nobody has. No panic can be reached from the functions, so a release build
-/// never refers to it; `codec/bindings/run` proves that. Whoever builds with other options and is told of
-/// the symbol by the linker has less optimisation than the proof needs.
+/// A panic needs a symbol that is not defined. No panic can be reached from the functions, so a release build
+/// never refers to it; `codec/bindings/run` verifies that. If the linker reports the symbol, the build has
+/// less optimisation than the proof needs.
 #[cfg(not(any(test, debug_assertions)))]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     unsafe extern "C" {
         fn ads_cnc_panicked() -> !;
     }
-    // SAFETY: nobody defines it, so whatever links never calls it.
+    // SAFETY: it is not defined, so a program that links never calls it.
     unsafe { ads_cnc_panicked() }
 }
 
