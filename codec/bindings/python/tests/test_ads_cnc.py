@@ -172,6 +172,26 @@ class Servers(unittest.TestCase):
         self.assertEqual(ads_cnc.dispatch(frame.call()).arguments, {"channel": 1, "name": "V.E.a"})
 
 
+class Limits(unittest.TestCase):
+    """What the README says of those who try."""
+
+    def test_sum_commands_are_refused(self):
+        with self.assertRaises(ads_cnc.AdsCncError) as raised:
+            ads_cnc.dispatch(ads_cnc.Call(552, 9, 0xF080, 2, 16, bytes(24)))
+        self.assertEqual(raised.exception.ads_error, 0x702)
+
+    def test_notifications_are_no_calls(self):
+        for command in (6, 7, 8):
+            ends = ("192.0.2.7.1.1", 552), ("192.0.2.1.1.1", 0x8001)
+            frame = ads_cnc.Frame(*ends, command, 4, 0, 1, bytes(40))
+            with self.assertRaisesRegex(ads_cnc.AdsCncError, "call: command"):
+                frame.call()
+
+    def test_tls_is_no_frame(self):
+        with self.assertRaisesRegex(ads_cnc.AdsCncError, "ams-tcp-header: reserved at offset 0: mismatch"):
+            ads_cnc.read_frame(b"\x16\x03\x01\x02\x00\x01")
+
+
 class Machines(unittest.TestCase):
     def test_a_program_is_sent(self):
         sender, results, sent = ads_cnc.Sender(b"N10 G0 X0\nN20 M30"), [0x706, 0], []
