@@ -60,6 +60,9 @@ fn one_that_does_not_begin_is_told_shortly() {
         assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
         assert!(shown.lines().count() <= 8, "{shown}");
     }
+    // The steps of the protocol are those of a testee.
+    let output = ads_cnc(&["run", "--client", "exit 7", "--check-protocol"]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
 
 #[test]

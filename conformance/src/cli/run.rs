@@ -78,7 +78,8 @@ pub(super) struct Run {
     testee: Option<String>,
 
     /// Go through the protocol with the testee step by step, for whoever writes an adapter
-    #[arg(long, requires = "testee", conflicts_with_all = ["only", "list", "json", "waivers"])]
+    #[arg(long, requires = "testee",
+        conflicts_with_all = ["client", "client_listen", "only", "list", "json", "waivers"])]
     check_protocol: bool,
 
     /// Also send malformed requests and unknown commands, to see them rejected; what they do to a
