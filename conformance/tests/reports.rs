@@ -220,7 +220,8 @@ fn junit_has_a_test_for_each_case() {
     // In seconds.
     let suites = at("testsuites/testsuite");
     let subjects = suites.iter().filter(|suite| value(suite, "name") != "waivers");
-    let seconds = |attributes: &[(String, String)]| value(attributes, "time").parse::<f64>().unwrap();
+    let seconds =
+        |attributes: &[(String, String)]| value(attributes, "time").parse::<f64>().unwrap();
     let sum: f64 = subjects.map(|suite| seconds(suite)).sum();
     assert!(sum > 0.0 && (seconds(root) - sum).abs() < 0.01, "{root:?}");
     assert!(at(test).iter().any(|case| case.iter().any(|(name, _)| name == "time")));
