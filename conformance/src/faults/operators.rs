@@ -288,7 +288,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "first-channel",
         "it is that of channel 1 if channel 1 has it",
-        &[SDA_1],
+        &[],
         differs_by_channel,
         |cnc, call| mistaken(cnc, call, Channel, |_| 1),
     ),
@@ -302,7 +302,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "first-axis",
         "it is that of axis 1 if axis 1 has it",
-        &[ADR_7, SDA_1],
+        &[ADR_7],
         |spec| {
             has_axis(spec)
                 && (spec.service != Service::Write || spec.clause != "COM-5")
@@ -313,7 +313,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "next-axis",
         "it is that of the next axis if this one has it",
-        &[ADR_7, SDA_1],
+        &[ADR_7],
         |spec| has_axis(spec) && !is_alike(spec),
         |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1)),
     ),
@@ -389,7 +389,7 @@ const OF_ANSWERS: &[Operator] = &[
     operator("empty", "the reply is empty", &[], has_reply, |cnc, call| {
         changed(cnc, call, Vec::clear)
     }),
-    operator("zeros", "every byte of the reply is 0", &[SDA_5], has_fields, |cnc, call| {
+    operator("zeros", "every byte of the reply is 0", &[], has_fields, |cnc, call| {
         changed(cnc, call, |bytes| bytes.fill(0))
     }),
     operator("short", "the reply lacks its last byte", &[], has_end, |cnc, call| {
@@ -525,10 +525,6 @@ fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream
     let mut requirements = vec![spec.clause];
     requirements.extend(streams.map(|stream| stream.layout().clause));
     requirements.extend(breaks.iter().filter(|id| concerns(**id, spec)).map(|id| id.as_str()));
-    if *function == Function::ReadElementName {
-        // The name of element 0 is that of the instance.
-        requirements.push(SDA_4.as_str());
-    }
     requirements.sort_unstable();
     requirements.dedup();
     Seed {
@@ -550,7 +546,6 @@ fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
         VAR_2 | DYN_5 => {
             first(spec.request) == b"index" && area(clause.as_str()) == area(spec.clause)
         }
-        SDA_5 => spec.clause == SDA_1.as_str(),
         VAR_20 => first(spec.request) == b"name",
         VAR_16 => spec.clause == "VAR-15",
         ADS_1 | ADS_3 => clause == crate::wire_service::clause(spec.service),

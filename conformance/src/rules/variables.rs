@@ -78,9 +78,6 @@ impl Variables {
     }
 }
 
-/// The kinds of variables that programs create and delete.
-const OF_PROGRAM: [&str; 3] = ["V.P", "V.L", "V.S"];
-
 impl ExchangeJudge<'_> {
     pub(super) fn variables(
         &mut self,
@@ -149,14 +146,8 @@ impl ExchangeJudge<'_> {
         }
     }
 
-    /// The number of variables of a kind, unless a program may change it.
     fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
-        let counts = &self.cnc.variables.channel(call)?.counts;
-        let is_of_program = match kind {
-            "" => OF_PROGRAM.iter().any(|kind| counts.get(*kind).is_some_and(|count| *count > 0)),
-            kind => OF_PROGRAM.contains(&kind),
-        };
-        counts.get(kind).copied().filter(|_| !is_of_program)
+        self.cnc.variables.channel(call)?.counts.get(kind).copied()
     }
 
     fn number(

@@ -28,6 +28,7 @@ const ELEMENTS: &str = "unit = ";
 const VARIABLES: &str = "name = \"V.";
 const WRITABLE: &str = ", writable = true";
 const AXIS_NUMBER: &str = "is = \"axis-number\"";
+const FEEDHOLD: &str = "feedhold.enable";
 const NUMBERS: &str = "values = [1, 2, 3, 4, 5]";
 
 const SAME: Witness =
@@ -123,6 +124,24 @@ const WITNESSES: &[Witness] = &[
         defects: &["cnc.com.command-elsewhere"],
         what: "an object may have any offset",
         changes: &[("mc_command_single_block_w", |line| line.replace("0x1", "0x2"))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.sda.feedhold-name"],
+        what: "an element may have any name",
+        changes: &[(FEEDHOLD, |line| line.replace("feedhold.", "feedhold_"))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.sda.feedhold-unit"],
+        what: "a unit may be any text",
+        changes: &[(FEEDHOLD, |line| line.replace("\"-\"", "\"\""))],
+        ..SAME
+    },
+    Witness {
+        defects: &["cnc.sda.feedhold-type"],
+        what: "an element may have any type",
+        changes: &[(FEEDHOLD, |line| line.replace("BOOLEAN", "UNS08").replace("true", "1"))],
         ..SAME
     },
     Witness {

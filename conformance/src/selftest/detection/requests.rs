@@ -1,12 +1,10 @@
 //! Every request that a mode may send, to distinguish two CNCs: each request is sent, also
 //! malformed, and its answer recorded.
 //!
-//! Not sent is what the suite sends to no device: a malformed write, and a write to a place without an
-//! axis or, without a profile, that may have none. The requests are derived from the function table, from the lists of the CNC, from boundary
+//! The requests are derived from the function table, from the lists of the CNC, from boundary
 //! values and short sequences, but not from the cases of the suite. Two CNCs with equal answers
 //! receive the same requests, so equal digests mean equal answers.
 
-mod configurable;
 mod queries;
 mod writes;
 
@@ -20,21 +18,15 @@ use ads_cnc::address::{Channel, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::limits::{DESCRIPTOR_LEN, STREAM_PACKET_MAX};
-use ads_cnc::operation::{
-    Call, CountDynamic, CountVariables, Effect, Function, Request, Service, Task,
-};
+use ads_cnc::operation::{Call, CountDynamic, CountVariables, Function, Request, Service, Task};
 use ads_cnc::{CncString, Handle, Kind};
 
-pub(super) use self::configurable::Compare;
-use self::configurable::ConfigurableReplies;
 use crate::client::{Client, Inquiry};
 use crate::exchange::ExchangeError;
 use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
 
-/// Where a reply with data has its result.
-const RESULT: Range<usize> = 38..42;
 /// The requested channel numbers and ranks; others are left out.
 const CHANNELS: [u32; 14] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 255];
 /// The requested axes, places and spindles.
@@ -69,10 +61,6 @@ pub(super) struct AnswerRecorder<'t> {
     malformed: BTreeMap<Function, usize>,
     variables: Vec<Variable>,
     contents: Vec<ContentAddress>,
-    /// Channels and places for axes.
-    unwritten_places: &'t [(u32, u32)],
-    /// If their values do not count.
-    configurable: Option<ConfigurableReplies>,
 }
 
 /// The recorded answers.
@@ -84,12 +72,10 @@ pub(super) struct RecordedAnswers {
 
 /// Sends all requests that the client's gate allows; if there are answers of another CNC to compare
 /// with, only up to the first difference.
-pub(super) fn ask_everything<'t>(
+pub(super) fn ask_everything(
     client: Client,
     cnc: Arc<Cnc>,
-    right: Option<&'t [u64]>,
-    compare: Compare,
-    unwritten_places: &'t [(u32, u32)],
+    right: Option<&[u64]>,
 ) -> RecordedAnswers {
     let mut dialogue = AnswerRecorder {
         client,
@@ -100,8 +86,6 @@ pub(super) fn ask_everything<'t>(
         malformed: BTreeMap::new(),
         variables: Vec::new(),
         contents: Vec::new(),
-        unwritten_places,
-        configurable: (compare == Compare::Configured).then(ConfigurableReplies::default),
     };
     dialogue.everything();
     let AnswerRecorder { answers, mut difference, .. } = dialogue;
@@ -151,9 +135,7 @@ impl AnswerRecorder<'_> {
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
         *sent += 1;
-        // A malformed write is sent to the simulated CNC only, and not in any of these modes.
-        let is_query = request.function().spec().effect == Effect::Query;
-        if is_query && *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
+        if *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.send_malformed(&call, data.as_ref().map_or(0, Vec::len));
         }
         data
@@ -198,15 +180,7 @@ impl AnswerRecorder<'_> {
         };
         let violations = exchange.violations.iter().map(|one| one.what.as_str());
         let outcome: Vec<&str> = violations.chain([fault.as_str()]).collect();
-        let mut received = meaning(Some(call), &exchange.received);
-        let data = exchange.answer().and_then(|answer| answer.success());
-        let writes = self.client.gate().may_let_writes_pass();
-        if let (Some(replies), Some(data)) = (&mut self.configurable, data)
-            && let Some(marker) = replies.marker(call, data, writes)
-        {
-            received.truncate(RESULT.end);
-            received.extend(marker.as_bytes());
-        }
+        let received = meaning(Some(call), &exchange.received);
         self.record(&received, &outcome.join("\n"), || {
             let spec = call.dispatch().map(|request| request.function().spec().name);
             let data = compact::show(call.data);
@@ -253,6 +227,7 @@ impl AnswerRecorder<'_> {
 /// depends on how fast the CNC reads, so both are an error.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
+    const RESULT: Range<usize> = 38..42;
     const DATA: usize = RESULT.end + 4;
     let mut received = received.to_vec();
     for number in [ERROR, RESULT] {

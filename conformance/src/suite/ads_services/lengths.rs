@@ -1,16 +1,17 @@
 //! Lengths of replies, and splitting of frames.
 
-use ads_cnc::address::Class;
+use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{
-    CountObjects, CountVariables, DescribeByIndex, FindInstance, Function, ReadByName, Request,
+    CountDynamic, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex, ReadByName,
+    Request,
 };
 use ads_cnc::{Kind, VariableType};
+use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use self::LengthRule::{Fixed, Open};
-use crate::judge::{Checks as _, IfPresent as _, Rule, Step};
+use crate::judge::{Checks as _, Step};
 use crate::profile::Claim;
-use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
+use crate::suite::kit::{Probe, RawCall, ask_if_claimed, name_of};
 use crate::wire_service::clause;
 
 /// TCP may split a frame anywhere: its length determines its end.
@@ -34,71 +35,48 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Whether the length of a reply is documented, or given by a text.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum LengthRule {
     /// Fixed by this requirement.
-    Fixed(Rule),
+    Fixed(ClauseId),
     Open,
 }
 
 pub(super) fn read_length(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        lengths_of(probe, &RawCall::new(CountObjects::new(channel))?)?;
+        for kind in DynamicKind::ALL {
+            lengths_of(probe, CountDynamic::new(channel, kind).into(), LengthRule::Fixed(DYN_1))?;
+            let name = DynamicNameByIndex::new(channel, kind, 1)?;
+            lengths_of(probe, name.into(), LengthRule::Open)?;
+        }
         for (_, kind) in probe.kinds() {
-            lengths_of(probe, &RawCall::new(CountVariables::new(channel, kind))?)?;
+            let count = CountVariables::new(channel, kind);
+            lengths_of(probe, count.into(), LengthRule::Fixed(VAR_2))?;
             for index in 0..2 {
-                lengths_of(probe, &RawCall::new(DescribeByIndex::new(channel, index, kind))?)?;
+                let described = DescribeByIndex::new(channel, index, kind);
+                lengths_of(probe, described.into(), LengthRule::Open)?;
             }
         }
-        for variable in probe.variables(channel).if_known()?.unwrap_or_default() {
+        let Ok(variables) = probe.variables(channel) else { continue };
+        for variable in variables {
             if variable.var_type != VariableType::STRING {
-                let read = ReadByName { channel, name: name_of(&variable) }.into();
-                lengths(probe, &RawCall::new(read)?, &read, Fixed(VAR_14.into()))?;
+                let read = ReadByName { channel, name: name_of(&variable) };
+                lengths_of(probe, read.into(), LengthRule::Fixed(VAR_14))?;
             }
-        }
-        let decoder = FindInstance::new(Class::Decoder, channel.number().into(), 0);
-        lengths_of(probe, &RawCall::new(decoder)?)?;
-        let items = ChannelItems::read(probe, channel)?;
-        for request in items.requests(channel)? {
-            lengths_of(probe, &RawCall::new(request)?)?;
-        }
-        for call in content_reads(probe, channel)? {
-            lengths_of(probe, &call)?;
         }
     }
     Ok(())
 }
 
-/// The requirement that fixes the length of a reply. A variable may be a text.
-fn length_rule(request: &Request<'_>) -> LengthRule {
-    let spec = request.function().spec();
-    let is_number = spec.reply.is_some_and(|stream| stream.layout().is_fixed());
-    match request.function() {
-        Function::ReadElementLength | Function::ReadObject => Fixed(Rule::of(spec.clause)),
-        Function::ReadElement => Fixed(SDA_8.into()),
-        _ if is_number => Fixed(Rule::of(spec.clause)),
-        _ => Open,
-    }
-}
-
-fn lengths_of(probe: &mut Probe<'_>, call: &RawCall) -> Step {
-    let Ok(request) = call.call().dispatch() else { return Ok(()) };
-    lengths(probe, call, &request, length_rule(&request))
-}
-
-fn lengths(
-    probe: &mut Probe<'_>,
-    call: &RawCall,
-    request: &Request<'_>,
-    extent: LengthRule,
-) -> Step {
+fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: LengthRule) -> Step {
     if probe.claims(request.function()) != Claim::Yes {
         return Ok(());
     }
-    let what = request.function().spec().name;
+    let call = RawCall::new(request)?;
     let rule = clause(call.service);
-    let whole = probe.call(call)?;
-    let Some(whole) = whole.success().filter(|data| !data.is_empty()) else { return Ok(()) };
+    let Some(whole) = ask_if_claimed(probe, request)?.filter(|data| !data.is_empty()) else {
+        return Ok(());
+    };
     let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
     let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
         let call = call.with(|call| call.read_length = read_length);
@@ -109,13 +87,13 @@ fn lengths(
         let exchange = probe.call(&call)?;
         Ok(Some(exchange.success().map(<[u8]>::len)))
     };
+    let what = request.function().spec().name;
     // For a text at the end of a reply the CNC may require room for a NUL.
-    if let Fixed(own) = extent
+    if let LengthRule::Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
         let expected = || format!("{there} bytes of {what}, as many as are asked for");
-        let rules = [rule.into(), own];
-        probe.check(&rules[..], found == Some(whole.len()), expected, || format!("{found:?}"));
+        probe.check([rule, own], found == Some(whole.len()), expected, || format!("{found:?}"));
     }
     // A success with a shorter read length must not have more data.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
@@ -123,7 +101,7 @@ fn lengths(
         let expected = || format!("fewer than {there} bytes of {what}");
         probe.check(rule, fits, expected, || format!("{found:?}"));
     }
-    let Fixed(own) = extent else { return Ok(()) };
+    let LengthRule::Fixed(own) = extent else { return Ok(()) };
     if !probe.target.client.gate().lets_malformed_pass() {
         return Ok(());
     }
@@ -131,14 +109,11 @@ fn lengths(
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = || format!("{there} bytes of {what}, or an error");
-        let rules = [rule.into(), own];
-        probe.check(&rules[..], fits, expected, || format!("{found:?}"));
+        probe.check([rule, own], fits, expected, || format!("{found:?}"));
     }
     // If a large read length is accepted, one byte less makes no difference.
-    let is_number =
-        request.function().spec().reply.is_some_and(|stream| stream.layout().is_fixed());
     let much = there.saturating_add(0x1_0000);
-    if is_number
+    if own != VAR_14
         && let Some(Some(len)) = answer(probe, much)?
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {

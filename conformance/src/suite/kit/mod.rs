@@ -2,7 +2,6 @@
 
 mod axis_interface;
 mod changes;
-mod channel_items;
 mod counted;
 mod described_list;
 mod dynamic_variables;
@@ -27,7 +26,6 @@ pub(crate) use axis_interface::{
     name_on_axes,
 };
 pub use changes::Changes;
-pub(crate) use channel_items::{ChannelItems, content_reads, in_channel};
 pub(crate) use counted::Counted;
 pub(crate) use described_list::DescribedList;
 pub(crate) use dynamic_variables::{dynamic_among_variables, has_dynamic_variables};

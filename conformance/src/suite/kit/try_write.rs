@@ -13,7 +13,7 @@ use ads_cnc_vectors::Hex;
 
 use crate::judge::{Checks as _, Rule, Step, Stop};
 use crate::objects::ValueAddress;
-use crate::suite::kit::{Probe, RawCall, write_value};
+use crate::suite::kit::{Probe, RawCall};
 use crate::values::until_nul;
 
 /// Why a case that writes is not applicable.
@@ -165,31 +165,7 @@ impl Probe<'_> {
         }
         let expected = || format!("{} of {}, as written", Hex(other.to_vec()), write_check.what);
         self.check(write_check.rules, passed, expected, || Hex(after.clone()));
-        then(self, before, other)?;
-        if passed && !write_check.is_text && self.target.client.gate().lets_malformed_pass() {
-            self.change_every_byte(write_check, address, before)?;
-        }
-        Ok(())
-    }
-
-    /// Writes a value that differs from the old one in every byte. It may be out of the range that the
-    /// target accepts; an accepted one must be read back.
-    fn change_every_byte(
-        &mut self,
-        write_check: &WriteCheck<'_>,
-        address: &ValueAddress,
-        before: &[u8],
-    ) -> Step {
-        let other: Vec<u8> = before.iter().map(|byte| byte ^ 1).collect();
-        if other.len() < 2 || !write_value(self, address, &other)? {
-            return Ok(());
-        }
-        let after = self.value_at(address)?.unwrap_or_default();
-        if after == other || !self.moves(address, false)? {
-            let expected = || format!("{} of {}, as written", Hex(other.clone()), write_check.what);
-            self.check(write_check.rules, after == other, expected, || Hex(after));
-        }
-        Ok(())
+        then(self, before, other)
     }
 
     /// Whether the old value was restored, or changes by itself.
