@@ -29,7 +29,7 @@ impl Stream {
     /// Those of the stream's decoders; [`Mismatch`](ErrorKind::Mismatch) with the lengths of field and part
     /// at the first field that would not have the bytes of its part, also because a part is missing or
     /// is not in order; [`BufferTooSmall`](ErrorKind::BufferTooSmall). What is in `buf` then is unspecified.
-    pub fn join<'b, P, B>(self, parts: P, buf: &'b mut [u8]) -> Result<&'b [u8], Error>
+    pub fn join<P, B>(self, parts: P, buf: &mut [u8]) -> Result<&[u8], Error>
     where
         P: IntoIterator<Item = (Field, B), IntoIter: Clone>,
         B: AsRef<[u8]>,
