@@ -14,7 +14,7 @@ from pyads.pyads_ex import _adsDLL as ads_lib
 NET_ID = "127.0.0.1.1.1"
 
 
-# Connection.read_write of pyads hides the length of a reply; this returns what was received, and no more.
+# What was received, and no more: Connection.read_write of pyads does not say how much that is.
 def send(request):
     reply, received = ctypes.create_string_buffer(request.read_length), ctypes.c_uint32()
     to = local_port, ctypes.byref(pyads.AmsAddr(NET_ID, request.port).amsAddrStruct())
@@ -86,12 +86,17 @@ try:
 except pyads.ADSError as error:
     shown("V.E.nothing, ADS error", error.err_code, 0x710)
 
-# What happens without the length: zeros up to the length that was asked for.
+# Of a reply shorter than its buffer, Connection.read_write makes an exception, or puts zeros behind it.
 request = ads_cnc.describe_by_index(1, 0, "V.E")
+room, data = ctypes.c_ubyte * request.read_length, ctypes.c_ubyte * len(request.data)
+ask = request.index_group, request.index_offset, room, list(request.data), data
 with pyads.Connection(NET_ID, request.port, host) as plc:
-    room, data = ctypes.c_ubyte * request.read_length, ctypes.c_ubyte * len(request.data)
-    padded = plc.read_write(request.index_group, request.index_offset, room, list(request.data), data)
+    try:
+        sys.exit(f"not refused: {plc.read_write(*ask)}")
+    except RuntimeError as error:
+        check("a short reply", str(error).split(" (")[0], "Insufficient data")
+    padded = bytes(plc.read_write(*ask, check_length=False))
 try:
-    sys.exit(f"padded: {request.decode(bytes(padded))}")
+    sys.exit(f"padded: {request.decode(padded)}")
 except ads_cnc.AdsCncError as error:
     shown("a padded reply", [error.stream, error.field, error.offset], ["variable-description", "name", 20])
