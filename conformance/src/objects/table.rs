@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn a_table_fits_the_terminal() {
         let row = || vec!["SDA channel 1".to_owned(), "n".repeat(60), "TRUE".to_owned()];
-        for (terminal, widest) in [(None, 82), (Some(100), 82), (Some(40), 40), (Some(10), 25)] {
+        for (terminal, widest) in [(None, 81), (Some(100), 82), (Some(40), 40), (Some(10), 25)] {
             let (mut out, rows) = (Vec::new(), [row(), row()].into_iter());
             table(&["list", "name", "value"], rows, terminal, &mut out).unwrap();
             let text = String::from_utf8(out).unwrap();
