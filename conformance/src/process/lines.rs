@@ -64,6 +64,8 @@ pub struct LineProcess {
     child: RunningCommand,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
+    /// Disconnected when all of stderr has been read.
+    stderr_end: Receiver<()>,
 }
 
 impl LineProcess {
@@ -88,11 +90,16 @@ impl LineProcess {
             };
             spawn("from command", tell)?;
         }
+        let (end, stderr_end) = mpsc::channel();
         if let Some(from) = child.take_stderr() {
             let kept = stderr.clone();
-            spawn("command's stderr", move || kept.collect(from))?;
+            let collect = move || {
+                kept.collect(from);
+                drop(end);
+            };
+            spawn("command's stderr", collect)?;
         }
-        Ok(Self { child, to, from })
+        Ok(Self { child, to, from, stderr_end })
     }
 
     /// Sends a line. A command that has ended is detected when its answer is received.
@@ -149,9 +156,13 @@ impl LineProcess {
             }
         });
         let until = Instant::now().checked_add(OUTPUT_AFTER_EXIT);
-        // A process that it started may keep stdout open.
+        // A process that it started may keep stdout and stderr open.
         while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
         {
+        }
+        if let Some(until) = until.filter(|_| status.is_some()) {
+            let _end =
+                self.stderr_end.recv_timeout(until.saturating_duration_since(Instant::now()));
         }
         (status, unasked)
     }
