@@ -86,7 +86,7 @@ try:
 except pyads.ADSError as error:
     shown("V.E.nothing, ADS error", error.err_code, 0x710)
 
-# Of a reply shorter than its buffer, Connection.read_write makes an exception, or puts zeros behind it.
+# Connection.read_write raises an exception for a reply shorter than its buffer, or adds zeros at its end.
 request = ads_cnc.describe_by_index(1, 0, "V.E")
 room, data = ctypes.c_ubyte * request.read_length, ctypes.c_ubyte * len(request.data)
 ask = request.index_group, request.index_offset, room, list(request.data), data

@@ -52,7 +52,7 @@ function number(type, data) {
 
 function elements({ type, dimensions = [] }, data) {
   if (!typeOf(type)) throw new Unsupported('context');
-  // The package says whether so many bytes can be the value.
+  // The package checks whether the value can have this length.
   cnc.unpack(type, data, dimensions);
   const count = dimensions.reduce((product, one) => product * one, 1),
     size = data.length / Math.max(count, 1);

@@ -1,5 +1,5 @@
 """Builds the wheel, as PEP 517 has it: pure Python and the library of this platform, which `../build python`
-puts beside it. Needs nothing but the standard library, and neither does whoever installs the wheel."""
+puts beside it. Needs only the standard library, as does installing the wheel."""
 
 import base64
 import hashlib

@@ -55,7 +55,7 @@ def elements(context, data):
     if "type" not in context or context["type"] not in TYPES:
         raise Unsupported("context")
     kind, count = context["type"], math.prod(context.get("dimensions", []))
-    # The package says whether so many bytes can be the value.
+    # The package checks whether the value can have this length.
     ads_cnc.unpack(kind, data, context.get("dimensions", []))
     size = len(data) // max(count, 1)
     parts = [data[at * size :][:size] for at in range(count)]

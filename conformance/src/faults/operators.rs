@@ -7,16 +7,24 @@
 //! assert!(seed.requirements.contains(&"VAR-4"));
 //! ```
 
-use ads_cnc::address::{Attribute, Class, IndexOffset};
+mod change;
+mod functions;
+
 use ads_cnc::ads::AdsError;
-use ads_cnc::layout::{Stream, Type};
-use ads_cnc::operation::{Call, Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service};
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, Function, FunctionSpec, GroupRule, Service};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
+use self::change::Argument::{Axis, Channel, Index};
+use self::change::{asked, changed, instead, kept, least, mistaken, of_first_kind, rewritten};
+use self::functions::{
+    differs_by_channel, differs_by_rank, has_axis, has_end, has_fields, has_index, has_kind,
+    has_rank, has_reply, has_unknown, is_alike, is_attribute, writes,
+};
 use super::cnc::{
-    CncFault, LOGICAL, ReplyData, Upstream, after_nul, class, delay_write, first, function, group,
-    indexed, joined, offset, or_short, parts, set_u32, text, u32_at, with_indices, within_length,
+    CncFault, LOGICAL, ReplyData, Upstream, delay_write, first, group, offset, or_short,
+    within_length,
 };
 use super::seed::{How, Seed, SeedKind};
 
@@ -38,225 +46,6 @@ const fn operator(
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
 ) -> Operator {
     Operator { name, what, breaks, applies, answer }
-}
-
-/// A number in a request.
-#[derive(Clone, Copy)]
-enum Argument {
-    Channel,
-    Axis,
-    Index,
-}
-
-use Argument::{Axis, Channel, Index};
-
-/// The answer to the request with another number for an argument; `None` if it has none, or the same.
-fn asked(
-    cnc: &Upstream<'_>,
-    call: &Call<'_>,
-    argument: Argument,
-    other: impl Fn(u32) -> u32,
-) -> Option<ReplyData> {
-    let spec = function(call)?.spec();
-    let field = |at| u32_at(call.data, at).map(|number| (number, other(number)));
-    let data = |at| {
-        field(at).filter(|(old, new)| old != new).map(|(_, new)| {
-            let mut data = call.data.to_vec();
-            set_u32(&mut data, at, new);
-            cnc.with(call, &data)
-        })
-    };
-    let part = |number: u32, shift: u32, mask: u32| {
-        let old = number >> shift & mask;
-        let new = other(old) & mask;
-        (old != 0 && old != new).then(|| number & !(mask << shift) | new << shift)
-    };
-    match (argument, spec.offset, first(spec.request)) {
-        (Channel | Axis, ..) if class(call).is_some_and(|class| class.class == Class::Spindle) => {
-            None
-        }
-        (Channel, _, b"channel") => data(0),
-        (Axis, _, b"channel") => data(4),
-        (Channel, ..) => part(group(call), 0, 0xFF).map(|group| cnc.at(call, group, offset(call))),
-        (Axis, ..) => {
-            part(offset(call), 16, 0xFFFF).map(|offset| cnc.at(call, group(call), offset))
-        }
-        (Index, OffsetRule::AtLeast(_), _) => {
-            part(offset(call), 0, 0xFFFF).map(|offset| cnc.at(call, group(call), offset))
-        }
-        (Index, _, b"index") => data(0),
-        (Index, _, b"handle") => {
-            let (handle, mut indices, value) = parts(call.data)?;
-            let last = indices.last_mut()?;
-            let old = std::mem::replace(last, other(*last));
-            (indices.last() != Some(&old)).then(|| cnc.with(call, &joined(handle, &indices, value)))
-        }
-        (Index, _, b"name") => {
-            let (name, mut indices) = indexed(text(call.data));
-            let last = indices.last_mut()?;
-            let old = std::mem::replace(last, other(*last));
-            let data = [&with_indices(name, &indices), after_nul(call.data)].concat();
-            (indices.last() != Some(&old)).then(|| cnc.with(call, &data))
-        }
-        _ => None,
-    }
-}
-
-/// The answer to the request with another number for an argument, if the CNC knows the right one and the
-/// other one.
-fn mistaken(
-    cnc: &Upstream<'_>,
-    call: &Call<'_>,
-    argument: Argument,
-    other: impl Fn(u32) -> u32,
-) -> ReplyData {
-    if call.service != Service::Write {
-        cnc.answer(call)?;
-    }
-    asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
-}
-
-/// The answer to the request with another number for an argument if the CNC rejects the right one.
-fn instead(
-    cnc: &Upstream<'_>,
-    call: &Call<'_>,
-    argument: Argument,
-    other: impl Fn(u32) -> u32,
-) -> ReplyData {
-    cnc.answer(call).or_else(|error| asked(cnc, call, argument, other).unwrap_or(Err(error)))
-}
-
-/// The least index of the function.
-fn least(call: &Call<'_>) -> u32 {
-    // Only those of variables are counted from 0 (VAR-2, VAR-20).
-    u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
-}
-
-/// The right reply, changed.
-fn changed(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(&mut Vec<u8>)) -> ReplyData {
-    let mut bytes = cnc.answer(call)?;
-    other(&mut bytes);
-    Ok(bytes)
-}
-
-/// Where the value begins that a write carries.
-fn value_at(call: &Call<'_>) -> usize {
-    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
-        b"name" => after_nul(call.data),
-        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
-        _ => call.data,
-    };
-    call.data.len().saturating_sub(value.len())
-}
-
-/// Executes a write, and another one of what `other` makes of the new and the old value.
-fn rewritten(
-    cnc: &Upstream<'_>,
-    call: &Call<'_>,
-    other: impl Fn(&[u8], &[u8]) -> Vec<u8>,
-) -> ReplyData {
-    let (head, new) = call.data.split_at_checked(value_at(call)).unwrap_or_default();
-    let (service, back) = match function(call) {
-        Some(Function::WriteByHandle | Function::WriteByName) => (Service::ReadWrite, 2),
-        Some(Function::AxisWriteByName) => (Service::ReadWrite, 1),
-        _ => (Service::Read, 0),
-    };
-    let index_offset = IndexOffset::new(offset(call).wrapping_sub(back));
-    let old = cnc.whole(&Call { service, index_offset, data: head, ..*call });
-    let done = cnc.answer(call)?;
-    let _ = cnc.with(call, &[head, &other(new, &old?)].concat());
-    Ok(done)
-}
-
-/// The answer that the defect remembers.
-fn kept() -> (u32, u32, Vec<u8>) {
-    (0, 0, b"kept".to_vec())
-}
-
-fn has_reply(spec: &FunctionSpec) -> bool {
-    spec.reply.is_some()
-}
-
-/// Whether the reply has more than one field.
-fn has_fields(spec: &FunctionSpec) -> bool {
-    spec.reply.is_some_and(|reply| reply.layout().fields.len() > 1)
-}
-
-/// Whether the end of the reply is not that of a text, which may have a NUL or none.
-fn has_end(spec: &FunctionSpec) -> bool {
-    let last = spec.reply.and_then(|reply| reply.layout().fields.last());
-    last.is_some_and(|field| field.ty != Type::String)
-}
-
-/// Whether it asks a channel, which may be addressed by its rank.
-fn has_rank(spec: &FunctionSpec) -> bool {
-    !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
-}
-
-/// Whether a channel with another rank than number has it: no such channel of the default model has
-/// parameters.
-fn differs_by_rank(spec: &FunctionSpec) -> bool {
-    has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
-}
-
-/// Whether channels give different answers: handles and extended descriptions are the same in each.
-fn differs_by_channel(spec: &FunctionSpec) -> bool {
-    first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
-}
-
-/// Whether each instance has the same: the number of elements, and their types, lengths, units and flags.
-fn is_alike(spec: &FunctionSpec) -> bool {
-    matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
-        && !spec.is_content()
-}
-
-/// Whether it has an error for what does not exist.
-fn has_unknown(spec: &FunctionSpec) -> bool {
-    !matches!(spec.group, GroupRule::Instances) && !is_alike(spec)
-}
-
-fn has_axis(spec: &FunctionSpec) -> bool {
-    matches!(spec.group, GroupRule::Instances | GroupRule::Elements(_) | GroupRule::ComContent)
-        || matches!(spec.offset, OffsetRule::OfAxis(_))
-}
-
-fn has_index(spec: &FunctionSpec) -> bool {
-    matches!(spec.offset, OffsetRule::AtLeast(_)) && !matches!(spec.group, GroupRule::ComContent)
-        || matches!(first(spec.request), b"index" | b"handle")
-        || matches!(spec.clause, "VAR-13" | "VAR-14")
-}
-
-/// Whether the function exists for several kinds of variables or parameters.
-fn has_kind(spec: &FunctionSpec) -> bool {
-    matches!(spec.offset, OffsetRule::OfKind(_)) || is_of_kind(spec)
-}
-
-/// Whether the request ends in a kind of variables.
-fn is_of_kind(spec: &FunctionSpec) -> bool {
-    let fields = spec.request.map_or(&[][..], |request| request.layout().fields);
-    fields.last().is_some_and(|field| field.name == "kind")
-}
-
-fn is_attribute(spec: &FunctionSpec) -> bool {
-    matches!(spec.group, GroupRule::Elements(_))
-        && !spec.is_content()
-        && !matches!(spec.offset, OffsetRule::FirstElement)
-}
-
-/// Whether it writes a value that can be read.
-fn writes(spec: &FunctionSpec) -> bool {
-    spec.effect != Effect::Query
-}
-
-/// The answer for the first kind.
-fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
-    match function(call).map(|function| (function.spec().offset, first(function.spec().request))) {
-        Some((OffsetRule::OfKind([least, ..]), _)) => cnc.at(call, group(call), least),
-        Some((_, b"index")) => {
-            cnc.with(call, &[call.data.get(..4).unwrap_or_default(), b"V.E\0"].concat())
-        }
-        _ => cnc.with(call, b"V.E\0"),
-    }
 }
 
 /// The request is taken for another one.

@@ -30,7 +30,7 @@ pub struct AdsCncGroup {
     pub instance: u32,
 }
 
-/// Names that the codec shows and does not return; a test holds them against what it shows.
+/// Names that the codec displays but does not return; a test compares them with what it displays.
 pub(crate) const ATTRIBUTES: [&str; 7] =
     ["content", "name", "type", "length", "unit", "write flag", "object address"];
 const ALL_ATTRIBUTES: [Attribute; 7] = Attribute::ALL;

@@ -31,18 +31,18 @@ pub struct AdsCncError {
     pub text: AdsCncBytes,
 }
 
-/// What a function can fail for.
+/// A reason for a function to fail.
 #[derive(Clone, Copy)]
 pub(crate) enum Fault {
     Codec(Error),
-    /// A null pointer, or a length that no memory has.
+    /// A null pointer, or a length beyond the address space.
     Pointer,
     NoFunction,
     NoStream,
     NoField,
-    /// An argument that is none of those the function takes: its name.
+    /// The name of an argument with a value that the function does not take.
     Argument(&'static str),
-    /// Room for fewer items than there are: the number needed, the room given.
+    /// Memory for too few items: the number needed, the number given.
     Room(u32, u32),
     /// A sender or host that was never started.
     NotStarted,
@@ -151,10 +151,10 @@ impl AdsCncError {
     }
 }
 
-/// True, or false with the error where the caller wants it.
+/// The result for the caller: true, or false with the error in its memory.
 ///
 /// # Safety
-/// Unless it is null, `out` points to room for an error.
+/// `out` is null, or points to memory for an error.
 pub(crate) unsafe fn told(result: Result<(), Fault>, out: *mut AdsCncError) -> bool {
     match result {
         Ok(()) => true,

@@ -5,7 +5,7 @@ use codec::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, Frame
 use codec::operation::Call;
 
 use crate::error::{AdsCncError, Fault, told};
-use crate::memory::{AdsCncBytes, bytes, get, put, to_u32};
+use crate::memory::{AdsCncBytes, bytes, fill, get, put, to_u32};
 use crate::request::AdsCncCall;
 
 /// Who sends or receives a frame.
@@ -78,13 +78,11 @@ pub unsafe extern "C" fn ads_cnc_frame_write(
 ) -> bool {
     let write = || -> Result<(), Fault> {
         // SAFETY: the caller's contract.
-        let (frame, buffer) = unsafe { (get(frame)?, crate::memory::room(buffer, room)?) };
+        let frame = unsafe { get(frame)? };
         // SAFETY: the caller's contract.
-        let data = unsafe { frame.data.get()? };
-        let written = FrameRef::new(frame.header()?, data)?.encode(buffer)?.len();
+        let frame = FrameRef::new(frame.header()?, unsafe { frame.data.get()? })?;
         // SAFETY: the caller's contract.
-        unsafe { put(length, to_u32(written)) };
-        Ok(())
+        unsafe { fill(buffer, room, length, |buffer| Ok(frame.encode(buffer)?.len())) }
     };
     // SAFETY: the caller's contract.
     unsafe { told(write(), error) }
@@ -147,11 +145,9 @@ pub unsafe extern "C" fn ads_cnc_call_write(
 ) -> bool {
     let write = || -> Result<(), Fault> {
         // SAFETY: the caller's contract.
-        let (call, buffer) = unsafe { (get(call)?.call()?, crate::memory::room(buffer, room)?) };
-        let written = call.encode(buffer)?.len();
+        let call = unsafe { get(call)?.call()? };
         // SAFETY: the caller's contract.
-        unsafe { put(length, to_u32(written)) };
-        Ok(())
+        unsafe { fill(buffer, room, length, |buffer| Ok(call.encode(buffer)?.len())) }
     };
     // SAFETY: the caller's contract.
     unsafe { told(write(), error) }

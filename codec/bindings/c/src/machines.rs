@@ -11,8 +11,8 @@ use codec::{CncStr, Error};
 use crate::error::{AdsCncError, Fault, told};
 use crate::memory::{AdsCncBytes, bytes, put, slice, to_u32};
 
-/// Memory of the caller for a state machine, behind a number that says that it was started. C may copy it:
-/// nothing in it points into it.
+/// A state machine in the caller's memory, after a number that marks it as started. C may copy it: it has
+/// no pointer into itself.
 macro_rules! machine {
     ($(#[$doc:meta])* $memory:ident, $words:literal, $state:ty, $started:literal) => {
         $(#[$doc])*
@@ -26,7 +26,7 @@ macro_rules! machine {
 
         impl $memory {
             /// # Safety
-            /// Unless it is null, `it` points to room for one, which nobody else uses now.
+            /// `it` is null, or points to memory for one that is not accessed elsewhere during the call.
             unsafe fn start(it: *mut Self, state: $state) -> Result<(), Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
@@ -40,8 +40,7 @@ macro_rules! machine {
             }
 
             /// # Safety
-            /// Unless it is null, `it` points to one that was started, or to memory that was initialised
-            /// otherwise.
+            /// `it` is null, or points to initialised memory, which need not be a started one.
             unsafe fn state(it: *const Self) -> Result<*mut $state, Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
@@ -55,14 +54,14 @@ macro_rules! machine {
             }
 
             /// # Safety
-            /// As for `state`; nobody writes it while `'a` lasts.
+            /// As for `state`; it is not written during `'a`.
             unsafe fn get<'a>(it: *const Self) -> Result<&'a $state, Fault> {
                 // SAFETY: the caller's contract; `start` has written a state there.
                 unsafe { Ok(&*Self::state(it)?) }
             }
 
             /// # Safety
-            /// As for `state`; nobody else uses it while `'a` lasts.
+            /// As for `state`; only the returned reference accesses it during `'a`.
             unsafe fn get_mut<'a>(it: *mut Self) -> Result<&'a mut $state, Fault> {
                 // SAFETY: the caller's contract; `start` has written a state there.
                 unsafe { Ok(&mut *Self::state(it)?) }
@@ -112,7 +111,7 @@ pub struct AdsCncServiceId(ServiceId);
 
 const _: () = assert!(size_of::<AdsCncServiceId>() == 36 && align_of::<AdsCncServiceId>() == 1);
 
-/// How far a sender is.
+/// The progress of a sender.
 #[repr(C)]
 pub struct AdsCncProgress {
     /// `ADS_CNC_SENDER_READY` and so on.
@@ -127,11 +126,11 @@ pub struct AdsCncProgress {
     pub left_lines: u32,
     /// Bytes that were not accepted yet, with CR LF after each line.
     pub left_bytes: u32,
-    /// How often the CNC was busy for the present packet.
+    /// How often the CNC was busy for the current packet.
     pub busy_count: u32,
 }
 
-/// What a host wants done.
+/// The next step of a host.
 #[repr(C)]
 pub struct AdsCncHostStep {
     /// `ADS_CNC_STEP_WAIT` and so on.
@@ -155,7 +154,7 @@ fn line_fault(kind: LineErrorKind) -> (u32, &'static str) {
     }
 }
 
-/// Begins to send an NC program, whose text stays where it is until the sender is done with. If a line
+/// Begins to send an NC program. Its text must stay in place as long as the sender is used. If a line
 /// cannot be sent, the error has its line in `expected` and its column in `offset`.
 ///
 /// # Safety
@@ -198,7 +197,8 @@ pub unsafe extern "C" fn ads_cnc_sender_packet(
     found.is_some()
 }
 
-/// What became of the packet in flight; false if there is none, or no such acknowledgement.
+/// Reports the result of the packet in flight; false without such a packet, or for an unknown
+/// acknowledgement.
 ///
 /// # Safety
 /// `sender` points to one that was started, its text still there.
@@ -217,7 +217,7 @@ pub unsafe extern "C" fn ads_cnc_sender_acknowledge(
     unsafe { AdsCncSender::get_mut(sender) }.is_ok_and(|it| it.acknowledge(ack).is_ok())
 }
 
-/// The acknowledgement that the result of a write is.
+/// The acknowledgement for the result of a write.
 #[unsafe(no_mangle)]
 pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
     match Ack::from_result(AdsError(ads_error)) {
@@ -227,7 +227,7 @@ pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
     }
 }
 
-/// How far a sender is; false if it was never started.
+/// The progress of a sender; false if it was never started.
 ///
 /// # Safety
 /// `sender` points to one that was started; `progress` is null or points to room for one.
@@ -303,7 +303,7 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     unsafe { told(start(), error) }
 }
 
-/// What to do next; the same until it is done. False if the host was never started.
+/// The next step, unchanged until it is reported. False if the host was never started.
 ///
 /// # Safety
 /// `host` points to one that was started, its IDs still there; `step` is null or points to room for one.
@@ -335,7 +335,7 @@ pub unsafe extern "C" fn ads_cnc_host_step(
             kind: 3,
             service: it.ids.iter().position(|id| core::ptr::eq(id, uuid)).map_or(0, to_u32),
             request_state,
-            // The last that was read: only one that is read twice the same is handed out.
+            // The request that was read last: a host hands one out when two reads are equal.
             data: it.request.get(..it.length).map_or(AdsCncBytes::NONE, AdsCncBytes::of),
             ..none
         },
@@ -388,8 +388,8 @@ pub unsafe extern "C" fn ads_cnc_host_answer(
     unsafe { told(answer(), error) }
 }
 
-/// What happened: `ADS_CNC_WRITTEN`, `ADS_CNC_FAILED`, `ADS_CNC_POLL` or `ADS_CNC_RESTART`. False if there is
-/// no such event, or the host was never started.
+/// Reports an event: `ADS_CNC_WRITTEN`, `ADS_CNC_FAILED`, `ADS_CNC_POLL` or `ADS_CNC_RESTART`. False for an
+/// unknown event, or if the host was never started.
 ///
 /// # Safety
 /// `host` points to one that was started, its IDs still there.

@@ -1,4 +1,4 @@
-//! Memory of the caller. Every pointer becomes a reference here, or a value by `put`.
+//! The caller's memory: the only module that makes references of pointers, or writes through them.
 
 use crate::error::Fault;
 
@@ -36,7 +36,7 @@ pub(crate) fn to_usize(length: u32) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }
 
-/// The number of items, unless no slice can have so many or there is no pointer to them.
+/// Checks the number of items of an array: a slice can have that many, and the pointer to them is not null.
 fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
     let count = to_usize(count);
     let size = count.checked_mul(size_of::<T>()).and_then(|size| isize::try_from(size).ok());
@@ -48,7 +48,7 @@ fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
 }
 
 /// # Safety
-/// Unless it is null, `data` points to `length` items, aligned, which nobody writes while `'a` lasts.
+/// `data` is null, or points to `count` initialised, aligned items that are not written during `'a`.
 pub(crate) unsafe fn slice<'a, T>(data: *const T, count: u32) -> Result<&'a [T], Fault> {
     match items(data, count)? {
         0 => Ok(&[]),
@@ -65,7 +65,7 @@ pub(crate) unsafe fn bytes<'a>(data: *const u8, length: u32) -> Result<&'a [u8],
 }
 
 /// # Safety
-/// Unless it is null, `data` points to `length` bytes, which nobody else reads or writes while `'a` lasts.
+/// `data` is null, or points to `length` bytes that only the returned reference accesses during `'a`.
 pub(crate) unsafe fn room<'a>(data: *mut u8, length: u32) -> Result<&'a mut [u8], Fault> {
     match items(data.cast_const(), length)? {
         0 => Ok(&mut []),
@@ -75,16 +75,16 @@ pub(crate) unsafe fn room<'a>(data: *mut u8, length: u32) -> Result<&'a mut [u8]
 }
 
 /// # Safety
-/// Unless it is null, `it` points to a `T`, aligned, which nobody writes while `'a` lasts.
+/// `it` is null, or points to an initialised, aligned `T` that is not written during `'a`.
 pub(crate) unsafe fn get<'a, T>(it: *const T) -> Result<&'a T, Fault> {
     // SAFETY: the caller's contract.
     unsafe { it.as_ref() }.ok_or(Fault::Pointer)
 }
 
-/// Writes where the caller wants a value; does nothing at null.
+/// Writes a value to the caller's memory; does nothing if the pointer is null.
 ///
 /// # Safety
-/// Unless it is null, `out` points to room for a `T`, aligned.
+/// `out` is null, or points to aligned memory for a `T`.
 pub(crate) unsafe fn put<T>(out: *mut T, value: T) {
     if !out.is_null() {
         // SAFETY: not null; the rest is the caller's contract.
@@ -92,10 +92,27 @@ pub(crate) unsafe fn put<T>(out: *mut T, value: T) {
     }
 }
 
+/// Lets `write` fill the caller's buffer, and writes the number of bytes to `length`.
+///
+/// # Safety
+/// As for [`room`] and [`put`].
+pub(crate) unsafe fn fill(
+    buffer: *mut u8,
+    size: u32,
+    length: *mut u32,
+    write: impl FnOnce(&mut [u8]) -> Result<usize, Fault>,
+) -> Result<(), Fault> {
+    // SAFETY: the caller's contract.
+    let written = write(unsafe { room(buffer, size)? })?;
+    // SAFETY: the caller's contract.
+    unsafe { put(length, to_u32(written)) };
+    Ok(())
+}
+
 /// Writes to an item of an array; does nothing beyond its end.
 ///
 /// # Safety
-/// Unless it is null, `array` points to room for `room` items, aligned.
+/// `array` is null, or points to aligned memory for `room` items.
 pub(crate) unsafe fn put_item<T>(array: *mut T, room: u32, at: u32, value: T) {
     if at < room && items(array.cast_const(), room).is_ok() {
         // SAFETY: there is room for more than `at` items, as many as a slice could have.

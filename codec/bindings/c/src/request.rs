@@ -96,7 +96,7 @@ impl AdsCncCall {
     }
 }
 
-/// Names that the codec shows and does not return; a test holds them against what it shows.
+/// Names that the codec displays but does not return; a test compares them with what it displays.
 pub(crate) const KINDS: [&str; 4] = ["P", "V.L", "V.P", "V.S"];
 pub(crate) const CLASSES: [&str; 6] =
     ["position controller", "interpolator", "decoder", "HLD", "path preparation", "spindle"];
@@ -241,7 +241,7 @@ operations! { all:
 }
 
 /// # Safety
-/// `it` points to a request, and its pointers to what they count, which nobody writes while `'a` lasts.
+/// `it` points to a request, and its pointers to as many items as it states; none is written during `'a`.
 unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
     // SAFETY: the caller's contract.
     let it = unsafe { get(it)? };

@@ -5,7 +5,7 @@ use codec::layout::{Field, Size, Stream, Type};
 use codec::text::{char_to_cp1252, cp1252_to_char};
 
 use crate::error::{AdsCncError, Fault, told};
-use crate::memory::{AdsCncBytes, bytes, put, put_item, room, slice, to_u32, to_usize};
+use crate::memory::{AdsCncBytes, bytes, fill, put, put_item, room, slice, to_u32, to_usize};
 use crate::tables::{field, field_number};
 
 /// A field of a decoded stream, or one item of a field that is a list.
@@ -117,7 +117,7 @@ impl AsRef<[u8]> for Bytes<'_> {
 }
 
 /// # Safety
-/// The data of the part is where it points to while `'a` lasts.
+/// The pointer of the part is null, or points to its bytes, which are not written during `'a`.
 unsafe fn part<'a>(stream: Stream, part: &AdsCncPart) -> Result<(Field, Bytes<'a>), Fault> {
     let field = field(stream, part.field).ok_or(Fault::NoField)?;
     let row = field.spec().ok_or(Fault::NoField)?;
@@ -157,7 +157,7 @@ pub unsafe extern "C" fn ads_cnc_build(
     let build = || -> Result<(), Fault> {
         let stream = crate::tables::stream(stream).ok_or(Fault::NoStream)?;
         // SAFETY: the caller's contract.
-        let (parts, buffer) = unsafe { (slice(parts, count)?, self::room(buffer, room)?) };
+        let parts = unsafe { slice(parts, count)? };
         for part in parts {
             // SAFETY: the caller's contract.
             unsafe { self::part(stream, part)? };
@@ -165,10 +165,8 @@ pub unsafe extern "C" fn ads_cnc_build(
         // Again, now that none of them is an error.
         // SAFETY: the caller's contract.
         let parts = parts.iter().filter_map(|part| unsafe { self::part(stream, part).ok() });
-        let written = to_u32(stream.join(parts, buffer)?.len());
         // SAFETY: the caller's contract.
-        unsafe { put(length, written) };
-        Ok(())
+        unsafe { fill(buffer, room, length, |buffer| Ok(stream.join(parts, buffer)?.len())) }
     };
     // SAFETY: the caller's contract.
     unsafe { told(build(), error) }
@@ -193,6 +191,26 @@ impl Out<'_> {
     }
 }
 
+/// Converts a text, and writes the length that the result needs to `length`.
+///
+/// # Safety
+/// `data` points to as many bytes as its number, `buffer` to room for as many; `length` is null or points to
+/// room for one.
+unsafe fn convert(
+    (data, size): (*const u8, u32),
+    (buffer, room): (*mut u8, u32),
+    length: *mut u32,
+    write: impl FnOnce(&[u8], &mut Out<'_>) -> Result<(), Fault>,
+) -> Result<(), Fault> {
+    // SAFETY: the caller's contract.
+    let (data, buffer) = unsafe { (bytes(data, size)?, self::room(buffer, room)?) };
+    let mut out = Out { buffer, length: 0 };
+    write(data, &mut out)?;
+    // SAFETY: the caller's contract.
+    unsafe { put(length, to_u32(out.length)) };
+    out.finish().map(drop)
+}
+
 /// CP1252 up to its first NUL, or all, as UTF-8 without a NUL. `length` is what it needs, even without room.
 ///
 /// # Safety
@@ -207,19 +225,14 @@ pub unsafe extern "C" fn ads_cnc_text_to_utf8(
     length: *mut u32,
     error: *mut AdsCncError,
 ) -> bool {
-    let convert = || -> Result<(), Fault> {
-        // SAFETY: the caller's contract.
-        let (data, buffer) = unsafe { (bytes(data, size)?, self::room(buffer, room)?) };
-        let mut out = Out { buffer, length: 0 };
+    let to_utf8 = |data: &[u8], out: &mut Out<'_>| {
         for byte in data.iter().take_while(|byte| **byte != 0) {
             out.put(cp1252_to_char(*byte).encode_utf8(&mut [0; 4]).as_bytes());
         }
-        // SAFETY: the caller's contract.
-        unsafe { put(length, to_u32(out.length)) };
-        out.finish().map(drop)
+        Ok(())
     };
     // SAFETY: the caller's contract.
-    unsafe { told(convert(), error) }
+    unsafe { told(convert((data, size), (buffer, room), length, to_utf8), error) }
 }
 
 /// UTF-8 as CP1252, without a NUL. `length` is what it needs, even without room.
@@ -236,17 +249,12 @@ pub unsafe extern "C" fn ads_cnc_text_from_utf8(
     length: *mut u32,
     error: *mut AdsCncError,
 ) -> bool {
-    let convert = || -> Result<(), Fault> {
-        // SAFETY: the caller's contract.
-        let (data, buffer) = unsafe { (bytes(data, size)?, self::room(buffer, room)?) };
+    let from_utf8 = |data: &[u8], out: &mut Out<'_>| {
         let text = core::str::from_utf8(data).map_err(|_| Fault::Argument("data"))?;
         CncStr::new(text)?;
-        let mut out = Out { buffer, length: 0 };
         text.chars().filter_map(char_to_cp1252).for_each(|byte| out.put(&[byte]));
-        // SAFETY: the caller's contract.
-        unsafe { put(length, to_u32(out.length)) };
-        out.finish().map(drop)
+        Ok(())
     };
     // SAFETY: the caller's contract.
-    unsafe { told(convert(), error) }
+    unsafe { told(convert((data, size), (buffer, room), length, from_utf8), error) }
 }

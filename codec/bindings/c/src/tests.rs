@@ -376,7 +376,7 @@ fn a_number_fits_its_field() {
 }
 
 #[test]
-fn replies_are_held_against_their_request() {
+fn replies_are_compared_with_their_request() {
     let of = |name: &str| AdsCncRequest { function: number(name), channel: 1, ..zero() };
     let reply = |request: &AdsCncRequest, data: &[u8]| {
         let (mut count, mut error) = (77, zero());

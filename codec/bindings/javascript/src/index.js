@@ -1,5 +1,5 @@
 // The byte streams with which an ISG/TwinCAT CNC is read and written over ADS. The codec is WebAssembly;
-// ads_cnc.h documents its functions. What is behind the last line of this file is generated at the build.
+// ads_cnc.h documents its functions. The build appends generated code to this file.
 
 const ABI = 1,
   NONE = 0xffffffff;
@@ -7,7 +7,7 @@ const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0)
 const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});
 if (codec.ads_cnc_abi() !== ABI) throw new Error(`ABI ${codec.ads_cnc_abi()}, ${ABI} needed`);
 
-// Memory behind that of the codec: each call begins at its front, so nothing has to be freed.
+// Memory after that of the codec. Each call starts at its beginning, so nothing has to be freed.
 const BASE = codec.memory.buffer.byteLength;
 let top = BASE;
 

@@ -1,0 +1,156 @@
+//! Other answers than the right one: to a request with another argument, or changed.
+
+use ads_cnc::address::{Class, IndexOffset};
+use ads_cnc::operation::{Call, Function, OffsetRule, Service};
+
+use self::Argument::{Axis, Channel, Index};
+use super::super::cnc::{
+    ReplyData, Upstream, after_nul, class, first, function, group, indexed, joined, offset, parts,
+    set_u32, text, u32_at, with_indices,
+};
+
+/// A number in a request.
+#[derive(Clone, Copy)]
+pub(super) enum Argument {
+    Channel,
+    Axis,
+    Index,
+}
+
+/// The answer to the request with another number for an argument; `None` if it has none, or the same.
+pub(super) fn asked(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    argument: Argument,
+    other: impl Fn(u32) -> u32,
+) -> Option<ReplyData> {
+    let spec = function(call)?.spec();
+    let field = |at| u32_at(call.data, at).map(|number| (number, other(number)));
+    let data = |at| {
+        field(at).filter(|(old, new)| old != new).map(|(_, new)| {
+            let mut data = call.data.to_vec();
+            set_u32(&mut data, at, new);
+            cnc.with(call, &data)
+        })
+    };
+    let part = |number: u32, shift: u32, mask: u32| {
+        let old = number >> shift & mask;
+        let new = other(old) & mask;
+        (old != 0 && old != new).then(|| number & !(mask << shift) | new << shift)
+    };
+    match (argument, spec.offset, first(spec.request)) {
+        (Channel | Axis, ..) if class(call).is_some_and(|class| class.class == Class::Spindle) => {
+            None
+        }
+        (Channel, _, b"channel") => data(0),
+        (Axis, _, b"channel") => data(4),
+        (Channel, ..) => part(group(call), 0, 0xFF).map(|group| cnc.at(call, group, offset(call))),
+        (Axis, ..) => {
+            part(offset(call), 16, 0xFFFF).map(|offset| cnc.at(call, group(call), offset))
+        }
+        (Index, OffsetRule::AtLeast(_), _) => {
+            part(offset(call), 0, 0xFFFF).map(|offset| cnc.at(call, group(call), offset))
+        }
+        (Index, _, b"index") => data(0),
+        (Index, _, b"handle") => {
+            let (handle, mut indices, value) = parts(call.data)?;
+            let last = indices.last_mut()?;
+            let old = std::mem::replace(last, other(*last));
+            (indices.last() != Some(&old)).then(|| cnc.with(call, &joined(handle, &indices, value)))
+        }
+        (Index, _, b"name") => {
+            let (name, mut indices) = indexed(text(call.data));
+            let last = indices.last_mut()?;
+            let old = std::mem::replace(last, other(*last));
+            let data = [&with_indices(name, &indices), after_nul(call.data)].concat();
+            (indices.last() != Some(&old)).then(|| cnc.with(call, &data))
+        }
+        _ => None,
+    }
+}
+
+/// The answer to the request with another number for an argument, if the CNC knows the right one and the
+/// other one.
+pub(super) fn mistaken(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    argument: Argument,
+    other: impl Fn(u32) -> u32,
+) -> ReplyData {
+    if call.service != Service::Write {
+        cnc.answer(call)?;
+    }
+    asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
+}
+
+/// The answer to the request with another number for an argument if the CNC rejects the right one.
+pub(super) fn instead(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    argument: Argument,
+    other: impl Fn(u32) -> u32,
+) -> ReplyData {
+    cnc.answer(call).or_else(|error| asked(cnc, call, argument, other).unwrap_or(Err(error)))
+}
+
+/// The least index of the function.
+pub(super) fn least(call: &Call<'_>) -> u32 {
+    // Only those of variables are counted from 0 (VAR-2, VAR-20).
+    u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
+}
+
+/// The right reply, changed.
+pub(super) fn changed(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    other: impl FnOnce(&mut Vec<u8>),
+) -> ReplyData {
+    let mut bytes = cnc.answer(call)?;
+    other(&mut bytes);
+    Ok(bytes)
+}
+
+/// Where the value begins that a write carries.
+pub(super) fn value_at(call: &Call<'_>) -> usize {
+    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
+        b"name" => after_nul(call.data),
+        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
+        _ => call.data,
+    };
+    call.data.len().saturating_sub(value.len())
+}
+
+/// Executes a write, and another one of what `other` makes of the new and the old value.
+pub(super) fn rewritten(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    other: impl Fn(&[u8], &[u8]) -> Vec<u8>,
+) -> ReplyData {
+    let (head, new) = call.data.split_at_checked(value_at(call)).unwrap_or_default();
+    let (service, back) = match function(call) {
+        Some(Function::WriteByHandle | Function::WriteByName) => (Service::ReadWrite, 2),
+        Some(Function::AxisWriteByName) => (Service::ReadWrite, 1),
+        _ => (Service::Read, 0),
+    };
+    let index_offset = IndexOffset::new(offset(call).wrapping_sub(back));
+    let old = cnc.whole(&Call { service, index_offset, data: head, ..*call });
+    let done = cnc.answer(call)?;
+    let _ = cnc.with(call, &[head, &other(new, &old?)].concat());
+    Ok(done)
+}
+
+/// The answer that the defect remembers.
+pub(super) fn kept() -> (u32, u32, Vec<u8>) {
+    (0, 0, b"kept".to_vec())
+}
+
+/// The answer for the first kind.
+pub(super) fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
+    match function(call).map(|function| (function.spec().offset, first(function.spec().request))) {
+        Some((OffsetRule::OfKind([least, ..]), _)) => cnc.at(call, group(call), least),
+        Some((_, b"index")) => {
+            cnc.with(call, &[call.data.get(..4).unwrap_or_default(), b"V.E\0"].concat())
+        }
+        _ => cnc.with(call, b"V.E\0"),
+    }
+}
