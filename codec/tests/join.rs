@@ -89,6 +89,9 @@ fn trimmed((field, part): Part<'_>) -> (Field, Vec<u8>) {
     (field, part)
 }
 
+/// The stream, its parts, and the error: class, field, offset, expected and found number.
+type JoinCase<'a> = (Stream, &'a [(&'a str, &'a [u8])], (ErrorKind, &'a str, u32, u32, u32));
+
 #[test]
 fn a_wrong_part_is_named() {
     let fault = |stream: Stream, parts: &[(&str, &[u8])]| {
@@ -98,7 +101,7 @@ fn a_wrong_part_is_named() {
         (error.kind(), error.field().name(), error.offset(), error.expected(), error.found())
     };
     let four = &[1, 0, 0, 0][..];
-    let cases: [(Stream, &[(&str, &[u8])], (ErrorKind, &str, u32, u32, u32)); 9] = [
+    let cases: [JoinCase<'_>; 9] = [
         // A number of three bytes.
         (Stream::VariableHandle, &[("handle", &[1, 2, 3])], (Truncated, "handle", 0, 4, 3)),
         (Stream::VariableIndexKind, &[("kind", b"V.E\0")], (MissingNul, "kind", 4, 256, 0)),

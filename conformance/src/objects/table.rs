@@ -87,17 +87,17 @@ pub fn table(
             *width = (*width).max(cell.chars().count().min(most));
         }
     }
-    let gaps = 2 * heads.len().saturating_sub(1);
+    let gaps = heads.len().saturating_sub(1).saturating_mul(2);
     while let Some(terminal) = terminal
-        && widths.iter().sum::<usize>() + gaps > terminal
+        && widths.iter().fold(gaps, |all, width| all.saturating_add(*width)) > terminal
         && let Some(widest) = widths.iter_mut().max().filter(|width| **width > WIDTH_MIN)
     {
-        *widest -= 1;
+        *widest = widest.saturating_sub(1);
     }
     let heads: Vec<String> = heads.iter().map(|head| head.to_uppercase()).collect();
     for row in std::iter::once(heads).chain(rows) {
         let cells = row.iter().zip(&widths).map(|(cell, &width)| match terminal {
-            Some(_) if cell.chars().count() > width => shorten(cell, width - 1),
+            Some(_) if cell.chars().count() > width => shorten(cell, width.saturating_sub(1)),
             _ => format!("{cell:<width$}"),
         });
         writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;

@@ -97,7 +97,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         }
         asked = asked.saturating_add(1);
         if let Purpose::Case(case) = &purpose {
-            *times.entry(*case).or_default() += begin.elapsed();
+            let time = times.entry(*case).or_default();
+            *time = time.saturating_add(begin.elapsed());
         }
         // Whether an answer is right is judged with all others, after the last question.
         let is_lost = matches!(
