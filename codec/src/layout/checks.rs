@@ -80,14 +80,18 @@ mod tests {
     use crate::declare::Declared;
     use crate::layout::Type;
     use crate::{DescriptionRef, HandleWriteRef, NameWriteRef};
+    use std::{sync::Mutex, vec::Vec};
 
     fn layout(rows: &[(&'static str, u32, u32, Size)]) -> Layout {
         let row = |&(name, offset, per_item, size)| {
             let (ty, meaning, clause) = (Type::Uns32, "", "");
             FieldSpec { name, offset, per_item, size, ty, meaning, clause }
         };
-        let fields: std::vec::Vec<FieldSpec> = rows.iter().map(row).collect();
-        Layout { fields: fields.leak(), ..DescriptionRef::LAYOUT }
+        // Reachable to the end, so Miri does not report a leak.
+        static LEAKED: Mutex<Vec<&[FieldSpec]>> = Mutex::new(Vec::new());
+        let fields = &*rows.iter().map(row).collect::<Vec<_>>().leak();
+        LEAKED.lock().expect("no test panics with it").push(fields);
+        Layout { fields, ..DescriptionRef::LAYOUT }
     }
 
     /// The checks find the mistakes of a declaration.
