@@ -11,8 +11,8 @@ use super::progress::{LOG_INTERVAL, ProgressLine, UPDATE_INTERVAL, progress_text
 use super::report_output::{is_stdout, lost, show, write};
 use crate::judge::{Exit, any_seed};
 use crate::process::progress::Counts;
-use crate::selftest;
 use crate::selftest::detection::Scope;
+use crate::selftest::{self, SelfTestProgress};
 
 /// Try the suite on itself: seeded defects must fail, correct implementations pass
 ///
@@ -56,13 +56,19 @@ pub(super) struct SelfTestArguments {
 
 impl SelfTestArguments {
     pub(super) fn execute(&self) -> Exit {
-        let (begin, line) = (Instant::now(), Mutex::new(ProgressLine::new()));
-        let tell = |done: usize, all: usize| {
-            let mut line = line.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let shown = Mutex::new((ProgressLine::new(), "", Instant::now()));
+        let tell = |now: SelfTestProgress| {
+            let SelfTestProgress { part, all, done, failed } = now;
+            let mut shown = shown.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let (line, last_part, begin) = &mut *shown;
+            let is_new = *last_part != part;
+            if is_new {
+                (*last_part, *begin) = (part, Instant::now());
+            }
             let due = if line.live { UPDATE_INTERVAL } else { LOG_INTERVAL };
-            if line.is_due(due) {
-                let counts = Counts { all, done, failed: 0, requests: 0 };
-                line.show(&progress_text(counts, "defects", begin.elapsed()));
+            if is_new || line.is_due(due) {
+                let counts = Counts { all, done, failed, requests: 0 };
+                line.show(&progress_text(counts, part, begin.elapsed()));
             }
         };
         let seed = self.seed.unwrap_or_else(any_seed);
@@ -75,7 +81,7 @@ impl SelfTestArguments {
             Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
-        line.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clear();
+        shown.lock().unwrap_or_else(std::sync::PoisonError::into_inner).0.clear();
         if let Some(folder) = &self.renew {
             let table = &test.detection.table;
             let files = [("detection.tsv", table.to_text()), ("detection.md", table.to_markdown())];

@@ -22,6 +22,7 @@ use crate::faults::{self, SeedKind};
 use crate::judge::{CaseOutcome, Exit, Verdict};
 use detection::{CheckedTable, PairFigures, Scope};
 
+pub use parallel::SelfTestProgress;
 use parallel::parallel;
 pub use show::print;
 use tried::{Candidate, judge, whole};
@@ -54,18 +55,15 @@ impl SelfTest {
 
     /// The exit code: a survivor without a reason, a false alarm and a stale reason are failures.
     pub fn exit(&self) -> Exit {
-        let wrong = |one: &Trial| match one.result {
-            TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same => {
-                false
-            }
-            TrialResult::Survived | TrialResult::Elsewhere => one.reason.is_none(),
-            TrialResult::FalseAlarm | TrialResult::Broken => true,
-        };
         let differs = !self.detection.differences.is_empty();
         let hides = !self.pairs.hidden.is_empty();
         if self.tried.is_empty() {
             Exit::Nothing
-        } else if self.tried.iter().any(wrong) || !self.stale.is_empty() || differs || hides {
+        } else if self.tried.iter().any(Trial::is_failure)
+            || !self.stale.is_empty()
+            || differs
+            || hides
+        {
             Exit::Failure
         } else {
             Exit::Success
@@ -75,8 +73,8 @@ impl SelfTest {
 
 /// Runs all trials whose ID, group or requirement begins with one of these words; all if there are
 /// none. `scope` is the part of the table of detection to measure again. `tell` is called after
-/// each with the number done and the number of all.
-pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) -> SelfTest {
+/// each.
+pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync) -> SelfTest {
     let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()
             || only.iter().any(|word| {
@@ -90,7 +88,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     candidates.extend(clients::candidates());
     candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
     // Most of the time they wait for a connection.
-    let tried = parallel(&candidates, 3, attempt, &tell);
+    let tried = parallel(("defects tried once", &candidates), 3, attempt, Trial::is_failure, &tell);
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let seeds = seeds.filter(|seed| {

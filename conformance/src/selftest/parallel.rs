@@ -3,15 +3,30 @@
 use std::sync::Mutex;
 use std::thread;
 
+/// How far a part of the self-test is.
+#[derive(Clone, Copy, Debug)]
+pub struct SelfTestProgress {
+    /// What the part does, after a number of items: "defects tried once".
+    pub part: &'static str,
+    pub all: usize,
+    pub done: usize,
+    pub failed: usize,
+}
+
+/// Is called after each item.
+pub(super) type Tell<'a> = &'a (dyn Fn(SelfTestProgress) + Sync);
+
 /// Processes each item, in this many threads per processor; the results have the order of the
 /// items.
 pub(super) fn parallel<T: Sync, R: Send>(
-    items: &[T],
+    (part, items): (&'static str, &[T]),
     threads: usize,
     work: impl Fn(&T) -> R + Sync,
-    tell: &(impl Fn(usize, usize) + Sync),
+    is_failure: impl Fn(&R) -> bool + Sync,
+    tell: Tell<'_>,
 ) -> Vec<R> {
-    let left = Mutex::new((items.iter().enumerate(), Vec::with_capacity(items.len())));
+    let all = items.len();
+    let left = Mutex::new((items.iter().enumerate(), Vec::with_capacity(all), 0));
     let workers = thread::available_parallelism().map_or(1, usize::from) * threads;
     thread::scope(|scope| {
         for _ in 0..workers {
@@ -21,13 +36,14 @@ pub(super) fn parallel<T: Sync, R: Send>(
                     let Some((place, item)) = next else { return };
                     let result = work(item);
                     let mut left = lock(&left);
+                    left.2 += usize::from(is_failure(&result));
                     left.1.push((place, result));
-                    tell(left.1.len(), items.len());
+                    tell(SelfTestProgress { part, all, done: left.1.len(), failed: left.2 });
                 }
             });
         }
     });
-    let (_, mut results) = left.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (_, mut results, _) = left.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     results.sort_by_key(|(place, _)| *place);
     results.into_iter().map(|(_, result)| result).collect()
 }

@@ -42,6 +42,19 @@ pub struct Trial {
     pub reason: Option<String>,
 }
 
+impl Trial {
+    /// A survivor without a reason, a false alarm, or a trial that could not be made.
+    pub(super) fn is_failure(&self) -> bool {
+        match self.result {
+            TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same => {
+                false
+            }
+            TrialResult::Survived | TrialResult::Elsewhere => self.reason.is_none(),
+            TrialResult::FalseAlarm | TrialResult::Broken => true,
+        }
+    }
+}
+
 /// The result of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]

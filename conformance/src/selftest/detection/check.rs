@@ -8,7 +8,7 @@ use super::{
 };
 use crate::faults::Seed;
 use crate::judge::order;
-use crate::selftest::parallel::parallel;
+use crate::selftest::parallel::{Tell, parallel};
 
 /// Which defects are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +42,7 @@ impl CheckedTable {
         seeds: Vec<&'static Seed>,
         scope: Scope,
         whole: bool,
-        tell: &(impl Fn(usize, usize) + Sync),
+        tell: Tell<'_>,
     ) -> Self {
         let mut differences = Vec::new();
         let published = DetectionTable::published().unwrap_or_else(|| {
@@ -67,9 +67,17 @@ impl CheckedTable {
             Scope::Changed if is_current => sample(seeds.clone(), (0, 0), &published, tell),
             Scope::Changed | Scope::All => seeds.clone(),
         };
-        let measured = parallel(&chosen, 1, |seed| measure(seed), tell);
+        let differs = |(seed, row): &(&Seed, Result<DetectionRow, _>)| match row {
+            Ok(row) if scope == Scope::Changed => {
+                row.modes.values().any(|found| found.result == DetectionResult::Alarm)
+            }
+            Ok(row) => !differing(published.row(seed), row).is_empty(),
+            Err(_) => true,
+        };
+        let part = ("defects measured in each mode", chosen.as_slice());
+        let measured = parallel(part, 1, |seed| (*seed, measure(seed)), differs, tell);
         let mut rows = Vec::new();
-        for (seed, row) in chosen.iter().zip(measured) {
+        for (seed, row) in measured {
             match row {
                 Ok(row) => {
                     differences.extend(differing(published.row(seed), &row));
@@ -98,9 +106,10 @@ fn sample(
     mut seeds: Vec<&'static Seed>,
     (seed, count): (u32, usize),
     published: &DetectionTable,
-    tell: &(impl Fn(usize, usize) + Sync),
+    tell: Tell<'_>,
 ) -> Vec<&'static Seed> {
-    let hashes = parallel(&seeds, 1, |seed| hash(seed).ok(), tell);
+    let part = ("defects compared with the table", seeds.as_slice());
+    let hashes = parallel(part, 1, |seed| hash(seed).ok(), Option::is_none, tell);
     let changed = seeds
         .iter()
         .zip(hashes)

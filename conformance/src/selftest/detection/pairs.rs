@@ -11,7 +11,7 @@ use super::table::DetectionTable;
 use crate::edition::Edition;
 use crate::faults::{self, FieldDefect, Seed};
 use crate::judge::{follows, order};
-use crate::selftest::parallel::parallel;
+use crate::selftest::parallel::{Tell, parallel};
 use crate::selftest::tried::{TrialResult, judge};
 use crate::session::ToolError;
 
@@ -42,9 +42,15 @@ pub struct PairFigures {
 }
 
 /// Tries the pairs.
-pub(crate) fn pairs(table: &DetectionTable, tell: &(impl Fn(usize, usize) + Sync)) -> PairFigures {
+pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
     let mut figures = PairFigures::default();
-    let tried = parallel(&chosen(table), 1, |pair| (pair.clone(), try_pair(pair)), tell);
+    let tried = parallel(
+        ("pairs of defects", &chosen(table)),
+        1,
+        |pair| (pair.clone(), try_pair(pair)),
+        |(_, detected)| detected.is_err(),
+        tell,
+    );
     for ((one, other), detected) in tried {
         let name = || format!("{} and {}", one.id, other.id);
         match detected {
