@@ -52,6 +52,7 @@ use self::table::{ConnectionEvent, ConnectionTable};
 use self::tally::{count, count_of};
 use self::tcp::Mark;
 use crate::judge::CaseOutcome;
+use crate::process::progress;
 
 pub const AMS_TCP_PORT: u16 = 48898;
 
@@ -181,6 +182,9 @@ fn read(
     Ok(end)
 }
 
+/// After how many packets the failed cases are counted for the progress.
+const PACKETS_BETWEEN_COUNTS: u64 = 4096;
+
 /// Judges a file of captured packets, pcap or pcapng.
 ///
 /// # Errors
@@ -191,6 +195,9 @@ pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked
     let end = read(input, &mut table, |step| match step {
         ReadStep::Packet(packet, content, wanted) => {
             count(&mut judge.tally.packets);
+            if judge.tally.packets.is_multiple_of(PACKETS_BETWEEN_COUNTS) {
+                progress::set_failed(judge.failed());
+            }
             judge.at(packet.time);
             match content {
                 PacketContent::Tcp(_) if wanted => count(&mut judge.tally.segments),

@@ -35,6 +35,11 @@ pub(crate) fn steps(number: usize) {
     DONE.fetch_add(number, Ordering::Relaxed);
 }
 
+/// Sets how many cases have failed.
+pub(crate) fn set_failed(number: usize) {
+    FAILED.store(number, Ordering::Relaxed);
+}
+
 /// Counts requests.
 pub(crate) fn requests(number: usize) {
     REQUESTS.fetch_add(number, Ordering::Relaxed);

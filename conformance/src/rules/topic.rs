@@ -184,6 +184,14 @@ impl TopicRecords {
         }
     }
 
+    /// The number of cases in which a check failed.
+    pub(crate) fn failed(&self) -> usize {
+        let has_failed = |record: &Record| {
+            record.judgements.iter().any(|judgement| judgement.verdict == Verdict::Fail)
+        };
+        self.records.iter().filter(|(_, record, _)| has_failed(record)).count()
+    }
+
     /// Takes the record of one of the [`reply_cases`].
     pub(crate) fn take_of_replies(&mut self, id: &str) -> Record {
         let mut all = self.records.iter_mut();

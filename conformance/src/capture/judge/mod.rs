@@ -119,6 +119,11 @@ impl TrafficJudge {
         }
     }
 
+    /// The number of cases that have failed.
+    pub(super) fn failed(&self) -> usize {
+        self.rules.records.failed()
+    }
+
     /// The outcomes of all cases.
     pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
         self.tally.unkept = self.rules.missed();
