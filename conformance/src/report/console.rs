@@ -267,7 +267,8 @@ fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     let requirements: Vec<&str> =
         case.requirements.iter().map(|one| one.requirement.as_str()).collect();
     let verdict = worded(case.verdict, case.waived);
-    writeln!(out, "  {verdict:<14}  {}  [{}]", case.title, requirements.join(" "))?;
+    let CaseReport { id, title, .. } = case;
+    writeln!(out, "  {verdict:<14}  {id}: {title}  [{}]", requirements.join(" "))?;
     match &case.note {
         Some(note) => writeln!(out, "  {:<14}    {note}", ""),
         None => Ok(()),
