@@ -34,6 +34,8 @@ pub(crate) struct Bend {
     pub(crate) vec: fn(&mut Vec<u8>),
     /// To how many bytes a segment has.
     pub(crate) segment: fn(usize) -> usize,
+    /// To the bytes that were put together from segments.
+    pub(crate) joined: fn(&mut Vec<u8>),
     /// To the answer whether both readings hold the same.
     pub(crate) same: fn(&[u8], bool) -> bool,
     /// To what `decode_prefix` returns: how many bytes belong to the stream, or the error.
@@ -54,6 +56,7 @@ impl Bend {
         small: |_| (),
         vec: |_| (),
         segment: |len| len,
+        joined: |_| (),
         same: |_, same| same,
         prefix: |_, prefix| prefix,
         #[cfg(all(feature = "binrw", feature = "std"))]
@@ -165,16 +168,24 @@ where
     bytes
 }
 
-/// Segments of accepted bytes tile them; an error lies inside the stream that it names.
+/// Segments of accepted bytes tile them, and `join` makes the same bytes of them; an error lies inside the
+/// stream that it names.
 fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
-    let mut end = 0;
+    let (mut end, mut parts) = (0, Vec::new());
     let verdict = stream.walk(bytes, |segment| {
+        parts.push((segment.field, segment.bytes));
         assert_eq!(segment.offset as usize, end, "{stream}: {segment:?}");
         assert_eq!(segment.bytes, &bytes[end..end + segment.bytes.len()]);
         end += (bend.segment)(segment.bytes.len());
     });
     match verdict {
-        Ok(()) => assert_eq!(end, bytes.len(), "{stream}: bytes in no segment of {bytes:x?}"),
+        Ok(()) => {
+            assert_eq!(end, bytes.len(), "{stream}: bytes in no segment of {bytes:x?}");
+            let mut room = vec![UNTOUCHED; bytes.len()];
+            let mut joined = stream.join(parts, &mut room).map(<[u8]>::to_vec);
+            joined.iter_mut().for_each(bend.joined);
+            assert_eq!(joined.as_deref(), Ok(bytes), "{stream}: joined from {bytes:x?}");
+        }
         Err(error) => {
             assert_eq!(error.field().stream(), Some(stream));
             assert!(error.offset() as usize <= bytes.len(), "{error}");

@@ -65,6 +65,7 @@ pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "`BinRead` rejects an accepted stream of more than four bytes",
     "`BinRead` accepts what is rejected",
     "`BinRead` consumes what it rejects",
+    "what is joined from the segments of more than eight bytes lacks the last byte",
     "`decode_prefix` takes the bytes that follow a stream for a part of it",
     "`decode_prefix` accepts what is rejected, but for its last byte",
     "`decode_prefix` rejects a stream if bytes follow it",
@@ -145,12 +146,15 @@ fn bend(defect: Defect) -> Bend {
         };
     }
     if defect.is(18) {
-        bend.prefix = |bytes, prefix| prefix.map(|_| bytes.len());
+        bend.joined = |bytes| bytes.truncate(bytes.len().saturating_sub(1).max(8));
     }
     if defect.is(19) {
-        bend.prefix = |bytes, prefix| prefix.or(Ok(bytes.len().saturating_sub(1)));
+        bend.prefix = |bytes, prefix| prefix.map(|_| bytes.len());
     }
     if defect.is(20) {
+        bend.prefix = |bytes, prefix| prefix.or(Ok(bytes.len().saturating_sub(1)));
+    }
+    if defect.is(21) {
         bend.prefix = |bytes, prefix| match prefix {
             Ok(len) if len < bytes.len() => rejected(),
             _ => prefix,
@@ -158,7 +162,7 @@ fn bend(defect: Defect) -> Bend {
     }
     #[cfg(feature = "binrw")]
     bend_binrw(&mut bend, defect);
-    if defect.is(23) {
+    if defect.is(24) {
         bend.typed = |bytes| bytes.iter_mut().skip(16).for_each(|byte| *byte &= 0x7F);
     }
     bend
@@ -197,14 +201,14 @@ fn bend_binrw(bend: &mut Bend, defect: Defect) {
             (written, read)
         };
     }
-    if defect.is(21) {
+    if defect.is(22) {
         bend.binrw = |bytes, (mut written, read)| {
             let follows = read < bytes.len();
             let last = written.as_mut().filter(|_| follows).and_then(Vec::pop);
             (written, read - usize::from(last.is_some()))
         };
     }
-    if defect.is(22) {
+    if defect.is(23) {
         bend.binrw = |bytes, (written, read)| {
             if read < bytes.len() { (None, 0) } else { (written, read) }
         };
