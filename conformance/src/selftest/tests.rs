@@ -136,14 +136,30 @@ fn every_reason_is_of_a_defect_that_can_be_missed() {
 #[test]
 fn the_table_is_whole() {
     let table = DetectionTable::published().unwrap();
-    let renew = "renew it: ads-cnc selftest --renew conformance/doc";
-    // Two long texts that differ are no message.
-    assert!(table.to_text() == include_str!("../../doc/detection.tsv"), "{renew}");
-    assert!(table.to_markdown() == include_str!("../../doc/detection.md"), "{renew}");
-    assert_eq!(table.inputs, detection::inputs(), "{renew}");
+    let renew = "run `ads-cnc selftest --renew conformance/doc`";
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let ids: Vec<&str> = seeds.map(|seed| seed.id.as_str()).collect();
-    assert_eq!(table.rows.iter().map(|row| row.id.as_str()).collect::<Vec<_>>(), ids);
+    let rows: Vec<&str> = table.rows.iter().map(|row| row.id.as_str()).collect();
+    let lack = |of: &[&str], all: &[&str]| {
+        all.iter().filter(|id| !of.contains(id)).map(|id| (*id).to_owned()).collect::<Vec<_>>()
+    };
+    let (new, gone) = (lack(&rows, &ids), lack(&ids, &rows));
+    assert!(new.is_empty(), "detection.tsv has no row of the defects {new:?}: {renew}");
+    assert!(gone.is_empty(), "detection.tsv has rows without a defect, {gone:?}: {renew}");
+    assert_eq!(rows, ids, "the order of the rows is that of the defects: {renew}");
+    assert!(
+        table.inputs == detection::inputs(),
+        "since detection.tsv was written, a case, the level of a requirement or the default model \
+         changed: {renew}",
+    );
+    assert!(
+        table.to_text() == include_str!("../../doc/detection.tsv"),
+        "detection.tsv was edited: {renew}",
+    );
+    assert!(
+        table.to_markdown() == include_str!("../../doc/detection.md"),
+        "detection.md differs from detection.tsv: {renew}",
+    );
     for mode in Mode::ALL {
         let all = table.rows.iter().map(|row| (&row.id, &row.modes[&mode].result));
         let alarms: Vec<_> = all.filter(|(_, result)| **result == DetectionResult::Alarm).collect();

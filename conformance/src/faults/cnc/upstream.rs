@@ -22,6 +22,7 @@ pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 /// The memory of a defect between requests.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
+    /// A number that the defect keeps: requests counted, or a handle or invoke ID of an earlier one.
     pub(in crate::faults) count: u32,
     /// Bytes by address and name.
     stored: Vec<(Key, Vec<u8>)>,

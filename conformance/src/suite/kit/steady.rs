@@ -59,6 +59,8 @@ pub(crate) struct Steady {
 
 impl Steady {
     /// Compares the value that `other` reads with the one that `one` reads before and after it.
+    ///
+    /// `rules` fail if they differ. `what` names the value in the message.
     pub(crate) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
