@@ -77,7 +77,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "first-channel",
         "it is that of channel 1 if channel 1 has it",
-        &[],
+        &[SDA_1],
         differs_by_channel,
         |cnc, call| mistaken(cnc, call, Channel, |_| 1),
     ),
@@ -91,7 +91,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "first-axis",
         "it is that of axis 1 if axis 1 has it",
-        &[ADR_7],
+        &[ADR_7, SDA_1, SDA_13],
         |spec| {
             has_axis(spec)
                 && (spec.service != Service::Write || spec.clause != "COM-5")
@@ -102,7 +102,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "next-axis",
         "it is that of the next axis if this one has it",
-        &[ADR_7],
+        &[ADR_7, SDA_1, SDA_13],
         |spec| has_axis(spec) && !is_alike(spec),
         |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1)),
     ),
@@ -155,7 +155,7 @@ const OF_REQUESTS: &[Operator] = &[
     operator(
         "error-is-empty",
         "an error is a success without data",
-        &[ADS_4, ADS_7],
+        &[ADS_4, ADS_7, SDA_2],
         has_reply,
         |cnc, call| cnc.answer(call).or(Ok(Vec::new())),
     ),
@@ -178,15 +178,19 @@ const OF_ANSWERS: &[Operator] = &[
     operator("empty", "the reply is empty", &[], has_reply, |cnc, call| {
         changed(cnc, call, Vec::clear)
     }),
-    operator("zeros", "every byte of the reply is 0", &[], has_fields, |cnc, call| {
+    operator("zeros", "every byte of the reply is 0", &[SDA_5], has_fields, |cnc, call| {
         changed(cnc, call, |bytes| bytes.fill(0))
     }),
     operator("short", "the reply lacks its last byte", &[], has_end, |cnc, call| {
         changed(cnc, call, |bytes| _ = bytes.pop())
     }),
-    operator("long", "the reply has one more byte if there is room", &[], has_end, |cnc, call| {
-        or_short(cnc, call, changed(cnc, call, |bytes| bytes.push(0)))
-    }),
+    operator(
+        "long",
+        "the reply has one more byte if there is room",
+        &[SDA_8],
+        has_end,
+        |cnc, call| or_short(cnc, call, changed(cnc, call, |bytes| bytes.push(0))),
+    ),
     operator(
         "stale",
         "the reply is that to the request before",
@@ -314,6 +318,10 @@ fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream
     let mut requirements = vec![spec.clause];
     requirements.extend(streams.map(|stream| stream.layout().clause));
     requirements.extend(breaks.iter().filter(|id| concerns(**id, spec)).map(|id| id.as_str()));
+    if *function == Function::ReadElementName {
+        // The name of element 0 is that of the instance.
+        requirements.push(SDA_4.as_str());
+    }
     requirements.sort_unstable();
     requirements.dedup();
     Seed {
@@ -335,6 +343,8 @@ fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
         VAR_2 | DYN_5 => {
             first(spec.request) == b"index" && area(clause.as_str()) == area(spec.clause)
         }
+        SDA_2 | SDA_5 => spec.clause == SDA_1.as_str(),
+        SDA_8 | SDA_13 => spec.clause == SDA_4.as_str(),
         VAR_20 => first(spec.request) == b"name",
         VAR_16 => spec.clause == "VAR-15",
         ADS_1 | ADS_3 => clause == crate::wire_service::clause(spec.service),

@@ -121,7 +121,15 @@ pub(super) struct ObservedElement {
 #[derive(Debug, Default)]
 pub(super) struct ObservedParameters {
     /// By index group and kind.
-    pub(super) counts: BTreeMap<(u32, String), u32>,
+    pub(super) counts: BTreeMap<(u32, String), ObservedCount>,
+}
+
+/// A number of parameters, which a program may change at any time.
+#[derive(Debug)]
+pub(super) struct ObservedCount {
+    pub(super) number: u32,
+    /// An index beyond the number that was answered since.
+    pub(super) answered_beyond: Option<u32>,
 }
 
 /// The variables of a CNC as captured so far.

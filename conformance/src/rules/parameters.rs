@@ -3,21 +3,10 @@
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc_vectors::ids::*;
 
-use super::knowledge::{ExchangeJudge, MemoryBudget, ObservedParameters};
+use super::knowledge::{ExchangeJudge, ObservedCount};
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::Checks as _;
-
-impl ObservedParameters {
-    /// Stores a count. Names are not stored because indices move (DYN-4).
-    fn learn(&mut self, budget: &mut MemoryBudget, (group, kind): (u32, String), count: u32) {
-        let length = kind.len();
-        let key = (group, kind);
-        if self.counts.contains_key(&key) || budget.take(length) {
-            self.counts.insert(key, count);
-        }
-    }
-}
 
 impl ExchangeJudge<'_> {
     pub(super) fn parameters(
@@ -31,8 +20,8 @@ impl ExchangeJudge<'_> {
         let (kind, index) = match request {
             Request::CountDynamic(count) => {
                 if let Some(Reply::DynamicCount(number)) = reply {
-                    self.cnc.parameters.learn(
-                        self.budget,
+                    self.number_of_parameters(
+                        observation,
                         (group, count.kind.to_string()),
                         number.0,
                     );
@@ -43,17 +32,20 @@ impl ExchangeJudge<'_> {
             Request::DynamicValueByIndex(value) => (value.kind, value.index),
             _ => return,
         };
-        let Some(&count) = self.cnc.parameters.counts.get(&(group, kind.to_string())) else {
+        let known = self.cnc.parameters.counts.get_mut(&(group, kind.to_string()));
+        let Some(ObservedCount { number: count, answered_beyond }) = known else { return };
+        let count = *count;
+        if index > count && reply.is_some() {
+            // A program may have created a parameter: the next count shows whether it has.
+            *answered_beyond = Some(index);
             return;
-        };
+        }
         if index > count {
             let expected = || format!("one of 1 to {count}");
             let found = || format!("index {index}");
             self.judge_nonexistent(observation, request, DYN_5, expected, found);
         }
-        let passed = index <= count || reply.is_none();
-        let expected = || format!("an error number for index {index} of {count}");
-        self.records.on(Topic::CncDyn, observation).check(DYN_5, passed, expected, "a success");
+        self.records.on(Topic::CncDyn, observation).pass(DYN_5);
         let name = match reply {
             Some(Reply::DynamicName(name)) => name.name.text(),
             _ => return,
@@ -62,5 +54,26 @@ impl ExchangeJudge<'_> {
         let of_kind = name.to_string().starts_with(&prefix);
         let mut record = self.records.on(Topic::CncDyn, observation);
         record.check(DYN_2, of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
+    }
+
+    /// Stores a number. Names are not stored because indices move (DYN-4).
+    fn number_of_parameters(
+        &mut self,
+        observation: &dyn Observation,
+        key: (u32, String),
+        number: u32,
+    ) {
+        let length = key.1.len();
+        let counts = &mut self.cnc.parameters.counts;
+        if !counts.contains_key(&key) && !self.budget.take(length) {
+            return;
+        }
+        let before = counts.insert(key, ObservedCount { number, answered_beyond: None });
+        let same = before.filter(|before| before.number == number);
+        if let Some(index) = same.and_then(|before| before.answered_beyond) {
+            let expected =
+                || format!("an error number for index {index} between two counts of {number}");
+            self.records.on(Topic::CncDyn, observation).check(DYN_5, false, expected, "a success");
+        }
     }
 }

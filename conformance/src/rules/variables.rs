@@ -78,6 +78,9 @@ impl Variables {
     }
 }
 
+/// The kinds of variables that programs create and delete.
+const OF_PROGRAM: [&str; 3] = ["V.P", "V.L", "V.S"];
+
 impl ExchangeJudge<'_> {
     pub(super) fn variables(
         &mut self,
@@ -146,8 +149,14 @@ impl ExchangeJudge<'_> {
         }
     }
 
+    /// The number of variables of a kind, unless a program may change it.
     fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
-        self.cnc.variables.channel(call)?.counts.get(kind).copied()
+        let counts = &self.cnc.variables.channel(call)?.counts;
+        let is_of_program = match kind {
+            "" => OF_PROGRAM.iter().any(|kind| counts.get(*kind).is_some_and(|count| *count > 0)),
+            kind => OF_PROGRAM.contains(&kind),
+        };
+        counts.get(kind).copied().filter(|_| !is_of_program)
     }
 
     fn number(

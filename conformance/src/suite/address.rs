@@ -2,17 +2,14 @@
 
 use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{
-    CountObjects, CountVariables, DescribeByIndex, DescribeByName, DescribeExtended,
-    DynamicNameByIndex, DynamicValueByIndex, HandleByName, ReadByHandle, ReadByName,
-    ReadDescriptors, Request, Service,
+    CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
 };
-use ads_cnc::{Decode as _, Description, DescriptorsRef, Kind, ObjectCount, U32List};
+use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
-use super::kit::{Probe, RawCall, Steady, name_of};
+use super::kit::{ChannelItems, Probe, RawCall, Steady, content_reads, in_channel};
 use super::row::{CaseRow, case};
 use crate::exchange::Exchange;
 use crate::judge::{
@@ -83,32 +80,6 @@ fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     Ok(requests)
 }
 
-/// Queries of a variable or parameter, addressed in a channel.
-fn of_items(channel: Channel, variables: &[Description]) -> Step<Vec<Request<'_>>> {
-    let mut requests = Vec::new();
-    for variable in variables {
-        let name = name_of(variable);
-        requests.push(HandleByName { channel, name }.into());
-        requests.push(ReadByName { channel, name }.into());
-        requests.push(ReadByHandle::new(channel, variable.handle, U32List::EMPTY).into());
-        requests.push(DescribeByName { channel, name }.into());
-    }
-    let extended = (0..4).map(|index| DescribeExtended::new(channel, index, Kind::V_E));
-    requests.extend(extended.map(Request::from));
-    for kind in DynamicKind::ALL {
-        requests.push(DynamicNameByIndex::new(channel, kind, 1)?.into());
-        requests.push(DynamicValueByIndex::new(channel, kind, 1)?.into());
-    }
-    Ok(requests)
-}
-
-/// The first variables of a channel. Whether handles of V.A can be read is assumed.
-fn first_variables(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<Description>> {
-    let all = probe.variables(channel)?;
-    let is_of_axis = |one: &&Description| one.name.text.to_string().starts_with("V.A.");
-    Ok(all.iter().filter(|one| !is_of_axis(one)).take(3).cloned().collect())
-}
-
 /// Whether both describe the same object: addressed by rank, its group may have the rank too.
 fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
     let one = |bytes| Some(DescriptorsRef::decode(bytes).ok()?.get(0)?.to_owned());
@@ -134,9 +105,9 @@ fn same_by_rank(probe: &mut Probe<'_>, rules: &[ClauseId], rank: Channel, number
         let expected = || format!("{function}: {}, the answer of channel {by}", spaced(&logical));
         probe.check_reply(rules, same, &logical, expected, &exchange);
     }
-    let variables = first_variables(probe, number)?;
+    let items = ChannelItems::read(probe, number)?;
     let mut steady = Steady::default();
-    for (one, other) in of_items(number, &variables)?.into_iter().zip(of_items(rank, &variables)?) {
+    for (one, other) in items.requests(number)?.into_iter().zip(items.requests(rank)?) {
         if probe.claims(one.function()) != Claim::No {
             let what = format!("{} of channel {}", one.function().spec().name, number.number());
             steady.same(probe, rules, what, one, other)?;
@@ -184,13 +155,21 @@ fn absent_channel(probe: &mut Probe<'_>) -> Step {
     let absent = Channel::new(number)?;
     let present = probe.channel()?;
     let what = format!("channel {number}, which is not configured");
-    let variables = first_variables(probe, present)?;
-    let queries = |channel| -> Step<Vec<Request<'_>>> {
-        Ok([known_by(channel)?, of_items(channel, &variables)?].concat())
-    };
-    for (bad, good) in queries(absent)?.into_iter().zip(queries(present)?) {
-        let is_claimed = probe.claims(good.function()) != Claim::No;
-        if is_claimed && probe.try_ask(good)?.is_some_and(|data| !data.is_empty()) {
+    let count = |channel| CountVariables::new(channel, Kind::V_E);
+    probe.refuses(ADS_4, &what, count(absent), count(present))?;
+    probe.refuses(ADS_4, &what, CountObjects::new(absent), CountObjects::new(present))?;
+    let items = ChannelItems::read(probe, present)?;
+    let queries = [known_by(present)?, items.requests(present)?].concat();
+    let mut calls = queries.into_iter().map(RawCall::new).collect::<Step<Vec<_>>>()?;
+    calls.extend(content_reads(probe, present)?);
+    for good in calls {
+        let Some(bad) = in_channel(&good, present, absent) else { continue };
+        let function = good.call().dispatch().ok().map(|request| request.function());
+        let is_claimed = function.is_some_and(|function| probe.claims(function) != Claim::No);
+        if is_claimed
+            && probe.target.client.check(&bad.call()).is_ok()
+            && probe.call(&good)?.success().is_some_and(|data| !data.is_empty())
+        {
             probe.refuses(ADS_4, &what, bad, good)?;
         }
     }

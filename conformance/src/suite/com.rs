@@ -68,9 +68,13 @@ fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     if !probe.check(rules, there, expected, "no descriptor") || asked < number {
         return Ok(());
     }
-    let beyond = ReadDescriptors::new(list, number.saturating_add(1), 1)?;
-    let what = format!("the object behind the last of {number}");
-    probe.refuses(rules, &what, beyond, last)
+    for beyond in probe.beyond(number.saturating_add(1)) {
+        // An index has 16 bits.
+        let Ok(beyond) = ReadDescriptors::new(list, beyond, 1) else { continue };
+        let what = format!("object {}, after the last of {number}", beyond.first());
+        probe.refuses(rules, &what, beyond, last)?;
+    }
+    Ok(())
 }
 
 fn descriptors(probe: &mut Probe<'_>) -> Step {

@@ -98,7 +98,7 @@ fn room(probe: &mut Probe<'_>) -> Step {
 }
 
 /// The address in an object's descriptor.
-fn at(object: &Object) -> String {
+pub(super) fn at(object: &Object) -> String {
     let content = object.address.content();
     content.map(|(group, offset)| format!("{group}, {offset}")).unwrap_or_default()
 }

@@ -87,14 +87,16 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Whether the target has the description by name; if it is optional, a reply decides.
-fn is_there(probe: &mut Probe<'_>, channel: Channel, known: &Description) -> Step {
+/// Whether the target has the description by name; if it is optional, a reply in any channel decides.
+fn is_there(probe: &mut Probe<'_>) -> Step {
     if probe.target.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
         return Ok(());
     }
-    let request = DescribeByName { channel, name: name_of(known) };
-    if probe.try_ask(request)?.is_some() {
-        return Ok(());
+    for channel in probe.channels()? {
+        let Some(first) = probe.variables(channel)?.into_iter().next() else { continue };
+        if probe.try_ask(DescribeByName { channel, name: name_of(&first) })?.is_some() {
+            return Ok(());
+        }
     }
     let clause = Feature::DescriptionByName.requirement();
     let why =
@@ -103,12 +105,9 @@ fn is_there(probe: &mut Probe<'_>, channel: Channel, known: &Description) -> Ste
 }
 
 fn described_by_name(probe: &mut Probe<'_>) -> Step {
+    is_there(probe)?;
     for channel in probe.channels()? {
-        let variables = probe.variables(channel)?;
-        if let Some(first) = variables.first() {
-            is_there(probe, channel, first)?;
-        }
-        for variable in &variables {
+        for variable in &probe.variables(channel)? {
             let request = DescribeByName { channel, name: name_of(variable) };
             let described: DescriptionByName = probe.read(VAR_28, request)?;
             let name = &variable.name.text;
@@ -132,7 +131,7 @@ fn unknown_described(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
     let known = variables.first().or_inconclusive("no variable")?;
-    is_there(probe, channel, known)?;
+    is_there(probe)?;
     for name in ["V.E.no such variable", "V.E.", ""] {
         let unknown = TextRef::new(name)?;
         let good = DescribeByName { channel, name: name_of(known) };

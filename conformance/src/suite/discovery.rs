@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
+use ads_cnc::Kind;
 use ads_cnc::address::{Channel, Class, PlatformAxis};
 use ads_cnc::ads::DeviceInfoReply;
 use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
-use ads_cnc::{Kind, VariableCount};
 
 use super::kit::{
     Counted, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
@@ -14,7 +14,7 @@ use super::kit::{
 use crate::client::InquiryReply;
 use crate::edition::Edition;
 use crate::judge::{IfPresent as _, Step, Stop};
-use crate::objects::{Walker, active_channels, decoder_of};
+use crate::objects::{Walker, active_channels, decoder_of, has_variables};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// Who says which parts of the target are judged.
@@ -205,8 +205,7 @@ fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: boo
         return Ok(true);
     }
     let has_decoder = walker.is_instance(decoder_of(channel))?;
-    let count: Option<VariableCount> = walker.decoded(CountVariables::new(channel, Kind::ALL))?;
-    let has_variables = count.is_some_and(|count| count.0 > 0);
+    let has_variables = has_variables(walker, channel)?;
     Ok(if has_objects { has_decoder && has_variables } else { has_decoder || has_variables })
 }
 

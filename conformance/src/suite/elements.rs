@@ -270,6 +270,14 @@ fn content(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{content:?} of {at}");
             probe.check(assumed(GEN_5), bit, "a BOOLEAN of 0 or 1", found);
         }
+        // A longer read may be rejected, but must not return more.
+        if let Ok(longer) = ReadElement::new(element, length.saturating_add(1))
+            && let Some(content) = probe.try_ask(longer)?
+        {
+            let found = || format!("{} bytes for a longer read", content.len());
+            let sized = u32::try_from(content.len()) == Ok(length);
+            probe.check(SDA_8, sized, || format!("the {length} bytes of {at}"), found);
+        }
         Ok(())
     })
 }

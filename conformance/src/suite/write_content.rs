@@ -1,10 +1,11 @@
 //! Cases that write COM objects and elements of SDA and GEO and restore them.
 
-use ads_cnc::address::Class;
+use ads_cnc::address::{Class, Group};
 use ads_cnc::operation::{CountElements, Service};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
+use super::content::at;
 use super::kit::{
     NOTHING_WRITABLE, Probe, RawCall, WritableElement, WriteCheck, elements_with_flag,
 };
@@ -14,11 +15,11 @@ use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    case("write-objects", &[COM_2, COM_5], Needs::Writes, objects,
+    case("write-objects", &[COM_2, COM_5, ADR_3], Needs::Writes, objects,
         "What is written to an object with write access is read back"),
     case("write-read-only-objects", &[COM_2], Needs::Writes, read_only_objects,
         "An object without write access takes no value"),
-    case("write-elements", &[SDA_1, SDA_9], Needs::Writes, elements,
+    case("write-elements", &[SDA_1, SDA_9, ADR_2], Needs::Writes, elements,
         "What is written to an element with its write flag set is read back, and nowhere else"),
     case("write-read-only-elements", &[SDA_9], Needs::Writes, read_only_elements,
         "An element without its write flag set takes no value"),
@@ -50,9 +51,47 @@ fn objects(probe: &mut Probe<'_>) -> Step {
         let is_text = object.is_text();
         let rules = [COM_5, COM_2].map(Rule::from);
         let write_check = WriteCheck { what: &what, rules: &rules, is_text, name: None };
-        probe.try_write(&write_check, &object.address, |_, _, _| Ok(()))?;
+        let siblings = of_other_instances(probe, object)?;
+        probe.try_write(&write_check, &object.address, |probe, _, new| {
+            for (other, before) in &siblings {
+                let after = probe.value_at(&other.address)?.unwrap_or_default();
+                let passed =
+                    after != new || after == *before || probe.moves(&other.address, false)?;
+                let expected = || format!("{what} in a group of its own");
+                let found = || format!("written at {} too", at(other));
+                probe.check([COM_5, ADR_3], passed, expected, found);
+            }
+            Ok(())
+        })?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
+}
+
+/// The objects with the same offset and name of other channels or platform axes, with their values.
+fn of_other_instances(probe: &mut Probe<'_>, object: &Object) -> Step<Vec<(Object, Vec<u8>)>> {
+    let mut all = Vec::new();
+    for other in probe.objects()? {
+        if other.name == object.name && is_elsewhere(object, &other) {
+            let value = probe.value_at(&other.address)?;
+            all.extend(value.map(|value| (other, value)));
+        }
+    }
+    Ok(all)
+}
+
+/// Whether an object has the same offset in the group of another channel or platform axis. The platform
+/// is addressed as channel 0 and as channel 1.
+fn is_elsewhere(object: &Object, other: &Object) -> bool {
+    let parts = |object: &Object| {
+        let (group, offset) = object.address.content()?;
+        let Group::Com(com) = group.parts()? else { return None };
+        Some((com, offset))
+    };
+    let Some(((one, at), (two, same))) = parts(object).zip(parts(other)) else { return false };
+    (one.table, at) == (two.table, same)
+        && one.instance > 0
+        && two.instance > 0
+        && one.instance != two.instance
 }
 
 fn read_only_objects(probe: &mut Probe<'_>) -> Step {
@@ -77,22 +116,22 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
         probe.try_write(&write_check, &one.address, |probe, _, new| {
-            for (rule, sibling, address, before) in &siblings {
+            for (rules, sibling, address, before) in &siblings {
                 let after = probe.value_at(address)?.unwrap_or_default();
                 if after == new && after != *before {
-                    taken.push((*rule, sibling, address, before, probe.evidence()));
+                    taken.push((rules, sibling, address, before, probe.evidence()));
                 }
             }
             Ok(())
         })?;
         // A content that first had the new value and then the old one has accepted both writes.
         let is_own = taken.is_empty();
-        for (rule, sibling, address, before, evidence) in taken {
+        for (rules, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
             probe.set_evidence(evidence);
             let passed = again.as_ref() != Some(before);
             let expected = || format!("{} at a place of its own", one.what);
-            probe.check(rule, passed, expected, || format!("written in {sibling} too"));
+            probe.check(&rules[..], passed, expected, || format!("written in {sibling} too"));
         }
         if is_own && !siblings.is_empty() {
             probe.pass(SDA_1);
@@ -101,8 +140,8 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Another value that a wrong write might reach: rule, name, address, current value.
-type Sibling = (Rule, String, ValueAddress, Vec<u8>);
+/// Another value that a wrong write might reach: rules, name, address, current value.
+type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
 /// The same element of the other instances of its class, and the other elements of its instance.
 /// The latter may depend on each other.
@@ -113,7 +152,7 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     let mut others = Vec::new();
     for element in one.instance.elements().filter(|element| *element != one.element) {
         let what = format!("element {} of {}", element.index_offset(), one.instance);
-        others.push((assumed(SDA_9), what, element));
+        others.push((vec![assumed(SDA_9)], what, element));
     }
     for other in probe.instances()? {
         // The HLD of each channel has the same axes.
@@ -121,17 +160,18 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
         let is_sibling = other.class == one.instance.class && !is_same && number <= other.count;
         if let (true, 1.., Ok(element)) = (is_sibling, number, other.first.nth(number)) {
-            others.push((SDA_1.into(), other.to_string(), element));
+            let own = if other.class == Class::Spindle { ADR_2 } else { SDA_9 };
+            others.push((vec![SDA_1.into(), own.into()], other.to_string(), element));
         }
     }
     let mut all = Vec::new();
-    for (rule, what, element) in others {
+    for (rules, what, element) in others {
         if probe.length_of(element)? != Some(length) {
             continue;
         }
         let address = ValueAddress::of_element(element, length);
         if let Some(before) = probe.value_at(&address)? {
-            all.push((rule, what, address, before));
+            all.push((rules, what, address, before));
         }
     }
     Ok(all)

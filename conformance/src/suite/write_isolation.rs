@@ -6,7 +6,7 @@ use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, axis_address, element_count, is_of_service, write_value};
+use super::kit::{Probe, axis_address, element_count, is_of_service};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step, Stop};
 use crate::objects::ValueAddress;
@@ -129,7 +129,7 @@ fn write_and_read_all(
         }
         let Some(place) = by(one) else { continue };
         let value = other_value(&one.variable, &one.value, salt.wrapping_add(number));
-        if write_value(probe, &place, &value)? {
+        if probe.write_value(&place, &value)? {
             one.value = value;
         }
     }
@@ -183,7 +183,7 @@ fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -
         let ways = [one.at.clone(), Some(one.by_handle()), Some(one.by_name())];
         for place in ways.into_iter().flatten() {
             let start = one.start.clone();
-            if write_value(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
+            if probe.write_value(&place, &start)? && probe.value_at(&place)? == Some(start) {
                 one.value = one.start.clone();
                 break;
             }

@@ -1,17 +1,19 @@
 //! Cases of invalid writes: a rejected write has no effect, and an accepted one is stored.
 
+use ads_cnc::address::Channel;
 use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
 use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
-    Probe, RawCall, WritableNumber, WriteCheck, changed_value, each_of_access, handle_of,
-    is_sendable, require_taken, writable_numbers, write_check,
+    Probe, RawCall, WritableNumber, WriteCheck, axis_address, changed_value, each_of_access,
+    elements_with_flag, handle_of, in_channel, is_sendable, require_taken, writable_numbers,
+    write_check,
 };
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, Needs, OrStop as _, Rule, Step, Stop};
-use crate::objects::ValueAddress;
+use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Rule, Step, Stop};
+use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -21,6 +23,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A variable that is READ_ONLY takes no other value, whatever is answered"),
     case("write-unknown", &[VAR_12, VAR_13, ADS_4], Needs::MalformedWrites, unknown,
         "What is not there takes no value"),
+    case("write-absent-channel", &[ADS_4], Needs::MalformedWrites, to_absent_channel,
+        "A channel that is not configured takes no value"),
     case("write-index-out-of-bounds", &[VAR_12, VAR_13], Needs::MalformedWrites, out_of_bounds,
         "An element that the array does not have takes no value, and no other one takes it"),
     case("write-bad-requests", &[VAR_12, VAR_13, VAR_24], Needs::MalformedWrites, bad_requests,
@@ -157,6 +161,35 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let element: CncString = format!("{text}[0]").parse()?;
     let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
     refused(probe, &[VAR_13], "an element of no array", (bad, good), &watched)
+}
+
+/// Writes to an element, an object and an axis variable of a channel that is not configured.
+fn to_absent_channel(probe: &mut Probe<'_>) -> Step {
+    let absent = probe.target.profile.absent_channel;
+    let absent = Channel::new(absent.or_not_applicable("no channel is known to be absent")?)?;
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel).if_known()?.unwrap_or_default();
+    let mut all = Vec::new();
+    let elements = elements_with_flag(probe, true).if_applicable()?.unwrap_or_default();
+    all.extend(elements.into_iter().map(|one| one.address));
+    let objects = probe.objects().if_applicable()?.unwrap_or_default();
+    all.extend(objects.into_iter().filter(Object::is_writable).map(|one| one.address));
+    for variable in variables.iter().filter(|one| one.access == VariableAccess::READ_WRITE) {
+        all.extend(axis_address(probe, channel, variable)?);
+    }
+    let mut functions = Vec::new();
+    for address in all {
+        let Some(value) = probe.filled_value_at(&address)? else { continue };
+        let good = address.write(&value)?;
+        if functions.contains(&good.function()) || !probe.may(good)? {
+            continue;
+        }
+        let Some(bad) = in_channel(&RawCall::new(good)?, channel, absent) else { continue };
+        functions.push(good.function());
+        let what = format!("a write to channel {}, which is not configured", absent.number());
+        refused_call(probe, &[ADS_4], &what, (&bad, good), &address)?;
+    }
+    Ok(())
 }
 
 /// Maximum number of arrays that are tried.

@@ -4,7 +4,7 @@ use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
-use super::kit::{Probe, WriteCheck, each_of_access, write_value};
+use super::kit::{Probe, WriteCheck, each_of_access};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, online};
 use crate::objects::ValueAddress;
@@ -41,7 +41,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                 &before,
                 |probe| of_lengths(probe, id, &address, (&name, variable.size)),
                 |probe| {
-                    write_value(probe, &address, &before)?;
+                    probe.write_value(&address, &before)?;
                     // Without a reply the value is unknown.
                     let Some(after) = probe.value_at(&address)? else { return Ok(false) };
                     let passed = until_nul(&after) == until_nul(&before);
@@ -67,7 +67,7 @@ fn of_lengths(
         value.push(0);
         // Padded to the described size: that fewer bytes are accepted is assumed.
         value.resize(size.max(1), 0);
-        let taken = write_value(probe, address, &value)?;
+        let taken = probe.write_value(address, &value)?;
         let expected = || format!("{name} takes a text of {len} characters");
         probe.check(online(VAR_25), taken, expected, "an error");
         if !taken {
@@ -95,8 +95,8 @@ fn shorter(
     longest.push(0);
     let short = b"zz\0".get(..size.min(3)).unwrap_or_default();
     if short.last() != Some(&0)
-        || !write_value(probe, address, &longest)?
-        || !write_value(probe, address, short)?
+        || !probe.write_value(address, &longest)?
+        || !probe.write_value(address, short)?
     {
         return Ok(());
     }

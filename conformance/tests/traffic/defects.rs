@@ -181,27 +181,52 @@ fn printed_examples_pass() {
 /// A write of a channel's group, and the answer with this result.
 pub(crate) fn written(offset: u32, data: &[u8], result: u32) -> [Message; 2] {
     let (group, port) = if offset == 0x90 { (0x12_0101_u32, 553_u16) } else { (0x12_2301, 552) };
-    let mut asked = Vec::new();
-    for number in [group, offset, u32::try_from(data.len()).unwrap()] {
-        asked.extend(number.to_le_bytes());
-    }
-    asked.extend(data);
-    let frame = |reply: bool, payload: &[u8]| {
+    let mut request = words(&[group, offset, u32::try_from(data.len()).unwrap()]);
+    request.extend(data);
+    exchange(3, port, &request, &result.to_le_bytes())
+}
+
+fn words(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+/// A request of an ADS command, and its reply.
+fn exchange(command: u8, port: u16, request: &[u8], reply: &[u8]) -> [Message; 2] {
+    let frame = |is_reply: bool, payload: &[u8]| {
         let mut out = vec![0, 0];
         let length = u32::try_from(payload.len()).unwrap();
         out.extend((length + 32).to_le_bytes());
         let ends = [([127, 0, 0, 1, 1, 1], port), ([10, 0, 0, 9, 1, 1], 0x8001)];
-        for (id, port) in if reply { [ends[1], ends[0]] } else { ends } {
+        for (id, port) in if is_reply { [ends[1], ends[0]] } else { ends } {
             out.extend(id);
             out.extend(port.to_le_bytes());
         }
-        out.extend([3, 0, if reply { 5 } else { 4 }, 0]);
+        out.extend([command, 0, if is_reply { 5 } else { 4 }, 0]);
         out.extend(length.to_le_bytes());
         out.extend([0, 0, 0, 0, 7, 0, 0, 0]);
         out.extend(payload);
         out
     };
-    [(Side::Client, frame(false, &asked)), (Side::Cnc, frame(true, &result.to_le_bytes()))]
+    [(Side::Client, frame(false, request)), (Side::Cnc, frame(true, reply))]
+}
+
+/// A number of parameters is that of its moment: a program may create one before the next request.
+#[test]
+fn a_parameter_may_be_created_after_the_count() {
+    let count =
+        |number: u32| exchange(2, 552, &words(&[0x12_2301, 0x2, 4]), &words(&[0, 4, number]));
+    let second = exchange(
+        9,
+        552,
+        &words(&[0x12_2301, 0x1D, 8, 4, 2]),
+        &[&words(&[0, 8])[..], &2.5_f64.to_le_bytes()].concat(),
+    );
+    let failing = |last: u32| {
+        let talk = [count(1), second.clone(), count(last)].concat();
+        with(&checked(&pcap(&segments(&talk, 1460, (1, 1)), Link::Sll2)), Verdict::Fail)
+    };
+    assert_eq!(failing(2), [""; 0]);
+    assert_eq!(failing(1), ["cap-cnc-dyn DYN-5"]);
 }
 
 fn failing_writes(writes: &[(u32, &[u8], u32)]) -> Vec<String> {

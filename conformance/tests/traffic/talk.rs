@@ -152,5 +152,6 @@ fn parameters(session: &mut Session, channel: Channel) {
             let _ = session.call(&by_name).is_ok();
         }
         let _ = session.call(&DynamicValueByIndex::new(channel, kind, 1).unwrap()).is_ok();
+        let _ = session.call(&CountDynamic::new(channel, kind)).is_ok();
     }
 }

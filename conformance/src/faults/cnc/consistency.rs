@@ -6,7 +6,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, row, set_u32, text,
-    u32_at,
+    u32_at, within_length,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -49,7 +49,7 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     let key: Key = (group(call), offset(call), call.data.to_vec());
     let known = cnc.memory().get(&key);
     if let Some(known) = known {
-        return Ok(known);
+        return within_length(call, Ok(known));
     }
     let bytes = cnc.answer(call)?;
     cnc.memory().store(key, bytes.clone());

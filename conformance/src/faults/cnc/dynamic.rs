@@ -54,7 +54,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.dyn.p1-name", &[DYN_7], "the name of P1 is V.P1, and it is found by that",
+    row("cnc.dyn.p1-name", &[DYN_2, DYN_7], "the name of P1 is V.P1, and it is found by that",
         |cnc, call| match (is(call, NAME), is(call, BY_NAME), offset(call)) {
             (true, _, 0x1B) => {
                 within_length(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))

@@ -29,7 +29,7 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.adr.spindle-written-first", &[ADR_2],
+    row("cnc.adr.spindle-written-first", &[ADR_2, SDA_9],
         "what is written to the second spindle is written to the first",
         |cnc, call| match (is(call, WRITE), group(call)) {
             (true, 0x02_5301..=0x02_53FF) => cnc.at(call, 0x02_5300, offset(call)),

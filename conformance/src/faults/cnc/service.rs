@@ -7,7 +7,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::{
     CncSeed, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
-    program, row, text, u32_at,
+    program, row, text, u32_at, within_length,
 };
 use crate::simulator::program::Policy;
 
@@ -179,7 +179,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             if reads(call, REQUEST_STATE)
                 && let Some(kept) = cnc.memory().get(&key(call))
             {
-                return Ok(kept);
+                return within_length(call, Ok(kept));
             }
             if writes(call, RESPONSE_STATE) {
                 let before = read(cnc, call, REQUEST_STATE)?;

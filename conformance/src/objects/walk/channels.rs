@@ -1,7 +1,8 @@
 //! The active channels.
 
 use ads_cnc::address::{Channel, Class};
-use ads_cnc::operation::FindInstance;
+use ads_cnc::operation::{CountVariables, FindInstance};
+use ads_cnc::{Kind, VariableCount};
 
 use super::Walker;
 use super::walker::{GAP, NUMBER_MAX};
@@ -12,9 +13,12 @@ pub(crate) fn active_channels<W: Walker>(
     walker: &mut W,
     mut is_there: impl FnMut(&mut W, Channel, bool) -> Result<bool, W::Error>,
 ) -> Result<Vec<Channel>, W::Error> {
-    let mut ranks = 0_usize;
+    let (mut ranks, mut has_objects) = (0_usize, false);
     for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
-        if walker.count_objects(rank)?.is_none() {
+        let is_listed = walker.count_objects(rank)?.is_some();
+        has_objects |= is_listed;
+        // A rank that one task rejects may be known to the other.
+        if !is_listed && (!has_objects || !has_variables(walker, rank)?) {
             break;
         }
         ranks = ranks.saturating_add(1);
@@ -24,11 +28,17 @@ pub(crate) fn active_channels<W: Walker>(
         if found.len() >= ranks && (ranks > 0 || gap >= GAP) {
             break;
         }
-        let is_there = is_there(walker, number, ranks > 0)?;
+        let is_there = is_there(walker, number, has_objects)?;
         gap = if is_there { 0 } else { gap.saturating_add(1) };
         found.extend(is_there.then_some(number));
     }
     Ok(found)
+}
+
+/// Whether a channel has variables.
+pub(crate) fn has_variables<W: Walker>(walker: &mut W, channel: Channel) -> Result<bool, W::Error> {
+    let count: Option<VariableCount> = walker.decoded(CountVariables::new(channel, Kind::ALL))?;
+    Ok(count.is_some_and(|count| count.0 > 0))
 }
 
 /// A decoder exists even for a channel without objects.

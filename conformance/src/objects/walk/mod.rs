@@ -15,7 +15,7 @@ use ads_cnc::operation::{Request, Task};
 use super::{List, Object, Pattern, ReportedAccess};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
-pub(crate) use channels::{active_channels, decoder_of};
+pub(crate) use channels::{active_channels, decoder_of, has_variables};
 pub use walker::GAP;
 use walker::NUMBER_MAX;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};

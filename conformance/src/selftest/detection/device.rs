@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use ads_cnc::address::{Channel, ChannelAxis};
 
 use super::found::Mode;
-use super::requests::{RecordedAnswers, ask_everything};
+use super::requests::{Compare, RecordedAnswers, ask_everything};
 use crate::edition::Edition;
 use crate::faults::{Faulty, FieldDefect, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
@@ -16,6 +16,9 @@ use crate::profile::Profile;
 use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite::{self, ClaimsBy};
+
+/// The places for axes of a channel that the suite tries.
+const AXES_MAX: u32 = 64;
 
 /// A CNC without a defect to run the suite against.
 pub(super) struct Device {
@@ -27,6 +30,8 @@ pub(super) struct Device {
     allowed: Allowed,
     /// The answers of the CNC without a defect, by the requests its gate allows.
     right: [OnceLock<Vec<u64>>; 3],
+    /// The same without what may be configured.
+    right_if_configured: [OnceLock<Vec<u64>>; 3],
 }
 
 impl Device {
@@ -34,7 +39,14 @@ impl Device {
         let built = built(model, settings)?;
         let profile = built.profile();
         let allowed = everything_writable(Cnc::new(built), &profile)?;
-        Ok(Self { model, settings, profile, allowed, right: Default::default() })
+        Ok(Self {
+            model,
+            settings,
+            profile,
+            allowed,
+            right: Default::default(),
+            right_if_configured: Default::default(),
+        })
     }
 
     /// The CNC of the default model with an edition.
@@ -84,17 +96,35 @@ impl Device {
     }
 
     /// The digests of the answers without a defect to every request that a mode may send.
-    pub(super) fn correct_answers(&self, mode: Mode) -> Result<&[u64], ToolError> {
-        let [queries, writes, all] = &self.right;
+    pub(super) fn correct_answers(
+        &self,
+        mode: Mode,
+        compare: Compare,
+    ) -> Result<&[u64], ToolError> {
+        let [queries, writes, all] = match compare {
+            Compare::Bytes => &self.right,
+            Compare::Configured => &self.right_if_configured,
+        };
         let right = match mode {
             Mode::ReadOnly | Mode::Profiled => queries,
             Mode::Writes => writes,
             Mode::All => all,
         };
         if right.get().is_none() {
-            let _same = right.set(answers(self, self.cnc(None)?, mode, None)?.answers);
+            let answers = answers(self, self.cnc(None)?, mode, None, compare)?.answers;
+            let _same = right.set(answers);
         }
         Ok(right.get().map_or(&[], Vec::as_slice))
+    }
+
+    /// The places for axes that the suite does not write to: those without an axis, or all of other
+    /// channels than the first if it does not know.
+    fn unwritten_places(&self, mode: Mode) -> Vec<(u32, u32)> {
+        if mode.has_profile() {
+            return self.profile.empty_places.to_vec();
+        }
+        let others = self.profile.channels.iter().skip(1);
+        others.flat_map(|&number| (1..=AXES_MAX).map(move |place| (number, place))).collect()
     }
 
     /// The outcomes of the suite, run as a user runs it.
@@ -173,10 +203,12 @@ pub(super) fn answers(
     cnc: Arc<Faulty>,
     mode: Mode,
     right: Option<&[u64]>,
+    compare: Compare,
 ) -> Result<RecordedAnswers, ToolError> {
     let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
-    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
+    let places = device.unwritten_places(mode);
+    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right, compare, &places))
 }
 
 /// The device with this model, which is that of a valid variant.

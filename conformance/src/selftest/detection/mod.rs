@@ -27,6 +27,7 @@ use device::{answers, devices};
 pub use found::{Detection, DetectionResult, Mode};
 pub(super) use pairs::pairs;
 pub use pairs::{PAIRS, PairFigures};
+use requests::Compare;
 pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 
 /// Measures a defect, or a valid variant, in every mode.
@@ -49,8 +50,9 @@ pub fn hash(seed: &Seed) -> Result<String, ToolError> {
     let Seed { id, requirements, what, edition, .. } = seed;
     let mut text = format!("{id} {requirements:?} {what} {edition:?}");
     for device in devices.iter().take(1) {
-        let right = device.correct_answers(Mode::All)?;
-        let answers = answers(device, device.cnc(Some(seed))?, Mode::All, Some(right))?.answers;
+        let right = device.correct_answers(Mode::All, Compare::Bytes)?;
+        let cnc = device.cnc(Some(seed))?;
+        let answers = answers(device, cnc, Mode::All, Some(right), Compare::Bytes)?.answers;
         text = format!("{text} {answers:?}");
     }
     Ok(table::hash(&text))

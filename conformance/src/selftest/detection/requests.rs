@@ -1,10 +1,12 @@
 //! Every request that a mode may send, to distinguish two CNCs: each request is sent, also
 //! malformed, and its answer recorded.
 //!
-//! The requests are derived from the function table, from the lists of the CNC, from boundary
-//! values and short sequences, but not from the cases of the suite. Two CNCs with equal answers
-//! receive the same requests, so equal digests mean equal answers.
+//! Requests that the suite sends to no device are left out: malformed writes, and writes to an axis
+//! or a channel that may not exist. The requests are derived from the function table, from the lists
+//! of the CNC, from boundary values and short sequences, but not from the cases of the suite. Two
+//! CNCs with equal answers receive the same requests, so equal digests mean equal answers.
 
+mod configurable;
 mod queries;
 mod writes;
 
@@ -18,15 +20,23 @@ use ads_cnc::address::{Channel, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::limits::{DESCRIPTOR_LEN, STREAM_PACKET_MAX};
-use ads_cnc::operation::{Call, CountDynamic, CountVariables, Function, Request, Service, Task};
+use ads_cnc::operation::{
+    Call, CountDynamic, CountVariables, Effect, Function, Request, Service, Task,
+};
 use ads_cnc::{CncString, Handle, Kind};
 
+pub(super) use self::configurable::Compare;
+use self::configurable::ConfigurableReplies;
 use crate::client::{Client, Inquiry};
 use crate::exchange::ExchangeError;
 use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
 
+/// Where a reply with data has its result.
+const RESULT: Range<usize> = 38..42;
+/// The lengths in the AMS/TCP header and the AMS header.
+const LENGTHS: [Range<usize>; 2] = [2..6, 26..30];
 /// The requested channel numbers and ranks; others are left out.
 const CHANNELS: [u32; 14] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 255];
 /// The requested axes, places and spindles.
@@ -61,6 +71,10 @@ pub(super) struct AnswerRecorder<'t> {
     malformed: BTreeMap<Function, usize>,
     variables: Vec<Variable>,
     contents: Vec<ContentAddress>,
+    /// Channels and places for axes.
+    unwritten_places: &'t [(u32, u32)],
+    /// If their values do not count.
+    configurable: Option<ConfigurableReplies>,
 }
 
 /// The recorded answers.
@@ -72,10 +86,12 @@ pub(super) struct RecordedAnswers {
 
 /// Sends all requests that the client's gate allows; if there are answers of another CNC to compare
 /// with, only up to the first difference.
-pub(super) fn ask_everything(
+pub(super) fn ask_everything<'t>(
     client: Client,
     cnc: Arc<Cnc>,
-    right: Option<&[u64]>,
+    right: Option<&'t [u64]>,
+    compare: Compare,
+    unwritten_places: &'t [(u32, u32)],
 ) -> RecordedAnswers {
     let mut dialogue = AnswerRecorder {
         client,
@@ -86,6 +102,8 @@ pub(super) fn ask_everything(
         malformed: BTreeMap::new(),
         variables: Vec::new(),
         contents: Vec::new(),
+        unwritten_places,
+        configurable: (compare == Compare::Configured).then(ConfigurableReplies::default),
     };
     dialogue.everything();
     let AnswerRecorder { answers, mut difference, .. } = dialogue;
@@ -135,7 +153,9 @@ impl AnswerRecorder<'_> {
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
         *sent += 1;
-        if *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
+        // A malformed write is sent to the simulated CNC only, and not in any of these modes.
+        let is_query = request.function().spec().effect == Effect::Query;
+        if is_query && *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.send_malformed(&call, data.as_ref().map_or(0, Vec::len));
         }
         data
@@ -180,7 +200,18 @@ impl AnswerRecorder<'_> {
         };
         let violations = exchange.violations.iter().map(|one| one.what.as_str());
         let outcome: Vec<&str> = violations.chain([fault.as_str()]).collect();
-        let received = meaning(Some(call), &exchange.received);
+        let mut received = meaning(Some(call), &exchange.received);
+        let data = exchange.answer().and_then(|answer| answer.success());
+        let writes = self.client.gate().may_let_writes_pass();
+        if let (Some(replies), Some(data)) = (&mut self.configurable, data)
+            && let Some(marker) = replies.marker(call, data, writes)
+        {
+            received.truncate(RESULT.end);
+            for length in LENGTHS {
+                received.get_mut(length).unwrap_or_default().fill(0);
+            }
+            received.extend(marker.as_bytes());
+        }
         self.record(&received, &outcome.join("\n"), || {
             let spec = call.dispatch().map(|request| request.function().spec().name);
             let data = compact::show(call.data);
@@ -227,7 +258,6 @@ impl AnswerRecorder<'_> {
 /// depends on how fast the CNC reads, so both are an error.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
-    const RESULT: Range<usize> = 38..42;
     const DATA: usize = RESULT.end + 4;
     let mut received = received.to_vec();
     for number in [ERROR, RESULT] {

@@ -7,6 +7,7 @@
 use super::configured;
 use super::device::{Device, answers};
 use super::found::{DetectionResult, Mode};
+use super::requests::Compare;
 use crate::faults::{FieldChange, FieldDefect, Seed};
 use crate::session::ToolError;
 
@@ -46,6 +47,14 @@ const UNDOCUMENTED: &[(&str, &str)] = &[
         "cnc.com.content-big-endian",
         "an object may have any value, and what is written is read back",
     ),
+    (
+        "axis-handle-by-name.first-channel",
+        "how handles of the axis interface are used is assumed (VAR-10)",
+    ),
+    (
+        "cnc.adr.platform-axis-from-0",
+        "where the lists of platform axes are is assumed (COM-7), and a list says where its objects are",
+    ),
     ("cnc.sda.feedhold-2", "that TRUE is 1 is assumed (GEN-5)"),
 ];
 
@@ -71,27 +80,48 @@ pub(super) fn of(
     if let Some(why) = is_right(seed) {
         return Ok(DetectionResult::Undetectable(format!("a right CNC: {why}")));
     }
-    let (mut first, mut witness) = (None, None);
+    let mut witness = None;
     for device in devices {
-        let right = device.correct_answers(mode)?;
-        let shown = answers(device, device.cnc(Some(seed))?, mode, Some(right))?.difference;
-        let Some(request) = shown else { continue };
-        let first = first.get_or_insert(request);
-        witness = witness_of(seed, device, mode)?;
-        if witness.is_none() {
-            return Ok(DetectionResult::Missed(std::mem::take(first)));
+        if difference(seed, device, mode, Compare::Bytes)?.is_none() {
+            continue;
+        }
+        if let Some(what) = configured_witness(seed, device, mode)? {
+            witness = Some(what);
+        } else if let Some(request) = difference(seed, device, mode, Compare::Configured)? {
+            return Ok(DetectionResult::Missed(request));
+        } else {
+            witness = Some(CONFIGURED.to_owned());
         }
     }
     let why = witness.unwrap_or_else(|| "no answer differs".to_owned());
     Ok(DetectionResult::Undetectable(why))
 }
 
-/// A witness of the defect that gives the same answers.
-fn witness_of(seed: &Seed, device: &Device, mode: Mode) -> Result<Option<String>, ToolError> {
+/// The witness of which [`Compare::Configured`] is the proof.
+const CONFIGURED: &str =
+    "elements may have any texts, objects any content, and V.E any extended description";
+
+/// The first request that distinguishes the defect from the CNC without it.
+fn difference(
+    seed: &Seed,
+    device: &Device,
+    mode: Mode,
+    compare: Compare,
+) -> Result<Option<String>, ToolError> {
+    let right = device.correct_answers(mode, compare)?;
+    Ok(answers(device, device.cnc(Some(seed))?, mode, Some(right), compare)?.difference)
+}
+
+/// A CNC configured otherwise that gives the same answers as the defect.
+fn configured_witness(
+    seed: &Seed,
+    device: &Device,
+    mode: Mode,
+) -> Result<Option<String>, ToolError> {
     for witness in configured::of(&seed.id) {
         let Some(cnc) = witness.cnc(device, mode)? else { continue };
-        let theirs = answers(device, cnc, mode, None)?.answers;
-        let mine = answers(device, device.cnc(Some(seed))?, mode, Some(&theirs))?;
+        let theirs = answers(device, cnc, mode, None, Compare::Bytes)?.answers;
+        let mine = answers(device, device.cnc(Some(seed))?, mode, Some(&theirs), Compare::Bytes)?;
         if mine.difference.is_none() {
             return Ok(Some(witness.what.to_owned()));
         }

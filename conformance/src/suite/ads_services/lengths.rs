@@ -1,17 +1,16 @@
 //! Lengths of replies, and splitting of frames.
 
-use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::address::Class;
 use ads_cnc::operation::{
-    CountDynamic, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex, ReadByName,
-    Request,
+    CountObjects, CountVariables, DescribeByIndex, FindInstance, Function, ReadByName, Request,
 };
 use ads_cnc::{Kind, VariableType};
-use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use crate::judge::{Checks as _, Step};
+use self::LengthRule::{Fixed, Open};
+use crate::judge::{Checks as _, IfPresent as _, Rule, Step};
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, RawCall, ask_if_claimed, name_of};
+use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
 use crate::wire_service::clause;
 
 /// TCP may split a frame anywhere: its length determines its end.
@@ -35,48 +34,71 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Whether the length of a reply is documented, or given by a text.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 enum LengthRule {
     /// Fixed by this requirement.
-    Fixed(ClauseId),
+    Fixed(Rule),
     Open,
 }
 
 pub(super) fn read_length(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for kind in DynamicKind::ALL {
-            lengths_of(probe, CountDynamic::new(channel, kind).into(), LengthRule::Fixed(DYN_1))?;
-            let name = DynamicNameByIndex::new(channel, kind, 1)?;
-            lengths_of(probe, name.into(), LengthRule::Open)?;
-        }
+        lengths_of(probe, &RawCall::new(CountObjects::new(channel))?)?;
         for (_, kind) in probe.kinds() {
-            let count = CountVariables::new(channel, kind);
-            lengths_of(probe, count.into(), LengthRule::Fixed(VAR_2))?;
+            lengths_of(probe, &RawCall::new(CountVariables::new(channel, kind))?)?;
             for index in 0..2 {
-                let described = DescribeByIndex::new(channel, index, kind);
-                lengths_of(probe, described.into(), LengthRule::Open)?;
+                lengths_of(probe, &RawCall::new(DescribeByIndex::new(channel, index, kind))?)?;
             }
         }
-        let Ok(variables) = probe.variables(channel) else { continue };
-        for variable in variables {
+        for variable in probe.variables(channel).if_known()?.unwrap_or_default() {
             if variable.var_type != VariableType::STRING {
-                let read = ReadByName { channel, name: name_of(&variable) };
-                lengths_of(probe, read.into(), LengthRule::Fixed(VAR_14))?;
+                let read = ReadByName { channel, name: name_of(&variable) }.into();
+                lengths(probe, &RawCall::new(read)?, &read, Fixed(VAR_14.into()))?;
             }
+        }
+        let decoder = FindInstance::new(Class::Decoder, channel.number().into(), 0);
+        lengths_of(probe, &RawCall::new(decoder)?)?;
+        let items = ChannelItems::read(probe, channel)?;
+        for request in items.requests(channel)? {
+            lengths_of(probe, &RawCall::new(request)?)?;
+        }
+        for call in content_reads(probe, channel)? {
+            lengths_of(probe, &call)?;
         }
     }
     Ok(())
 }
 
-fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: LengthRule) -> Step {
+/// The requirement that fixes the length of a reply. A variable may be a text.
+fn length_rule(request: &Request<'_>) -> LengthRule {
+    let spec = request.function().spec();
+    let is_number = spec.reply.is_some_and(|stream| stream.layout().is_fixed());
+    match request.function() {
+        Function::ReadElementLength | Function::ReadObject => Fixed(Rule::of(spec.clause)),
+        Function::ReadElement => Fixed(SDA_8.into()),
+        _ if is_number => Fixed(Rule::of(spec.clause)),
+        _ => Open,
+    }
+}
+
+fn lengths_of(probe: &mut Probe<'_>, call: &RawCall) -> Step {
+    let Ok(request) = call.call().dispatch() else { return Ok(()) };
+    lengths(probe, call, &request, length_rule(&request))
+}
+
+fn lengths(
+    probe: &mut Probe<'_>,
+    call: &RawCall,
+    request: &Request<'_>,
+    extent: LengthRule,
+) -> Step {
     if probe.claims(request.function()) != Claim::Yes {
         return Ok(());
     }
-    let call = RawCall::new(request)?;
+    let what = request.function().spec().name;
     let rule = clause(call.service);
-    let Some(whole) = ask_if_claimed(probe, request)?.filter(|data| !data.is_empty()) else {
-        return Ok(());
-    };
+    let whole = probe.call(call)?;
+    let Some(whole) = whole.success().filter(|data| !data.is_empty()) else { return Ok(()) };
     let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
     let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
         let call = call.with(|call| call.read_length = read_length);
@@ -87,13 +109,13 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: LengthRule) -
         let exchange = probe.call(&call)?;
         Ok(Some(exchange.success().map(<[u8]>::len)))
     };
-    let what = request.function().spec().name;
     // For a text at the end of a reply the CNC may require room for a NUL.
-    if let LengthRule::Fixed(own) = extent
+    if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
         let expected = || format!("{there} bytes of {what}, as many as are asked for");
-        probe.check([rule, own], found == Some(whole.len()), expected, || format!("{found:?}"));
+        let rules = [rule.into(), own];
+        probe.check(&rules[..], found == Some(whole.len()), expected, || format!("{found:?}"));
     }
     // A success with a shorter read length must not have more data.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
@@ -101,7 +123,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: LengthRule) -
         let expected = || format!("fewer than {there} bytes of {what}");
         probe.check(rule, fits, expected, || format!("{found:?}"));
     }
-    let LengthRule::Fixed(own) = extent else { return Ok(()) };
+    let Fixed(own) = extent else { return Ok(()) };
     if !probe.target.client.gate().lets_malformed_pass() {
         return Ok(());
     }
@@ -109,11 +131,14 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: LengthRule) -
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = || format!("{there} bytes of {what}, or an error");
-        probe.check([rule, own], fits, expected, || format!("{found:?}"));
+        let rules = [rule.into(), own];
+        probe.check(&rules[..], fits, expected, || format!("{found:?}"));
     }
     // If a large read length is accepted, one byte less makes no difference.
+    let is_number =
+        request.function().spec().reply.is_some_and(|stream| stream.layout().is_fixed());
     let much = there.saturating_add(0x1_0000);
-    if own != VAR_14
+    if is_number
         && let Some(Some(len)) = answer(probe, much)?
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {

@@ -2,6 +2,7 @@
 //! services.
 
 mod lengths;
+mod own_reply;
 mod write;
 
 use ads_cnc::address::{Channel, Class};
@@ -29,9 +30,13 @@ pub(super) const CASES: &[CaseRow] = &[
         "A ReadWrite answers for its own group and offset, and for the data it writes"),
     case("ads-services-agree", &[ADS_1, ADS_3], Needs::Queries, services_agree,
         "What a Read gives the number of, a ReadWrite gives so many of"),
-    case("ads-read-lengths", &[ADS_1, ADS_3, ADS_4, DYN_1, VAR_2, VAR_14],
-        Needs::Queries, lengths::read_length,
+    case("ads-read-lengths", &[ADS_1, ADS_3, ADS_4, COM_1, COM_5, DYN_1, DYN_3, DYN_4, SDA_1, SDA_4, SDA_8,
+        SDA_9, VAR_2, VAR_10, VAR_14, VAR_15, VAR_26], Needs::Queries, lengths::read_length,
         "A reply has no more bytes than are asked for, and no more than there are"),
+    case("ads-own-reply", &[ADS_1, ADS_3, COM_1, COM_2, COM_5, DYN_1, DYN_2, DYN_3, DYN_4, SDA_4, SDA_6,
+        SDA_7, SDA_8, SDA_9, VAR_2, VAR_4, VAR_10, VAR_11, VAR_14, VAR_15, VAR_26, VAR_28],
+        Needs::Queries, own_reply::own_reply,
+        "A reply answers its own request, and not an earlier one"),
     case("ads-in-pieces", &[ADS_5], Needs::Queries, lengths::in_pieces,
         "A request is answered the same in whatever pieces it comes"),
     case("ads-write", &[ADS_2], Needs::Writes, write::arrives,

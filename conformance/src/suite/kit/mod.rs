@@ -2,6 +2,7 @@
 
 mod axis_interface;
 mod changes;
+mod channel_items;
 mod counted;
 mod described_list;
 mod dynamic_variables;
@@ -26,6 +27,7 @@ pub(crate) use axis_interface::{
     name_on_axes,
 };
 pub use changes::Changes;
+pub(crate) use channel_items::{ChannelItems, content_reads, in_channel};
 pub(crate) use counted::Counted;
 pub(crate) use described_list::DescribedList;
 pub(crate) use dynamic_variables::{dynamic_among_variables, has_dynamic_variables};
@@ -52,5 +54,5 @@ pub use target_state::TargetState;
 pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};
 pub(crate) use writable::{
     WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,
-    is_taken, require_taken, writable_numbers, write_check, write_value,
+    is_taken, require_taken, writable_numbers, write_check,
 };

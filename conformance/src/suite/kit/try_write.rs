@@ -98,6 +98,14 @@ impl Probe<'_> {
         }
     }
 
+    /// Whether a write is accepted.
+    pub(crate) fn write_value(&mut self, address: &ValueAddress, value: &[u8]) -> Step<bool> {
+        let Some(write) = address.write(value).ok().filter(is_sendable) else { return Ok(false) };
+        self.target.changes.is_now(address, Some(value));
+        let exchange = self.send(write)?;
+        Ok(exchange.success().is_some())
+    }
+
     /// Writes a value that must be accepted.
     pub(crate) fn write_checked(
         &mut self,
@@ -165,7 +173,31 @@ impl Probe<'_> {
         }
         let expected = || format!("{} of {}, as written", Hex(other.to_vec()), write_check.what);
         self.check(write_check.rules, passed, expected, || Hex(after.clone()));
-        then(self, before, other)
+        then(self, before, other)?;
+        if passed && !write_check.is_text && self.target.client.gate().lets_malformed_pass() {
+            self.change_every_byte(write_check, address, before)?;
+        }
+        Ok(())
+    }
+
+    /// Writes a value that differs from the old one in every byte. It may be out of the range that the
+    /// target accepts; an accepted one must be read back.
+    fn change_every_byte(
+        &mut self,
+        write_check: &WriteCheck<'_>,
+        address: &ValueAddress,
+        before: &[u8],
+    ) -> Step {
+        let other: Vec<u8> = before.iter().map(|byte| byte ^ 1).collect();
+        if other.len() < 2 || !self.write_value(address, &other)? {
+            return Ok(());
+        }
+        let after = self.value_at(address)?.unwrap_or_default();
+        if after == other || !self.moves(address, false)? {
+            let expected = || format!("{} of {}, as written", Hex(other.clone()), write_check.what);
+            self.check(write_check.rules, after == other, expected, || Hex(after));
+        }
+        Ok(())
     }
 
     /// Whether the old value was restored, or changes by itself.

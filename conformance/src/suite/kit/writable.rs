@@ -11,7 +11,7 @@ use ads_cnc::{CncStr, Description, Handle, U32List, VariableAccess, VariableType
 
 use crate::judge::{Rule, Step, Stop, applicable};
 use crate::objects::ValueAddress;
-use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, is_sendable, name_of};
+use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, name_of};
 
 /// Other cases write the variables of the Service Interface, because of their side effects.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
@@ -183,16 +183,4 @@ fn named(
     let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
     let (what, instance) = (format!("{name} of {instance}"), instance.clone());
     Ok(Some(WritableElement { instance, element, address, what, is_text }))
-}
-
-/// Whether a write is accepted.
-pub(crate) fn write_value(
-    probe: &mut Probe<'_>,
-    address: &ValueAddress,
-    value: &[u8],
-) -> Step<bool> {
-    let Some(write) = address.write(value).ok().filter(is_sendable) else { return Ok(false) };
-    probe.target.changes.is_now(address, Some(value));
-    let exchange = probe.send(write)?;
-    Ok(exchange.success().is_some())
 }

@@ -2,13 +2,13 @@
 
 use ads_cnc::Decode as _;
 use ads_cnc::address::{Class, ElementAddress, IndexOffset};
-use ads_cnc::operation::{CountElements, FindInstance, Request};
+use ads_cnc::operation::{CountElements, FindInstance, ReadElement, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
 use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
-use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
+use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe, attribute_reads};
 
 /// Requests an instance that must exist. Another task may serve the class: a rejection is judged
 /// only for the decoder, which SDA serves.
@@ -26,8 +26,10 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         Some(address) => format!("{}, {}", address.index_group, address.index_offset),
         None => exchange.result(),
     };
-    let is_address = first.is_some() || address.is_none_or(|one| one == ObjectAddress::NONE);
-    probe.check(SDA_1, is_address, "an address, or (0, 0)", found);
+    let is_address = first.is_some() || address == Some(ObjectAddress::NONE);
+    if data.is_some() && !probe.check(SDA_1, is_address, "an address, or (0, 0)", found) {
+        return Ok(());
+    }
     if class == Class::Decoder {
         let expected = || format!("an address of the {class} ({channel}, {axis})");
         probe.check(SDA_1, data.is_some(), expected, found);
@@ -229,11 +231,26 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
         if one.class == Class::Decoder && one.axis < 0x100 {
             let group = one.first.class_group();
             for bit in [0x100_0000, 0x8000_0000_u32] {
-                let offset = IndexOffset::new(one.first.index_offset().get() | bit);
-                let there = CountElements::new(one.first)?;
-                let far = CountElements::new(ElementAddress::new(group, offset));
+                let far = |element: ElementAddress| {
+                    let offset = IndexOffset::new(element.index_offset().get() | bit);
+                    ElementAddress::new(group, offset)
+                };
                 let what = format!("an axis {:#x} beyond {one}", bit >> 16);
-                probe.refuses([ADR_7, SDA_5], &what, far?, there)?;
+                let rules = [ADR_7, SDA_5];
+                let (there, first) = (CountElements::new(one.first)?, far(one.first));
+                probe.refuses(rules, &what, CountElements::new(first)?, there)?;
+                let Some(element) = one.elements().next() else { continue };
+                for (there, far) in
+                    attribute_reads(element).into_iter().zip(attribute_reads(far(element)))
+                {
+                    probe.refuses(rules, &what, far, there)?;
+                }
+                let Some(length) = probe.length_of(element)? else { continue };
+                if let (Ok(there), Ok(far)) =
+                    (ReadElement::new(element, length), ReadElement::new(far(element), length))
+                {
+                    probe.refuses(rules, &what, far, there)?;
+                }
             }
         }
         // The axis of a spindle is not used.

@@ -3,18 +3,20 @@
 
 use std::time::Duration;
 
-use ads_cnc::address::{Channel, ChannelAxis, IndexOffset};
+use ads_cnc::address::{Channel, ChannelAxis, Class, ComTable, Group, IndexGroup, IndexOffset};
 use ads_cnc::operation::{
-    AxisReadByName, AxisWriteByName, HandleByName, ReadByHandle, ReadByName, ReadElement,
-    ReadObject, WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
+    AxisReadByName, AxisWriteByName, HandleByName, Operation as _, ReadByHandle, ReadByName,
+    ReadElement, ReadObject, WriteByHandle, WriteByName, WriteElement, WriteObject,
+    WriteProgramStream,
 };
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 
+use super::configurable::by_number;
 use super::{AXES, AnswerRecorder, ContentAddress, Variable, brackets, number, parts};
 
 impl AnswerRecorder<'_> {
-    /// Writes to each writable value: another value, too short and too long ones, and the original.
+    /// Writes to each writable value: two other values and the original.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {
             if variable.writable {
@@ -23,6 +25,9 @@ impl AnswerRecorder<'_> {
         }
         for content in std::mem::take(&mut self.contents) {
             let ContentAddress { group, offset, element, size } = content;
+            if self.is_unwritten(group, offset) {
+                continue;
+            }
             let read = |dialogue: &mut Self| match element {
                 Some(element) => {
                     ReadElement::new(element, size).ok().and_then(|op| dialogue.ask(op))
@@ -51,6 +56,9 @@ impl AnswerRecorder<'_> {
             for name in self.axis_names(channel) {
                 for axis in AXES.iter().filter_map(|&axis| ChannelAxis::new(axis).ok()) {
                     let Ok(read) = AxisReadByName::new(channel, axis, &name) else { continue };
+                    if self.is_unwritten(read.index_group(), read.index_offset()) {
+                        continue;
+                    }
                     let Some(before) = self.ask(read) else { continue };
                     for value in others(&before).into_iter().chain([before]) {
                         let Ok(op) = AxisWriteByName::new(channel, axis, &name, &value) else {
@@ -65,6 +73,16 @@ impl AnswerRecorder<'_> {
                 }
             }
         }
+    }
+
+    /// Whether it is the address of a place for an axis that the suite does not write to.
+    fn is_unwritten(&self, group: IndexGroup, offset: IndexOffset) -> bool {
+        let instance = match by_number(group).parts() {
+            Some(Group::Com(com)) if com.table == ComTable::Channel => com.instance,
+            Some(Group::Class(class)) if class.class != Class::Spindle => class.instance,
+            _ => return false,
+        };
+        self.unwritten_places.contains(&(instance.into(), offset.get() >> 16))
     }
 
     fn write_variable(&mut self, variable: &Variable) {
@@ -162,11 +180,7 @@ impl AnswerRecorder<'_> {
     }
 }
 
-/// Values to write in place of this one: all bits inverted, each byte changed, too short, too long.
-fn others(value: &[u8]) -> Vec<Vec<u8>> {
-    let inverted = value.iter().map(|byte| !byte).collect();
-    let flipped = value.iter().map(|byte| byte ^ 1).collect();
-    let longer = [value, &[0]].concat();
-    let shorter = value.split_last().map_or(&[][..], |(_, rest)| rest).to_vec();
-    vec![inverted, flipped, shorter, longer, Vec::new()]
+/// Values to write in place of this one: all bits inverted, and each byte changed.
+fn others(value: &[u8]) -> [Vec<u8>; 2] {
+    [value.iter().map(|byte| !byte).collect(), value.iter().map(|byte| byte ^ 1).collect()]
 }

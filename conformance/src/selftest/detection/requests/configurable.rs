@@ -1,0 +1,94 @@
+//! Replies that depend on how a CNC is configured: any are right that suit the request and stay the same.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::address::{Addressing, ElementAddress, Group, IndexGroup, IndexOffset};
+use ads_cnc::operation::{Call, Function, Request};
+use ads_cnc::sda::{ElementLength, ElementText};
+use ads_cnc::{Decode as _, ExtendedReply};
+
+use crate::rules::element_type;
+
+/// Which differences of replies count.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::selftest::detection) enum Compare {
+    /// All.
+    Bytes,
+    /// Not those by which the CNC may be configured: names, types and units of elements, extended
+    /// descriptions, and in a mode without writes the write flags of elements and the contents of
+    /// objects.
+    Configured,
+}
+
+/// The numbers of the simulated channels, by rank.
+const NUMBERS: [u8; 3] = [1, 2, 6];
+
+/// What a reply is of: function, group by number, offset, data of the request.
+type Key = (Function, IndexGroup, IndexOffset, Vec<u8>);
+
+/// The configurable replies, and the lengths of the elements.
+#[derive(Default)]
+pub(super) struct ConfigurableReplies {
+    known: BTreeMap<Key, Vec<u8>>,
+    lengths: BTreeMap<(IndexGroup, IndexOffset), u32>,
+}
+
+impl ConfigurableReplies {
+    /// What counts of a reply in place of its data; `None` if all of it does.
+    pub(super) fn marker(&mut self, call: &Call<'_>, data: &[u8], writes: bool) -> Option<String> {
+        let request = call.dispatch().ok()?;
+        let text = || Some(ElementText::decode(data).ok()?.text.text.to_string());
+        let marker = match request {
+            Request::ReadElementName(_) => format!("a name, empty: {}", text()?.is_empty()),
+            Request::ReadElementUnit(_) => text().map(|_| "a unit".to_owned())?,
+            Request::ReadElementType(op) => {
+                let size = element_type(&text()?)?.size();
+                let length = self.lengths.get(&element_key(op.element));
+                let fits = length.zip(size).is_none_or(|(length, size)| *length == size);
+                format!("a type, fits: {fits}")
+            }
+            Request::ReadElementLength(op) => {
+                let length = ElementLength::decode(data).ok()?.get();
+                self.lengths.insert(element_key(op.element), length);
+                return None;
+            }
+            Request::DescribeExtended(_) => {
+                ExtendedReply::decode(data).ok().map(|_| "an extended description".to_owned())?
+            }
+            Request::ReadElementWriteFlag(_) if !writes => {
+                format!("a flag of {} bytes", data.len())
+            }
+            Request::ReadObject(_) if !writes => format!("{} bytes", data.len()),
+            _ => return None,
+        };
+        let group = by_number(call.index_group);
+        let key = (request.function(), group, call.index_offset, call.data.to_vec());
+        let known = self.known.entry(key).or_insert_with(|| data.to_vec());
+        // A reply may be cut by the read length.
+        let len = known.len().min(data.len());
+        (known.get(..len) == data.get(..len)).then_some(marker)
+    }
+}
+
+fn element_key(element: ElementAddress) -> (IndexGroup, IndexOffset) {
+    (by_number(element.class_group().index_group()), element.index_offset())
+}
+
+/// The group with the number of the channel in place of its rank.
+pub(super) fn by_number(group: IndexGroup) -> IndexGroup {
+    let number = |rank: u8| {
+        let number = usize::from(rank).checked_sub(1).and_then(|rank| NUMBERS.get(rank));
+        number.copied().unwrap_or(rank)
+    };
+    match group.parts() {
+        Some(Group::Com(mut com)) if com.addressing == Addressing::Index => {
+            (com.addressing, com.instance) = (Addressing::Logical, number(com.instance));
+            com.index_group()
+        }
+        Some(Group::Class(mut class)) if class.addressing == Addressing::Index => {
+            (class.addressing, class.instance) = (Addressing::Logical, number(class.instance));
+            class.index_group()
+        }
+        _ => group,
+    }
+}
