@@ -22,12 +22,12 @@ fn few_requests_find_everything() {
     let all = found(default_cnc(), &Options::default());
     // COM 29, position controller 38, interpolator 74, decoder 95, HLD 49, path preparation 47,
     // spindles 17
-    assert_eq!((all.objects.len(), all.lists, all.requests), (179, 60, 349));
+    assert_eq!((all.objects.len(), all.lists, all.requests), (179, 60, 350));
     let exact = found(default_cnc(), &Options { exact: true, ..Options::default() });
-    assert_eq!((exact.objects.len(), exact.requests), (179, 693));
-    // Ten for the channels, seven numbers for each of them, one for each variable.
+    assert_eq!((exact.objects.len(), exact.requests), (179, 694));
+    // Eleven for the channels, seven numbers for each of them, one for each variable.
     let variables = found(default_cnc(), &Options { variables: true, ..Options::default() });
-    assert_eq!((variables.objects.len(), variables.requests), (168, 199));
+    assert_eq!((variables.objects.len(), variables.requests), (168, 200));
     assert!(all.notes.is_empty() && exact.notes.is_empty() && variables.notes.is_empty());
 
     let one = Options { lists: Some(Pattern::whole("COM channel 1")), ..Options::default() };

@@ -128,8 +128,8 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
     let &(rank, number) = gap.or_not_applicable("every channel's number is its rank")?;
     same_by_rank(probe, &[ADR_11], rank, number)?;
-    // The number is beyond the ranks: there are fewer channels.
-    let beyond = Channel::by_index(number.number().into())?;
+    let ranks = u32::try_from(ranks.len()).unwrap_or(u32::MAX);
+    let beyond = Channel::by_index(ranks.saturating_add(1))?;
     probe.refuses(
         ADR_11,
         "a rank beyond the last channel",

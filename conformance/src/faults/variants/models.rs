@@ -7,7 +7,8 @@ use crate::faults::cnc::{CncFault, CncSeed, fault};
 pub(super) const ROWS: &[CncSeed] = &[
     model("different.model", "the CNC is a small one, with things of its own", MODEL),
     model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
-    model("different.model-many", "the CNC has twelve channels, and axes in another order", MANY),
+    model("different.model-many",
+        "the CNC has twelve channels, none with the number 4, and axes in another order", MANY),
 ];
 
 /// A row with another model.
@@ -93,8 +94,6 @@ places = [7]
 number = 3
 places = [4]
 [[channel]]
-number = 4
-[[channel]]
 number = 5
 [[channel]]
 number = 6
@@ -110,6 +109,8 @@ number = 10
 number = 11
 [[channel]]
 number = 12
+[[channel]]
+number = 13
 
 [class.interpolator.channel]
 name = "ipo {}"

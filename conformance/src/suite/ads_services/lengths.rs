@@ -8,7 +8,7 @@ use ads_cnc::{Kind, VariableType};
 use ads_cnc_vectors::ids::*;
 
 use self::LengthRule::{Fixed, Open};
-use crate::judge::{Checks as _, IfPresent as _, Rule, Step};
+use crate::judge::{Checks as _, IfPresent as _, Rule, Step, assumed};
 use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
 use crate::wire_service::clause;
@@ -76,6 +76,8 @@ fn length_rule(request: &Request<'_>) -> LengthRule {
     match request.function() {
         Function::ReadElementLength | Function::ReadObject => Fixed(Rule::of(spec.clause)),
         Function::ReadElement => Fixed(SDA_8.into()),
+        // Of V.G and V.A it has no data, and is not judged.
+        Function::DescribeExtended => Fixed(assumed(VAR_15)),
         _ if is_number => Fixed(Rule::of(spec.clause)),
         _ => Open,
     }
