@@ -143,9 +143,11 @@ impl Browse {
             print_error(note);
         }
         if found.objects.is_empty() {
-            print_error(
-                "nothing fits: --filter takes a part of a name, --of the whole name of a list",
-            );
+            print_error(match (&self.filter, &self.of, self.variables) {
+                (None, None, false) => "the CNC has no objects; --variables lists its variables",
+                (None, None, true) => "the CNC has no variables",
+                _ => "nothing fits: --filter takes a part of a name, --of the whole name of a list",
+            });
             return Ok(Exit::Nothing);
         }
         Ok(if found.is_cut { Exit::Nothing } else { Exit::Success })

@@ -127,6 +127,13 @@ fn is_capture(bytes: &[u8]) -> bool {
     starts.iter().any(|start| bytes.starts_with(start))
 }
 
+/// The index group with the decimal digits of an unknown one as hexadecimal digits.
+fn meant_as_hex(group: u32) -> Option<IndexGroup> {
+    let is_known = |group: u32| IndexGroup::new(group).parts().is_some();
+    let meant = u32::from_str_radix(&group.to_string(), 16).ok()?;
+    (!is_known(group) && is_known(meant)).then(|| IndexGroup::new(meant))
+}
+
 impl Explain {
     /// Explains the bytes and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
@@ -151,6 +158,11 @@ impl Explain {
             print(&explanation, self.paint(), &mut out)
         };
         written(shown.and_then(|()| out.flush()))?;
+        if let Some(group) = self.group.and_then(meant_as_hex) {
+            print_error(format_args!(
+                "did you mean --group {group}? Without 0x a number is decimal"
+            ));
+        }
         Ok(explanation.outcome.exit())
     }
 

@@ -86,7 +86,7 @@ pub(super) struct Run {
     /// CNC that takes them is not known. Needs `malformed = true` in the file of --allow-write, and a
     /// target on loopback, which is no proof that nothing moves: the CNC of an industrial PC is asked
     /// there too, and whatever an SSH tunnel leads to
-    #[arg(long, requires = "target")]
+    #[arg(long, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
     malformed: bool,
 
     /// Run what is called this: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
@@ -103,7 +103,8 @@ pub(super) struct Run {
 
     /// Read every item of every list of a device, up to 10000. Otherwise, and unless something may be
     /// written, a sample by the seed is read of a list of more than 256 items
-    #[arg(long, help_heading = SELECTION, requires = "target")]
+    #[arg(long, help_heading = SELECTION, requires = "target",
+        conflicts_with_all = ["testee", "client", "client_listen"])]
     all: bool,
 
     /// List what would be run and run nothing; with --json as data

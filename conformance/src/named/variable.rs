@@ -29,6 +29,21 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
     number.starts_with(|digit: char| digit.is_ascii_digit()).then_some(DynamicKind::P)
 }
 
+/// What is wrong in a name, and after which part of it.
+fn told(name: &str, error: &ads_cnc::Error) -> String {
+    let error_text = error.to_string();
+    let what = match error.kind() {
+        ads_cnc::ErrorKind::Truncated => "the rest is missing",
+        _ => error_text.rsplit(": ").next().unwrap_or_default(),
+    };
+    let front = usize::try_from(error.offset()).ok().and_then(|offset| name.get(..offset));
+    match front {
+        Some("") => format!("{what}, at its beginning"),
+        Some(front) => format!("{what}, after \"{front}\""),
+        None => what.to_owned(),
+    }
+}
+
 /// The object, from its name alone.
 pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
@@ -38,7 +53,10 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
         (Some(kind), None) => Ok(Object::of_parameter(*channel, kind, text)),
         _ => {
             let path = VariablePath::new(name).map_err(|error| {
-                ToolError::Usage(format!("{name} is not the name of a variable: {error}"))
+                ToolError::Usage(format!(
+                    "{name} is not the name of a variable: {}",
+                    told(name, &error)
+                ))
             })?;
             let kind = path.kind().text().to_string();
             if axis.is_some() && kind != "V.A" {

@@ -22,7 +22,14 @@ use crate::simulator::to_len;
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
     let document: Document = toml::from_str(source.text).map_err(|error| {
         // An error without a position, such as a missing table.
-        source.error(&error.span().unwrap_or_default(), error.message())
+        let reason = match error.message() {
+            // In the words of TOML.
+            "invalid type: map, expected a sequence" => {
+                "a list of tables is needed: its name in double brackets, as [[channel]]"
+            }
+            reason => reason,
+        };
+        source.error(&error.span().unwrap_or_default(), reason)
     })?;
     let edition = match &document.edition {
         Some(name) => {
