@@ -318,6 +318,21 @@ impl Record {
         self.judgements.push(judgement);
     }
 
+    /// Records a check that failed only because the clause `cause` is broken.
+    pub(crate) fn add_following(
+        &mut self,
+        rule: Rule,
+        cause: &'static str,
+        expected: impl Describe,
+        found: impl Describe,
+    ) {
+        let place = self.judgements.len();
+        self.add(rule, Verdict::Inconclusive, expected, found, || None);
+        if let Some(new) = self.judgements.get_mut(place) {
+            new.follows = Some(cause);
+        }
+    }
+
     /// The part of the record about a requirement.
     pub(crate) fn of(&self, requirement: &str) -> Self {
         let mine = self.judgements.iter().filter(|one| one.requirement == requirement);

@@ -50,7 +50,7 @@ fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
     untold
 }
 
-fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference> {
+pub(super) fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference> {
     match meant {
         Value::One(tagged) => single(place, tagged, found),
         Value::Record(fields) => record(place, fields, found),

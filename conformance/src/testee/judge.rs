@@ -1,6 +1,6 @@
 //! Asks a testee all questions and judges the answers.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::time::{Duration, Instant};
 
 use super::describe::describe;
@@ -138,8 +138,18 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     {
         protocol.fault("it ends with exit code 0 after bye", why, None);
     }
-    let view =
-        Verdicts { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
+    let broken = BTreeSet::new();
+    let mut view = Verdicts {
+        cases: &cases,
+        reactions: &reactions,
+        hello: &hello,
+        edition,
+        terms,
+        gone,
+        broken,
+    };
+    view.broken =
+        (0..wanted).flat_map(|place| caught(|| view.causes(place)).unwrap_or_default()).collect();
     let outcome = |place| {
         let judged = match panicked.remove(&place) {
             Some(why) => Err(why),

@@ -5,6 +5,7 @@
 //! [`TesteeProcess`] runs another one. [`judge`] asks either of them all questions of the golden
 //! vectors.
 
+mod blame;
 mod check;
 mod codec_testee;
 mod compare;

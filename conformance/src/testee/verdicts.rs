@@ -1,9 +1,11 @@
 //! Judges the answers of a testee.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
+use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
 
+use super::blame::WrongFields;
 use super::describe::{describe, evidence};
 use super::plan::{forms, questions};
 use super::{TesteeReaction, compare};
@@ -36,6 +38,8 @@ pub(super) struct Verdicts<'v> {
     pub(super) terms: Terms<'v>,
     /// Why not all questions were asked.
     pub(super) gone: Option<Stop>,
+    /// The clauses of fields that are wrong, and by which a vector fails.
+    pub(super) broken: BTreeSet<&'static str>,
 }
 
 /// How an answer differs from what was expected.
@@ -89,6 +93,14 @@ impl Verdicts<'_> {
         Some(CaseOutcome::tried(case.clone(), record.judgements, claimed.len(), stop))
     }
 
+    /// The clauses by which a case fails, because their fields are wrong.
+    pub(super) fn causes(&self, place: usize) -> Vec<&'static str> {
+        let outcome = self.outcome(place);
+        let verdicts = outcome.into_iter().flat_map(|outcome| outcome.verdicts);
+        let judgements = verdicts.flat_map(|verdict| verdict.judgements);
+        judgements.filter_map(|judgement| judgement.follows).collect()
+    }
+
     /// Records what came of a question for each requirement of its case.
     fn record(
         &self,
@@ -118,8 +130,23 @@ impl Verdicts<'_> {
             let canonical = canonical.map(|vector| vector.bytes());
             Some(evidence(question, reaction, &case.id, canonical))
         };
+        let wrong = match (&case.body, reaction) {
+            (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output)))
+                if verdict == Verdict::Fail =>
+            {
+                wrong_fields(vector, output)
+            }
+            _ => None,
+        };
         for &id in &case.requirements {
-            record.add(Rule { id, level }, judged, expected, found, evidence);
+            let cause = wrong
+                .as_ref()
+                .and_then(|wrong| wrong.cause_of(id, &case.requirements, &self.broken));
+            let rule = Rule { id, level };
+            match cause {
+                Some(cause) => record.add_following(rule, cause, expected, found),
+                None => record.add(rule, judged, expected, found, evidence),
+            }
         }
     }
 
@@ -279,6 +306,17 @@ impl Verdicts<'_> {
                 self.rejected(reaction, expected, &sequence.sibling, op)
             }
         }
+    }
+}
+
+/// The fields that differ from those of an accepted vector.
+fn wrong_fields(vector: &Vector, output: &Output) -> Option<WrongFields> {
+    let Expect::Accept(accept) = &vector.expect else { return None };
+    let stream = Stream::by_name(&vector.stream)?;
+    match (&output.value, &output.hex) {
+        (Some(value), _) => WrongFields::of_value(stream, &accept.value, value),
+        (None, Some(bytes)) => WrongFields::of_bytes(stream, &vector.bytes(), bytes),
+        (None, None) => None,
     }
 }
 
