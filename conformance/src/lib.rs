@@ -23,6 +23,7 @@
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
 //! | [`process`] | commands given by the user, and signals |
+//! | [`tables`] | the codec's tables as data, and a dissector made from them |
 //! | [`explain`] | bytes of any stream, field by field |
 //! | [`codec`], [`show`] | the codec with the names of the vectors, and their values as text |
 //! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
@@ -91,6 +92,7 @@ pub mod show;
 pub mod simulator;
 #[allow(clippy::restriction)]
 pub mod suite;
+pub mod tables;
 pub mod testee;
 pub mod text;
 pub mod values;

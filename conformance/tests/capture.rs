@@ -1,4 +1,4 @@
-//! A capture has what went over the connection, byte for byte. It is read back by another crate.
+//! A capture has what went over the connection, byte for byte. `.ci/wireshark` has another program read one.
 
 use std::fs;
 use std::net::SocketAddr;
@@ -13,8 +13,8 @@ use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, Server};
-use pcap_file::DataLink;
-use pcap_file::pcapng::{Block, PcapNgReader};
+use pcap_parser::pcapng::Block;
+use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 /// The bytes of a connection, each way, with the ports of its two ends.
 #[derive(Debug, Default)]
@@ -43,23 +43,38 @@ fn sum(parts: &[&[u8]]) -> u16 {
     sum as u16
 }
 
+/// The packets, in whole and in the order of their times.
+fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
+    let mut reader = create_reader(1 << 20, capture).unwrap();
+    let (mut packets, mut last) = (Vec::new(), (0, 0));
+    loop {
+        let (len, block) = match reader.next() {
+            Ok(block) => block,
+            Err(PcapError::Eof) => return packets,
+            Err(error) => panic!("{error:?}"),
+        };
+        let PcapBlockOwned::NG(block) = block else { panic!("not pcapng") };
+        match block {
+            Block::SectionHeader(_) => {}
+            Block::InterfaceDescription(one) => assert_eq!(one.linktype, Linktype::ETHERNET),
+            Block::EnhancedPacket(packet) => {
+                let time = (packet.ts_high, packet.ts_low);
+                let (len, given) = (packet.origlen as usize, packet.caplen as usize);
+                assert!(time >= last && len == given);
+                last = time;
+                packets.push(packet.data[..len].to_vec());
+            }
+            other => panic!("{other:?}"),
+        }
+        reader.consume(len);
+    }
+}
+
 /// Puts the connections of a capture together, and checks every header on the way.
 fn flows(capture: &[u8]) -> Vec<Flow> {
-    let mut reader = PcapNgReader::new(capture).unwrap();
     let (mut flows, mut numbers): (Vec<Flow>, (u32, u32)) = (Vec::new(), (0, 0));
-    let mut last = std::time::Duration::ZERO;
-    while let Some(block) = reader.next_block() {
-        let block = match block.unwrap() {
-            Block::InterfaceDescription(one) => {
-                assert_eq!(one.linktype, DataLink::ETHERNET);
-                continue;
-            }
-            Block::EnhancedPacket(packet) => packet,
-            other => panic!("{other:?}"),
-        };
-        assert!(block.timestamp >= last && block.original_len as usize == block.data.len());
-        last = block.timestamp;
-        let (ethernet, ip) = block.data.split_at(14);
+    for packet in packets(capture) {
+        let (ethernet, ip) = packet.split_at(14);
         let tcp = match (word(ethernet, 12), ip[0] >> 4) {
             (0x0800, 4) => {
                 assert_eq!((usize::from(word(ip, 2)), ip[9]), (ip.len(), 6));

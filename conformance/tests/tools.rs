@@ -320,6 +320,22 @@ fn a_device_is_browsed() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// The tables as JSON, by their schema; the other text has the same streams.
+#[test]
+fn tables_keep_to_their_schema() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/tables.schema.json");
+    let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let tables: Value = serde_json::from_slice(&ads_cnc(&["tables", "--json"]).stdout).unwrap();
+    let errors: Vec<String> = schema.iter_errors(&tables).map(|error| error.to_string()).collect();
+    assert!(errors.is_empty(), "{errors:?}");
+    let shown = text(&ads_cnc(&["tables"]).stdout);
+    for stream in tables["streams"].as_array().unwrap() {
+        let name = stream["name"].as_str().unwrap();
+        assert!(shown.contains(&format!("{name}: ")), "{name}");
+    }
+}
+
 #[test]
 fn json_keeps_to_its_schema() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/objects.schema.json");

@@ -27,6 +27,7 @@ mod serve;
 mod service;
 mod set;
 mod stream;
+mod tables;
 mod target;
 mod testee;
 
@@ -59,6 +60,8 @@ enum Subcommands {
     Report(report::ReportArgs),
     Check(check::CheckArguments),
     Explain(explain::Explain),
+    Tables(tables::TablesArguments),
+    Wireshark(tables::WiresharkArguments),
     Requirements(requirements::Requirements),
     Stream(stream::StreamArguments),
     Service(service::ServiceArguments),
@@ -75,7 +78,7 @@ enum Subcommands {
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Judge", &["run", "check", "report", "requirements"]),
     ("Simulate", &["serve"]),
-    ("Inspect, reading only", &["browse", "get", "explain"]),
+    ("Inspect, reading only", &["browse", "get", "explain", "tables", "wireshark"]),
     ("Act on a CNC", &["set", "stream", "service"]),
     ("Try the suite itself", &["selftest", "testee", "client", "completions"]),
 ];
@@ -168,6 +171,8 @@ impl Cli {
             Some(Subcommands::Report(report)) => report.execute().into(),
             Some(Subcommands::Check(check)) => check.execute().into(),
             Some(Subcommands::Explain(explain)) => explain.execute().into(),
+            Some(Subcommands::Tables(tables)) => tables.execute().into(),
+            Some(Subcommands::Wireshark(wireshark)) => wireshark.execute().into(),
             Some(Subcommands::Requirements(requirements)) => requirements.execute().into(),
             Some(Subcommands::Stream(stream)) => stream.execute().into(),
             Some(Subcommands::Service(service)) => service.execute().into(),

@@ -1,0 +1,107 @@
+//! `ads-cnc tables` and `ads-cnc wireshark`: the tables of the codec for other programs.
+
+use std::io::{self, Write};
+
+use clap::Args;
+
+use super::report_output::{lost, show};
+use crate::judge::Exit;
+use crate::tables::{self, OffsetTable, Tables};
+
+/// Print the tables of all streams and functions, for code generators
+///
+/// Streams with their fields, functions with their addresses and effects.
+#[derive(Args, Debug)]
+#[command(after_help = TABLES_EXAMPLES)]
+pub(super) struct TablesArguments {
+    /// Print them as one JSON document, by conformance/schema/tables.schema.json [default: as text]
+    #[arg(long)]
+    json: bool,
+}
+
+const TABLES_EXAMPLES: &str = "\
+Examples:
+  ads-cnc tables
+  ads-cnc tables --json > tables.json
+
+Exit codes: 0 written; 2 wrong usage; 70 internal error.";
+
+/// Print a dissector for Wireshark, in Lua
+///
+/// Wireshark 4.0 or later then shows the function, the requirement, the effect and every field of each frame
+/// to a CNC, and filters by them: `ads_cnc.effect == \"Write\"`, `ads_cnc.variable_description.size > 100`.
+#[derive(Args, Debug)]
+#[command(after_help = WIRESHARK_EXAMPLES)]
+pub(super) struct WiresharkArguments {}
+
+const WIRESHARK_EXAMPLES: &str = "\
+Examples:
+  ads-cnc wireshark > ~/.local/lib/wireshark/plugins/ads_cnc.lua
+  ads-cnc wireshark > ads_cnc.lua
+  tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y 'ads_cnc.effect == \"Write\"'
+
+Exit codes: 0 written; 2 wrong usage; 70 internal error.";
+
+impl TablesArguments {
+    /// Prints the tables and returns the exit code.
+    pub(super) fn execute(&self) -> Exit {
+        let tables = Tables::new();
+        let shown = show(|out| match self.json {
+            true => crate::text::json::write(&tables, out),
+            false => print(&tables, out),
+        });
+        shown.map_or_else(lost, |()| Exit::Success)
+    }
+}
+
+impl WiresharkArguments {
+    /// Prints the dissector and returns the exit code.
+    pub(super) fn execute(&self) -> Exit {
+        let shown = show(|out| {
+            let script = tables::dissector(&Tables::new()).map_err(io::Error::other)?;
+            out.write_all(script.as_bytes())
+        });
+        shown.map_or_else(lost, |()| Exit::Success)
+    }
+}
+
+fn print(tables: &Tables, out: &mut dyn Write) -> io::Result<()> {
+    for stream in &tables.streams {
+        let repeats = if stream.repeats { ", one or more records" } else { "" };
+        let (name, title, clause) = (stream.name, stream.title, stream.clause);
+        let max = stream.max_length;
+        writeln!(out, "{name}: {title} ({clause}; at most {max} bytes{repeats})")?;
+        for field in &stream.fields {
+            let at = match field.offset_per_item {
+                0 => field.offset.to_string(),
+                each => format!("{} + {each}n", field.offset),
+            };
+            let (name, ty, meaning, clause) = (field.name, &field.ty, field.meaning, field.clause);
+            writeln!(out, "  {at:>8}  {name:<20} {ty:<8}  {clause:<6}  {meaning}")?;
+        }
+        writeln!(out)?;
+    }
+    for function in &tables.functions {
+        let (id, service, port, clause) =
+            (&function.id, &function.service, function.port, function.clause);
+        writeln!(out, "{id}: {}", function.title)?;
+        let groups = function.groups.iter().map(|[first, last]| match first == last {
+            true => format!("0x{first:X}"),
+            false => format!("0x{first:X} to 0x{last:X}"),
+        });
+        let offsets = match &function.offsets {
+            OffsetTable::OneOf { offsets } => {
+                let all: Vec<_> = offsets.iter().map(|offset| format!("0x{offset:X}")).collect();
+                all.join(", ")
+            }
+            OffsetTable::AtLeast { first } => format!("0x{first:X} and above"),
+            OffsetTable::OfAxis { element, .. } => format!("0x10000 * axis + 0x{element:X}"),
+        };
+        writeln!(out, "  {service} at port {port}, effect {}, {clause}", function.effect)?;
+        writeln!(out, "  groups   {}", groups.collect::<Vec<_>>().join(", "))?;
+        writeln!(out, "  offsets  {offsets}")?;
+        let stream = |stream: Option<&'static str>| stream.unwrap_or("no data");
+        writeln!(out, "  {} -> {}\n", stream(function.request), stream(function.reply))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,227 @@
+-- What AMS frames ask a CNC, for Wireshark and tshark 4.0 or later: function, requirement, effect and each
+-- field, all of them for display filters.
+--
+-- Printed by `ads-cnc wireshark`, version @VERSION@, from the tables of its codec. Copy it into the folder that
+-- Wireshark names under Help > About > Folders > Personal Lua Plugins, or:
+--
+--   tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y 'ads_cnc.effect == "Write"'
+--
+-- For another TCP port than 48898: Analyze > Decode As > ADS_CNC, or `tshark -d tcp.port==PORT,ads_cnc`.
+
+local tables = @TABLES@
+
+local streams = {}
+for _, stream in ipairs(tables.streams) do streams[stream.name] = stream end
+
+local cnc = Proto("ads_cnc", "CNC over ADS")
+local function_field = ProtoField.string("ads_cnc.function", "Function")
+local clause_field = ProtoField.string("ads_cnc.clause", "Requirement")
+local effect_field = ProtoField.string("ads_cnc.effect", "Effect")
+local stream_field = ProtoField.string("ads_cnc.stream", "Stream")
+local fault_field = ProtoField.string("ads_cnc.fault", "Fault")
+local all_fields = { function_field, clause_field, effect_field, stream_field, fault_field }
+
+local NUMBERS = { UNS08 = ProtoField.uint8, BOOLEAN = ProtoField.uint8, UNS16 = ProtoField.uint16,
+    UNS32 = ProtoField.uint32, unsigned = ProtoField.uint32 }
+for _, stream in ipairs(tables.streams) do
+    for _, field in ipairs(stream.fields) do
+        local filter = ("ads_cnc.%s.%s"):format(stream.name, field.name):gsub("-", "_")
+        if NUMBERS[field.type] then
+            field.proto = NUMBERS[field.type](filter, field.name, base.DEC_HEX)
+            field.is_number = true
+        elseif field.type == "REAL64" and field.size.bytes == 8 then
+            field.proto = ProtoField.double(filter, field.name)
+            field.is_number = true
+        elseif field.type == "STRING" then
+            field.proto = ProtoField.string(filter, field.name)
+            field.is_text = true
+        else
+            field.proto = ProtoField.bytes(filter, field.name)
+        end
+        all_fields[#all_fields + 1] = field.proto
+    end
+end
+cnc.fields = all_fields
+
+local function has_offset(offsets, offset)
+    if offsets.kind == "one-of" then
+        for _, one in ipairs(offsets.offsets) do if one == offset then return true end end
+        return false
+    elseif offsets.kind == "at-least" then
+        return offset >= offsets.first
+    end
+    return math.floor(offset / 0x10000) >= offsets.first_axis and offset % 0x10000 == offsets.element
+end
+
+local function has_group(groups, group)
+    for _, range in ipairs(groups) do
+        if range[1] <= group and group <= range[2] then return true end
+    end
+    return false
+end
+
+-- The tasks GEO and SDA both answer for the classes.
+local function same_task(port, other) return (port == 553) == (other == 553) end
+
+local function function_of(command, port, group, offset)
+    for _, row in ipairs(tables.functions) do
+        if same_task(row.port, port) and has_group(row.groups, group) and has_offset(row.offsets, offset) then
+            if row.command == command then return row end
+            if row.request ~= "content" and row.reply ~= "content" then return nil end
+        end
+    end
+end
+
+-- The length of a field at `at`; nil if the bytes end before it does.
+local function length_of(field, range, at, count)
+    local size, left = field.size, range:len() - at
+    if size.kind == "items" then
+        local length = size.each * count
+        return length <= left and length or nil
+    elseif size.bytes then
+        return size.bytes <= left and size.bytes or nil
+    elseif size.kind == "c-string-prefix" then
+        local bytes = range:bytes(at)
+        for place = 0, bytes:len() - 1 do
+            if bytes:get_index(place) == 0 then return place + 1 end
+        end
+        return nil
+    end
+    return left
+end
+
+local function add_field(tree, field, range)
+    local item
+    if field.is_number then
+        item = tree:add_le(field.proto, range)
+    elseif field.is_text then
+        item = tree:add_packet_field(field.proto, range, ENC_WINDOWS_1252)
+    else
+        item = tree:add(field.proto, range)
+    end
+    item:append_text(" (" .. field.clause .. ")")
+end
+
+local function walk(stream, range, tree)
+    local at, count = 0, 0
+    repeat
+        for _, field in ipairs(stream.fields) do
+            local length = length_of(field, range, at, count)
+            local may_lack = field.size.kind == "optional-fixed" or field.size.kind == "fixed-on-success"
+            if may_lack and at == range:len() then return end
+            if not length then
+                tree:add(fault_field, at < range:len() and range(at) or range, "ends in " .. field.name)
+                return
+            end
+            if field.size.kind == "items" then
+                for place = at, at + length - 1, field.size.each do
+                    add_field(tree, field, range(place, field.size.each))
+                end
+            elseif length > 0 then
+                add_field(tree, field, range(at, length))
+                if field.type == "UNS32" then count = range(at, 4):le_uint() end
+            end
+            at = at + length
+        end
+    until not stream.repeats or at >= range:len()
+    if at < range:len() then tree:add(fault_field, range(at), "bytes after the stream") end
+end
+
+-- Functions by connection and invoke ID, while the capture is read for the first time, and by packet.
+local asked, found = {}, {}
+
+function cnc.init() asked, found = {}, {} end
+
+local IDENTITIES = {
+    [1] = { id = "ReadDeviceInfo", title = "device information", clause = "ADS-8", effect = "Query",
+        reply = "device-info-reply" },
+    [4] = { id = "ReadState", title = "device state", clause = "ADS-9", effect = "Query",
+        reply = "device-state-reply" },
+}
+local NONE = { id = "none", title = "no function of a CNC", clause = "", effect = "unknown" }
+
+local function show(frame, range, pinfo, tree, place)
+    local to, from = frame(6, 2):le_uint(), frame(14, 2):le_uint()
+    local command, flags, invoke_id = frame(16, 2):le_uint(), frame(18, 2):le_uint(), frame(28, 4):le_uint()
+    local is_reply = flags % 2 == 1
+    local port = is_reply and from or to
+    if port < 551 or port > 553 then return end
+    local target, source = frame(0, 8):bytes():tohex(), frame(8, 8):bytes():tohex()
+    local client, device = is_reply and target or source, is_reply and source or target
+    local ports = pinfo.src_port + pinfo.dst_port
+    local key = table.concat({ client, device, ports, invoke_id }, "/")
+    local visit = pinfo.number .. "/" .. place
+
+    local data, stream = frame:len() > 32 and frame(32) or nil, nil
+    local row = found[visit] or IDENTITIES[command]
+    local group, offset
+    local is_call = command == 2 or command == 3 or command == 9
+    if is_call and not is_reply and data and data:len() >= 8 then
+        group, offset = data(0, 4):le_uint(), data(4, 4):le_uint()
+    end
+    if not row then
+        row = is_reply and is_call and asked[key] or group and function_of(command, port, group, offset) or NONE
+        if not is_reply then asked[key] = row end
+        found[visit] = row
+    end
+
+    -- Where the service has its data.
+    local start, result = nil, 0
+    if is_reply then
+        start, stream = command == 3 and 4 or 8, row.reply
+        result = data and data:len() >= 4 and data(0, 4):le_uint() or 0
+        if IDENTITIES[command] then start = 0 end
+    else
+        start, stream = command == 9 and 16 or 12, row.request
+    end
+    local top = tree:add(cnc, range, ("CNC over ADS: %s, %s"):format(row.title, is_reply and "reply" or "request"))
+    top:add(function_field, row.id):set_generated()
+    top:add(clause_field, row.clause):set_generated()
+    top:add(effect_field, row.effect):set_generated()
+    local info = (is_reply and "< " or "> ") .. row.title
+    if group then info = info .. (" 0x%X, 0x%X"):format(group, offset) end
+    if result ~= 0 then info = info .. (": ADS error 0x%X"):format(result) end
+    pinfo.cols.info:append(place == 1 and " | " .. info or "; " .. info)
+
+    local layout = stream and streams[stream]
+    if layout and result == 0 and data and data:len() > start then
+        local part = data(start)
+        local branch = top:add(stream_field, part, layout.name)
+        branch:append_text(": " .. layout.title)
+        walk(layout, part, branch)
+    end
+end
+
+-- Wireshark's own dissector for AMS does not put together frames that TCP has split.
+local ams = Dissector.get("ams")
+local FRAME_MAX = 0x400000
+
+function cnc.dissector(tvb, pinfo, tree)
+    local place = 0
+    local function length(part, _, offset)
+        local left = part:len() - offset
+        local frame = 6 + part(offset + 2, 4):le_uint()
+        local is_header = part(offset, 2):uint() == 0 and frame >= 38 and frame <= FRAME_MAX
+        return is_header and frame or left
+    end
+    local function dissect(frame)
+        place = place + 1
+        if frame:len() >= 38 then
+            ams:call(frame(6):tvb(), pinfo, tree)
+            show(frame(6), frame(), pinfo, tree, place)
+        end
+        return frame:len()
+    end
+    dissect_tcp_pdus(tvb, tree, 6, length, dissect)
+end
+
+DissectorTable.get("tcp.port"):add(48898, cnc)
+
+local in_ethercat = Proto("ads_cnc_ethercat", "CNC over ADS in EtherCAT")
+
+function in_ethercat.dissector(tvb, pinfo, tree)
+    ams:call(tvb, pinfo, tree)
+    if tvb:len() >= 32 then show(tvb(), tvb(), pinfo, tree, 1) end
+end
+
+DissectorTable.get("ecatf.type"):add(2, in_ethercat)
