@@ -51,6 +51,10 @@ fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
         let (len, block) = match reader.next() {
             Ok(block) => block,
             Err(PcapError::Eof) => return packets,
+            Err(PcapError::Incomplete(_)) => {
+                reader.refill().unwrap();
+                continue;
+            }
             Err(error) => panic!("{error:?}"),
         };
         let PcapBlockOwned::NG(block) = block else { panic!("not pcapng") };

@@ -153,9 +153,9 @@ fn what_is_not_claimed_is_not_applicable() {
 #[test]
 fn a_field_done_wrong_fails_its_requirement() {
     for (id, requirement) in [
-        ("variable-description.size.flip", "VAR-4"),
+        ("variable-description.size.flip", "VAR-8"),
         ("variable-handle-read.indices.swap", "VAR-11"),
-        ("object-descriptor.index_offset.swap", "COM-2"),
+        ("object-descriptor.index_offset.swap", "COM-5"),
         ("ams-header.invoke_id.swap", "ADS-5"),
         ("dynamic-value.value.swap", "GEN-1"),
     ] {

@@ -136,7 +136,7 @@ fn escape_case(case: &mut CaseReport) {
         let FailureReport {
             requirement,
             level: _,
-            follows: _,
+            follows,
             clause,
             sources,
             verdict: _,
@@ -146,7 +146,7 @@ fn escape_case(case: &mut CaseReport) {
             more: _,
             evidence,
         } = failure;
-        all([requirement, clause, expected, found].into_iter().chain(sources));
+        all([requirement, clause, expected, found].into_iter().chain(sources).chain(follows));
         if let Some(evidence) = evidence {
             escape_evidence(evidence);
         }

@@ -135,6 +135,10 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         }
         if is_own && !siblings.is_empty() {
             probe.pass(SDA_1);
+            let has_spindle = |rules: &[Rule]| rules.iter().any(|rule| rule.id == ADR_2.as_str());
+            if siblings.iter().any(|(rules, ..)| has_spindle(rules)) {
+                probe.pass(ADR_2);
+            }
         }
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)

@@ -11,7 +11,7 @@
 //! assert_eq!((handle.fields[0].name, &handle.fields[0].size), ("handle", &SizeTable::Fixed { bytes: 4 }));
 //!
 //! let read = tables.functions.iter().find(|one| one.id == "ReadByName").unwrap();
-//! assert_eq!((read.service, read.port, read.effect), ("ReadWrite", 552, "Query"));
+//! assert_eq!((read.service.as_str(), read.port, read.effect), ("ReadWrite", 552, "Query"));
 //! ```
 
 mod wireshark;

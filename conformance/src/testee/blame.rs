@@ -141,6 +141,12 @@ impl WrongFields {
 /// Whether a number is the expected one with its bytes in the other order.
 fn is_reversed(expected: &Value, found: &Json) -> bool {
     let Value::One(expected) = expected else { return false };
+    let bits = |text: Option<&str>| u64::from_str_radix(text?.strip_prefix("0x")?, 16).ok();
+    let of_real =
+        bits(found.get("bits").and_then(Json::as_str)).zip(bits(expected.bits.as_deref()));
+    if let Some((found, expected)) = of_real {
+        return found == expected.swap_bytes();
+    }
     let number = |text: Option<&str>| text.and_then(|text| text.parse::<u32>().ok());
     let found = number(found.get("value").and_then(Json::as_str));
     number(expected.value.as_deref()).zip(found).is_some_and(|(expected, found)| {

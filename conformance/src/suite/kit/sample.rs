@@ -104,7 +104,7 @@ impl SampleSizes {
         };
         Self {
             objects: size(ItemKind::Object, 560),
-            variables: size(ItemKind::Variable, 280),
+            variables: size(ItemKind::Variable, 320),
             elements: size(ItemKind::Element, 336),
         }
     }
@@ -148,10 +148,10 @@ mod tests {
             assert_eq!(sizes.of(ItemKind::Object), 256);
             sizes.of(ItemKind::Variable)
         };
-        assert_eq!(sizes(&[256, 20, 3]), 256);
-        assert_eq!(sizes(&[10_000, 50, 20]), 210);
-        assert_eq!(sizes(&[333; 30]), 9);
-        assert_eq!(sizes(&[10; 50]), 5);
+        assert_eq!(sizes(&[256, 50, 3]), 256);
+        assert_eq!(sizes(&[10_000, 50, 20]), 250);
+        assert_eq!(sizes(&[333; 30]), 10);
+        assert_eq!(sizes(&[10; 50]), 6);
         assert_eq!(sizes(&[10; 1000]), 4);
     }
 }
