@@ -29,7 +29,7 @@ Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 /// Print a dissector for Wireshark, in Lua
 ///
 /// Wireshark 4.0 or later then shows the function, the requirement, the effect and every field of each frame
-/// to a CNC, and filters by them: `ads_cnc.effect == \"Write\"`, `ads_cnc.variable_description.size > 100`.
+/// to a CNC, and filters by them: `ads_cnc.effect == "Write"`, `ads_cnc.variable_description.size > 100`.
 #[derive(Args, Debug)]
 #[command(after_help = WIRESHARK_EXAMPLES)]
 pub(super) struct WiresharkArguments {}
@@ -95,7 +95,9 @@ fn print(tables: &Tables, out: &mut dyn Write) -> io::Result<()> {
                 all.join(", ")
             }
             OffsetTable::AtLeast { first } => format!("0x{first:X} and above"),
-            OffsetTable::OfAxis { element, .. } => format!("0x10000 * axis + 0x{element:X}"),
+            OffsetTable::OfAxis { first_axis, element } => {
+                format!("0x10000 * axis + 0x{element:X}, axis from {first_axis}")
+            }
         };
         writeln!(out, "  {service} at port {port}, effect {}, {clause}", function.effect)?;
         writeln!(out, "  groups   {}", groups.collect::<Vec<_>>().join(", "))?;

@@ -36,11 +36,13 @@ fn told(name: &str, error: &ads_cnc::Error) -> String {
         ads_cnc::ErrorKind::Truncated => "the rest is missing",
         _ => error_text.rsplit(": ").next().unwrap_or_default(),
     };
-    let front = usize::try_from(error.offset()).ok().and_then(|offset| name.get(..offset));
-    match front {
-        Some("") => format!("{what}, at its beginning"),
-        Some(front) => format!("{what}, after \"{front}\""),
-        None => what.to_owned(),
+    // A character of CP1252 is a byte.
+    let offset = usize::try_from(error.offset()).unwrap_or(usize::MAX);
+    let front: String = name.chars().take(offset).collect();
+    if front.is_empty() {
+        format!("{what}, at its beginning")
+    } else {
+        format!("{what}, after \"{front}\"")
     }
 }
 

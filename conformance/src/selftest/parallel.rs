@@ -6,7 +6,7 @@ use std::thread;
 /// How far a part of the self-test is.
 #[derive(Clone, Copy, Debug)]
 pub struct SelfTestProgress {
-    /// What the part does, after a number of items: "defects tried once".
+    /// The words after the number of items, such as "defects tried once".
     pub part: &'static str,
     pub all: usize,
     pub done: usize,

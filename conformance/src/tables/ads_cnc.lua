@@ -81,7 +81,7 @@ local function length_of(field, range, at, count)
     elseif size.bytes then
         return size.bytes <= left and size.bytes or nil
     elseif size.kind == "c-string-prefix" then
-        local bytes = range:bytes(at)
+        local bytes = range(at):bytes()
         for place = 0, bytes:len() - 1 do
             if bytes:get_index(place) == 0 then return place + 1 end
         end
@@ -150,7 +150,7 @@ local function show(frame, range, pinfo, tree, place)
     local client, device = is_reply and target or source, is_reply and source or target
     local ports = pinfo.src_port + pinfo.dst_port
     local key = table.concat({ client, device, ports, invoke_id }, "/")
-    local visit = pinfo.number .. "/" .. place
+    local visit = table.concat({ pinfo.number, key, is_reply and "reply" or "request" }, "/")
 
     local data, stream = frame:len() > 32 and frame(32) or nil, nil
     local row = found[visit] or IDENTITIES[command]

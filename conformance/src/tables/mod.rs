@@ -31,7 +31,8 @@ pub struct Tables {
     /// The version of this project.
     pub version: &'static str,
     pub streams: Vec<StreamTable>,
-    /// A request is of the first function with its port, group, offset and service.
+    /// A request is of the first function with its port, group and offset. If its command differs, the search
+    /// goes on only past functions with the stream `content`. Ports 551 and 552 have the same functions.
     pub functions: Vec<FunctionTable>,
 }
 
@@ -199,7 +200,9 @@ impl FunctionTable {
         let effect = match spec.effect {
             Effect::Query => "Query",
             Effect::Write => "Write",
-            _ => "Motion",
+            Effect::Motion => "Motion",
+            // Not in the schema.
+            _ => "unknown",
         };
         Self {
             id: format!("{function:?}"),

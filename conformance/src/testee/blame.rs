@@ -1,4 +1,4 @@
-//! The requirements that a wrong answer is about: those of the fields that differ.
+//! Assigns a failed vector to the requirements of its wrong fields.
 //!
 //! A vector cites the requirements of all its fields, and of bytes and texts in general. If one field is wrong,
 //! the others only follow from it.
@@ -26,11 +26,22 @@ impl WrongFields {
         Self { stream, is_wrong: vec![false; stream.layout().fields.len()], is_reversed: false }
     }
 
-    /// Those of a decoded value; `None` if it has other fields than expected.
-    pub(super) fn of_value(stream: Stream, expected: &Fields, found: &Json) -> Option<Self> {
+    /// Those of a decoded value; `None` if it has other fields than expected. Unless `strict`, the bytes after
+    /// a text may be omitted.
+    pub(super) fn of_value(
+        stream: Stream,
+        expected: &Fields,
+        found: &Json,
+        strict: bool,
+    ) -> Option<Self> {
         let mut wrong = Self::none(stream);
-        wrong.add_record(expected, found)?;
+        wrong.add_record(expected, found, strict)?;
         Some(wrong)
+    }
+
+    /// The clauses of the wrong fields.
+    pub(super) fn clauses(&self) -> impl Iterator<Item = &'static str> {
+        self.wrong().map(|row| row.clause)
     }
 
     /// Those of encoded bytes; `None` if they are more or fewer than expected.
@@ -60,15 +71,17 @@ impl WrongFields {
         Some(())
     }
 
-    fn add_record(&mut self, expected: &Fields, found: &Json) -> Option<()> {
+    fn add_record(&mut self, expected: &Fields, found: &Json, strict: bool) -> Option<()> {
         let given = found.as_object()?;
         if given.len() != expected.len() {
             return None;
         }
         for (name, expected) in expected {
             let found = given.get(name)?;
-            if compare::one(name, expected, found).is_none() {
-                continue;
+            match compare::one(name, expected, found) {
+                None => continue,
+                Some(compare::Difference::Omitted(_)) if !strict => continue,
+                Some(_) => {}
             }
             if self.rows().any(|row| row.name == name) {
                 self.add(name, is_reversed(expected, found))?;
@@ -76,11 +89,11 @@ impl WrongFields {
             }
             // The records of a list.
             match (expected, found.as_array()) {
-                (Value::Record(fields), _) => self.add_record(fields, found)?,
+                (Value::Record(fields), _) => self.add_record(fields, found, strict)?,
                 (Value::List(items), Some(given)) if items.len() == given.len() => {
                     for (item, found) in items.iter().zip(given) {
                         let Value::Record(fields) = item else { return None };
-                        self.add_record(fields, found)?;
+                        self.add_record(fields, found, strict)?;
                     }
                 }
                 _ => return None,
@@ -112,7 +125,7 @@ impl WrongFields {
         cited: &[&'static str],
         broken: &BTreeSet<&'static str>,
     ) -> Option<&'static str> {
-        let clauses = || self.wrong().map(|row| row.clause);
+        let clauses = || self.clauses();
         let mine = clauses().find(|id| cited.contains(id));
         let cause = mine.or_else(|| clauses().find(|id| broken.contains(id)))?;
         if clauses().any(|id| id == requirement) {
@@ -205,7 +218,7 @@ mod tests {
     fn what_is_in_no_field_has_no_cause() {
         let found = serde_json::json!({ "else": 1 });
         let expected = Fields::new();
-        assert!(WrongFields::of_value(Stream::VariableHandle, &expected, &found).is_none());
+        assert!(WrongFields::of_value(Stream::VariableHandle, &expected, &found, false).is_none());
         assert!(WrongFields::of_bytes(Stream::VariableDescription, BYTES, &BYTES[1..]).is_none());
     }
 }

@@ -93,12 +93,64 @@ impl Verdicts<'_> {
         Some(CaseOutcome::tried(case.clone(), record.judgements, claimed.len(), stop))
     }
 
-    /// The clauses by which a case fails, because their fields are wrong.
+    /// The clauses of wrong fields by which a case fails.
     pub(super) fn causes(&self, place: usize) -> Vec<&'static str> {
-        let outcome = self.outcome(place);
-        let verdicts = outcome.into_iter().flat_map(|outcome| outcome.verdicts);
-        let judgements = verdicts.flat_map(|verdict| verdict.judgements);
-        judgements.filter_map(|judgement| judgement.follows).collect()
+        let Some(case) = self.cases.get(place) else { return Vec::new() };
+        let mut causes = Vec::new();
+        for question in questions(case, &self.edition) {
+            let reaction = self.reactions.get(&(place, question.op.clone()));
+            let claims = self.hello.capabilities.claim(&question.op, &question.stream);
+            let Some(reaction) = reaction.filter(|_| claims) else { continue };
+            let deviation = self.deviation(case, &question, reaction);
+            let (judged, _) = self.judged(case, &question, reaction, deviation.as_ref());
+            let wrong = self.wrong_fields(case, reaction, judged);
+            let clauses = wrong.iter().flat_map(WrongFields::clauses);
+            causes.extend(clauses.filter(|id| case.requirements.contains(id)));
+        }
+        causes
+    }
+
+    /// The verdict of an answer, and the level at which it was judged.
+    fn judged(
+        &self,
+        case: &Case,
+        question: &Question,
+        reaction: &TesteeReaction,
+        deviation: Option<&Deviation>,
+    ) -> (Verdict, Level) {
+        let verdict = deviation.map_or(Verdict::Pass, |one| one.verdict);
+        let level = self.level(case, question, reaction, verdict);
+        match verdict {
+            Verdict::Fail | Verdict::Vacuous if level != Level::Must => {
+                (Verdict::missed(level), level)
+            }
+            // Some differences count at a lower level than the case.
+            Verdict::Differs => (verdict, Level::Info),
+            verdict => (verdict, level),
+        }
+    }
+
+    /// The wrong fields of an answer to an accepted vector, if it fails.
+    fn wrong_fields(
+        &self,
+        case: &Case,
+        reaction: &TesteeReaction,
+        judged: Verdict,
+    ) -> Option<WrongFields> {
+        let (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output)), Verdict::Fail) =
+            (&case.body, reaction, judged)
+        else {
+            return None;
+        };
+        let Expect::Accept(accept) = &vector.expect else { return None };
+        let stream = Stream::by_name(&vector.stream)?;
+        match (&output.value, &output.hex) {
+            (Some(value), _) => {
+                WrongFields::of_value(stream, &accept.value, value, self.terms.strict)
+            }
+            (None, Some(bytes)) => WrongFields::of_bytes(stream, &vector.bytes(), bytes),
+            (None, None) => None,
+        }
     }
 
     /// Records what came of a question for each requirement of its case.
@@ -110,14 +162,7 @@ impl Verdicts<'_> {
         reaction: &TesteeReaction,
         deviation: Option<Deviation>,
     ) {
-        let verdict = deviation.as_ref().map_or(Verdict::Pass, |one| one.verdict);
-        let level = self.level(case, question, reaction, verdict);
-        let judged = match verdict {
-            Verdict::Fail | Verdict::Vacuous if level != Level::Must => Verdict::missed(level),
-            verdict => verdict,
-        };
-        // Some differences count at a lower level than the case.
-        let level = Some(if verdict == Verdict::Differs { Level::Info } else { level });
+        let (judged, level) = self.judged(case, question, reaction, deviation.as_ref());
         let (expected, found) = match &deviation {
             Some(one) => (one.expected.as_str(), one.found.as_str()),
             None => Default::default(),
@@ -130,19 +175,12 @@ impl Verdicts<'_> {
             let canonical = canonical.map(|vector| vector.bytes());
             Some(evidence(question, reaction, &case.id, canonical))
         };
-        let wrong = match (&case.body, reaction) {
-            (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output)))
-                if verdict == Verdict::Fail =>
-            {
-                wrong_fields(vector, output)
-            }
-            _ => None,
-        };
+        let wrong = self.wrong_fields(case, reaction, judged);
         for &id in &case.requirements {
             let cause = wrong
                 .as_ref()
                 .and_then(|wrong| wrong.cause_of(id, &case.requirements, &self.broken));
-            let rule = Rule { id, level };
+            let rule = Rule { id, level: Some(level) };
             match cause {
                 Some(cause) => record.add_following(rule, cause, expected, found),
                 None => record.add(rule, judged, expected, found, evidence),
@@ -306,17 +344,6 @@ impl Verdicts<'_> {
                 self.rejected(reaction, expected, &sequence.sibling, op)
             }
         }
-    }
-}
-
-/// The fields that differ from those of an accepted vector.
-fn wrong_fields(vector: &Vector, output: &Output) -> Option<WrongFields> {
-    let Expect::Accept(accept) = &vector.expect else { return None };
-    let stream = Stream::by_name(&vector.stream)?;
-    match (&output.value, &output.hex) {
-        (Some(value), _) => WrongFields::of_value(stream, &accept.value, value),
-        (None, Some(bytes)) => WrongFields::of_bytes(stream, &vector.bytes(), bytes),
-        (None, None) => None,
     }
 }
 

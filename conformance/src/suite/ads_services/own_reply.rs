@@ -60,6 +60,10 @@ fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCa
         for call in calls {
             let Ok(request) = call.call().dispatch() else { continue };
             let function = request.function();
+            // Extended descriptions are of VAR-15, which this case does not judge.
+            if function == Function::DescribeExtended {
+                continue;
+            }
             let of_function = all.entry(function).or_default();
             if of_function.len() < CALLS_MAX && probe.claims(function) != Claim::No {
                 of_function.push(call);

@@ -1,4 +1,4 @@
-//! What both programs show, by any [`Transport`]: they differ in nothing else.
+//! The requests of both programs, which differ only in their [`Transport`].
 
 use std::error::Error;
 
@@ -76,7 +76,7 @@ async fn write(cnc: &impl Transport, channel: Channel, name: &str, value: &Value
 pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let channel = Channel::new(1)?;
 
-    // The variables, by their index: all requests are sent at once.
+    // The variables, by their index. Over tokio all requests are sent at once.
     let count = CountVariables::new(channel, Kind::V_E);
     let number = count.decode_reply(&send(cnc, &count).await?)?.0;
     let listed = try_join_all((0..number).map(async |index| -> Result<Value> {

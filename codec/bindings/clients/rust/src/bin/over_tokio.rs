@@ -9,7 +9,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use ads_cnc::ads::{
-    AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef, WriteReply,
+    AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags,
+    WriteReply,
 };
 use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode as _, Encode as _};
@@ -77,8 +78,10 @@ fn take_frames(received: &[u8], pending: &Pending) -> std::result::Result<usize,
     // `split` rejects a frame that is longer than a service can have.
     while let Some((frame, len)) = FrameRef::split(&received[end..], u32::MAX)? {
         end += len;
-        // A reply that nobody waits for is passed over.
-        if let Some(waiting) = lock(pending).remove(&frame.header().invoke_id) {
+        // Requests, and replies that nobody waits for, are passed over.
+        let is_reply = frame.header().state_flags == StateFlags::RESPONSE;
+        if let Some(waiting) = lock(pending).remove(&frame.header().invoke_id).filter(|_| is_reply)
+        {
             let _timed_out = waiting.send((frame.header(), frame.data().to_vec()));
         }
     }
