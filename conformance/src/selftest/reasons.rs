@@ -17,41 +17,26 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
         "The size in the description fails first, from which the size of the type follows.",
     ),
     (SelfTestGroup::Cnc, "axis-write-by-name.unknown-axis-is-first", NOT_WRITTEN),
-    (SelfTestGroup::Cnc, "count-elements.error-is-last-reply", NO_SUCH_AXIS),
-    (SelfTestGroup::Cnc, "axis-write-by-name.unknown-channel-is-first", NOT_WRITTEN),
-    (SelfTestGroup::Cnc, "read-descriptors.index-8-bit", FAR_OBJECT),
-    (SelfTestGroup::Cnc, "read-element-length.long", ROOM),
     (SelfTestGroup::Cnc, "read-element-name.first-axis", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element-name.first-channel", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element-name.first-index", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element-name.next-axis", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element-unit.first-index", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element-unit.next-index", ANY_TEXT),
-    (SelfTestGroup::Cnc, "read-element-write-flag.long", ROOM),
-    (SelfTestGroup::Cnc, "read-element-write-flag.other-attribute", ANY_TEXT),
-    (SelfTestGroup::Cnc, "read-element.first-channel", CONTENT),
     (SelfTestGroup::Cnc, "read-element.first-index", CONTENT),
     (SelfTestGroup::Cnc, "read-element.stale", CONTENT),
     (SelfTestGroup::Cnc, "write-by-handle.unknown-channel-is-first", NOT_WRITTEN),
     (SelfTestGroup::Cnc, "write-by-name.unknown-channel-is-first", NOT_WRITTEN),
-    (SelfTestGroup::Cnc, "write-element.also-first-channel", CONTENT),
-    (SelfTestGroup::Cnc, "write-element.first-byte", NEAREST),
     (SelfTestGroup::Cnc, "write-element.unknown-axis-is-first", NOT_WRITTEN),
-    (SelfTestGroup::Cnc, "write-element.unknown-channel-is-first", NOT_WRITTEN),
     (SelfTestGroup::Cnc, "write-object.size-ignored", UNCHANGED),
     (SelfTestGroup::Cnc, "write-object.unknown-axis-is-first", NOT_WRITTEN),
-    (SelfTestGroup::Cnc, "write-object.unknown-channel-is-first", NOT_WRITTEN),
 ];
 
 /// Reasons of several generated defects.
-const NO_SUCH_AXIS: &str = "Axes that do not exist are found, which differ from the others first.";
 const NOT_WRITTEN: &str = "No case writes to a channel or an axis that is not configured.";
-const ROOM: &str = "No case asks for more bytes than this reply has.";
 const ANY_TEXT: &str = "An element may have any name, unit and write flag.";
-const FAR_OBJECT: &str = "No case asks for an object that far after the last one.";
 const CONTENT: &str =
     "Other clauses fail: the content is compared with attributes and written values.";
-const NEAREST: &str = "The nearest other value differs in the first byte alone.";
 const UNCHANGED: &str = "A success that changes nothing differs from an error by the number alone.";
 
 /// The reason of [`UNSEEN`].
