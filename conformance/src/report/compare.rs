@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use super::console::list;
+use super::failures::list;
 use super::model::{Report, RequirementReport};
 use crate::judge::{CaseSubject, Verdict};
 use crate::text::plural;

@@ -7,7 +7,8 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use super::FoundReport;
-use super::console::{describe, finding};
+use super::console::describe;
+use super::failures::finding;
 use super::model::{CaseReport, Report};
 use crate::judge::{Verdict, WaiverReport};
 

@@ -3,7 +3,9 @@
 use std::io::{self, Write};
 
 use super::FoundReport;
-use super::console::{counts, describe, finding, worded};
+use super::console::{counts, describe};
+use super::display::worded;
+use super::failures::finding;
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
 

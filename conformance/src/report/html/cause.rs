@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::judge::Verdict;
-use crate::report::console::{alike, sentence, worded};
+use crate::report::display::worded;
+use crate::report::failures::{alike, sentence};
 use crate::report::groups::{Group, groups};
 use crate::report::model::Report;
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::explain::ValueFormat;
 use crate::judge::Verdict;
 use crate::report::bytes::ShownField;
-use crate::report::console::worded;
+use crate::report::display::worded;
 use crate::report::model::{EvidenceReport, FailureReport};
 use crate::report::{BytesReport, FieldReport};
 use crate::text::hex::{character, compact};

@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use super::finding::{FindingView, finding};
 use crate::judge::{CaseSubject, Verdict, about};
-use crate::report::console::{counts, heading, worded};
+use crate::report::console::{counts, heading};
+use crate::report::display::worded;
 use crate::report::model::{CaseReport, Report};
 
 #[derive(Serialize)]

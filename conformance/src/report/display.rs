@@ -1,0 +1,57 @@
+//! How a report is shown on the console.
+
+use anstyle::{AnsiColor, Style};
+
+use crate::judge::Verdict;
+
+/// How much of a report is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detail {
+    /// The last line.
+    Quiet,
+    /// A line for each part, and each failure once.
+    #[default]
+    Normal,
+    /// Also every case and every requirement.
+    Verbose,
+}
+
+/// How a report is shown on the console.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Display {
+    pub detail: Detail,
+    pub color: bool,
+}
+
+/// Width of wrapped text.
+pub(super) const WIDTH: usize = 98;
+/// Maximum number of characters of an expected and of an actual result in normal detail.
+pub(super) const RESULT_MAX: usize = 160;
+/// Maximum number of names in a list.
+pub(super) const NAMES_MAX: usize = 5;
+
+impl Display {
+    /// The verdict in capitals, coloured by its gravity.
+    pub(super) fn verdict(self, verdict: Verdict, waived: bool) -> String {
+        let color = match verdict {
+            _ if waived => AnsiColor::Yellow,
+            Verdict::Pass => AnsiColor::Green,
+            verdict if verdict.fails_run() => AnsiColor::Red,
+            _ => AnsiColor::Yellow,
+        };
+        self.paint(color, &worded(verdict, waived).to_uppercase())
+    }
+
+    pub(super) fn paint(self, color: AnsiColor, text: &str) -> String {
+        if !self.color {
+            return text.to_owned();
+        }
+        let style: Style = color.on_default().bold();
+        format!("{style}{text}{style:#}")
+    }
+}
+
+/// A verdict, and whether it is waived.
+pub(super) fn worded(verdict: Verdict, waived: bool) -> String {
+    if waived { format!("{verdict}, waived") } else { verdict.to_string() }
+}

@@ -1,0 +1,212 @@
+//! Checks that did not pass, on the console: each failed clause once.
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+use anstyle::AnsiColor;
+
+use super::BytesReport;
+use super::display::{Detail, Display, NAMES_MAX, RESULT_MAX, WIDTH};
+use super::groups::{Group, groups};
+use super::lines::{lines, marked};
+use super::model::{EvidenceReport, FailureReport, Report};
+use crate::text::{plural, shorten, wrap};
+
+/// Maximum number of failed clauses in normal detail.
+const GROUPS_MAX: usize = 6;
+/// Maximum number of lines of bytes in normal detail, and of those before a wrong byte.
+const BYTES_MAX: usize = 9;
+const BEFORE_MARK: usize = 2;
+/// Maximum number of lines of a clause in normal detail.
+const CLAUSE_MAX: usize = 3;
+
+/// The checks that did not pass: warnings and differences on a line each, then failures.
+pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let all = groups(report);
+    let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
+        all.iter().partition(|group| group.is_failure());
+    for group in &others {
+        brief(group, display, out)?;
+    }
+    if !others.is_empty() {
+        writeln!(out)?;
+    }
+    let most = if display.detail == Detail::Verbose { usize::MAX } else { GROUPS_MAX };
+    if let Some(more) = failed.get(most..).filter(|more| !more.is_empty()) {
+        let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
+        let number = plural(more.len(), "other failure");
+        writeln!(out, "{number} (-v shows all): {}\n", list(names, usize::MAX))?;
+    }
+    for group in failed.into_iter().take(most) {
+        block(report, group, display, out)?;
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// A group on one line.
+fn brief(group: &Group<'_>, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let Some((case, failure)) = group.example() else { return Ok(()) };
+    let verdict = display.verdict(group.verdict, group.waived);
+    let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
+    let sentence = sentence(failure, RESULT_MAX);
+    writeln!(out, "{verdict}  {clauses}  {}{}: {sentence}", case.id, alike(group))
+}
+
+/// The number of the other checks of a group.
+pub(super) fn alike(group: &Group<'_>) -> String {
+    match group.checks().saturating_sub(1) {
+        0 => String::new(),
+        more => format!(" and {more} alike"),
+    }
+}
+
+/// What was expected and found, of which subject.
+pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
+    let [expected, found] = [&failure.expected, &failure.found].map(|text| shorten(text, most));
+    let subject = failure.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref());
+    let subject = subject.map_or_else(String::new, |subject| format!("{subject}: "));
+    // A field that differs names what is expected in it.
+    if found.ends_with(" is expected") {
+        return format!("{subject}{found}");
+    }
+    let found = if found.is_empty() { "nothing" } else { found.as_str() };
+    format!("{subject}expected {expected}; found {found}")
+}
+
+fn block(
+    report: &Report,
+    group: &Group<'_>,
+    display: Display,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let Some((case, failure)) = group.example() else { return Ok(()) };
+    let verbose = display.detail == Detail::Verbose;
+    let verdict = display.verdict(group.verdict, group.waived);
+    let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
+    let sources = if failure.sources.is_empty() {
+        "in no document: assumed".to_owned()
+    } else {
+        failure.sources.join("; ")
+    };
+    writeln!(out, "{verdict}  {clauses}  {sources}")?;
+    let clause = wrap(&failure.clause, WIDTH);
+    let shown = if verbose { usize::MAX } else { CLAUSE_MAX };
+    clause.iter().take(shown).try_for_each(|line| writeln!(out, "  {line}"))?;
+    if clause.len() > shown {
+        writeln!(out, "  ... (ads-cnc requirements {})", failure.requirement)?;
+    }
+    let most = if verbose { usize::MAX } else { RESULT_MAX };
+    let text = format!("{}: {}", case.id, sentence(failure, most));
+    wrap(&text, WIDTH).iter().try_for_each(|line| writeln!(out, "  {line}"))?;
+    if let Some(evidence) = &failure.evidence {
+        bytes(evidence, display, out)?;
+    }
+    let cases = group.cases();
+    match (group.checks().saturating_sub(1), cases.len()) {
+        (0, _) => {}
+        (more, 1) => writeln!(out, "  {more} alike in this case")?,
+        (more, number) => {
+            let names = list(cases.iter().copied(), if verbose { usize::MAX } else { NAMES_MAX });
+            let text = wrap(&format!("{more} alike in {number} cases: {names}"), WIDTH);
+            text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
+        }
+    }
+    if !group.followers.is_empty() {
+        let names = group.followers.iter().map(|(clause, case)| format!("{case} ({clause})"));
+        let names: Vec<String> = names.collect();
+        let names = list(names.iter().map(String::as_str), if verbose { usize::MAX } else { 8 });
+        let text = wrap(&format!("follows from it: {names}"), WIDTH);
+        text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
+    }
+    if let Some(again) = &report.again {
+        writeln!(out, "  again: {again} --only {} --seed {}", case.id, report.seed)?;
+    }
+    Ok(())
+}
+
+/// The first names of a list, and the number of the others.
+pub(super) fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) -> String {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    let more = names.len().saturating_sub(most);
+    names.truncate(most);
+    let names = names.join(", ");
+    if more > 0 { format!("{names} and {more} more") } else { names }
+}
+
+/// A check that did not pass, and its requirements.
+pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result<()> {
+    let Some(failure) = all.first() else { return Ok(()) };
+    for one in all {
+        clause(one, out)?;
+    }
+    writeln!(out, "  expected  {}", failure.expected)?;
+    writeln!(out, "  found     {}", failure.found)?;
+    // The clause that it follows from has the bytes.
+    if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
+        let display = Display { detail: Detail::Verbose, color: false };
+        bytes(evidence, display, out)?;
+    }
+    if failure.more > 0 {
+        writeln!(out, "  and {} more like this in the same case", failure.more)?;
+    }
+    Ok(())
+}
+
+fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
+    if let Some(cause) = &failure.follows {
+        return writeln!(out, "  {:<8}  follows from {cause}, which fails", failure.requirement);
+    }
+    let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
+    writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
+    if failure.sources.is_empty() {
+        writeln!(out, "            in no document: assumed")
+    } else {
+        writeln!(out, "            {}", failure.sources.join("; "))
+    }
+}
+
+fn bytes(evidence: &EvidenceReport, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;
+    let show = |lines: Vec<String>, out: &mut dyn Write| {
+        cut(lines, display.detail).iter().try_for_each(|line| {
+            let wrong = line.starts_with('!');
+            let line = if wrong { display.paint(AnsiColor::Red, line) } else { line.clone() };
+            writeln!(out, "    {line}")
+        })
+    };
+    let most = if display.detail == Detail::Verbose { usize::MAX } else { RESULT_MAX };
+    writeln!(out, "  sent      {}", shorten(call, most))?;
+    show(sent.as_ref().map(lines).unwrap_or_default(), out)?;
+    if received.is_some() || !frame_sent.is_empty() {
+        writeln!(out, "  received  {}", shorten(result, most))?;
+    }
+    let is_same =
+        sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
+    let received = received.as_ref().map(if is_same { marked } else { lines });
+    show(received.unwrap_or_default(), out)?;
+    let expected = expected.as_ref().map(marked).filter(|lines| !lines.is_empty());
+    if let Some(expected) = expected {
+        writeln!(out, "  instead of")?;
+        show(expected, out)?;
+    }
+    Ok(())
+}
+
+/// In normal detail some of the lines: from a little before the first wrong byte.
+fn cut(mut lines: Vec<String>, detail: Detail) -> Vec<String> {
+    if detail == Detail::Verbose || lines.len() <= BYTES_MAX {
+        return lines;
+    }
+    let wrong = lines.iter().position(|line| line.starts_with('!')).unwrap_or_default();
+    let (before, all) = (wrong.saturating_sub(BEFORE_MARK), lines.len());
+    let mut shown: Vec<String> = lines.drain(before..).take(BYTES_MAX).collect();
+    let after = all.saturating_sub(before).saturating_sub(shown.len());
+    if before > 0 {
+        shown.insert(0, format!("     ... {}", plural(before, "line")));
+    }
+    if after > 0 {
+        shown.push(format!("     ... {}", plural(after, "line")));
+    }
+    shown
+}
