@@ -93,7 +93,7 @@ const ROWS: &[CncSeed] = &[
         |cnc, call| cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))),
     row("different.error-one", &[], "every error has the same number",
         |cnc, call| cnc.answer(call).map_err(|_| AdsError(0x706))),
-    sent("different.errors-without-data", "a reply with an error ends behind the result", |_, _, mut bytes| {
+    sent("different.errors-without-data", "a reply with an error ends after the result", |_, _, mut bytes| {
         if u32_at(&bytes, 38).is_some_and(|result| result != 0) {
             bytes.truncate(42);
         }
@@ -173,7 +173,7 @@ const ROWS: &[CncSeed] = &[
             }),
         ))),
     unprinted(on("different.descriptor-remains", &[],
-        "descriptors carry remains of others: where nothing is assigned, and behind the NULs of texts",
+        "descriptors carry remains of others: where nothing is assigned, and after the NULs of texts",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
             for record in records_mut(&mut bytes) {
                 record.iter_mut().skip(10).take(2).for_each(|byte| *byte = 0xAA);
@@ -191,13 +191,13 @@ const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     on("different.many-exactly", &[],
-        "more descriptors than there are left are refused, and so is a length that is no multiple",
+        "more descriptors than there are left are rejected, and so is a length that is no multiple",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).and_then(|bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
             if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
         })),
     row("different.short-writes", &[],
-        "a content is written with fewer bytes than it has: those behind become 0",
+        "a content is written with fewer bytes than it has: those after become 0",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let old = cnc.read(call.port, group(call), offset(call))?;

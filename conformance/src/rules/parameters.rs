@@ -6,7 +6,7 @@ use ads_cnc_vectors::ids::*;
 use super::knowledge::{ExchangeJudge, ObservedCount};
 use super::observation::Observation;
 use super::topic::Topic;
-use crate::judge::Checks as _;
+use crate::judge::{Checks as _, assumed};
 
 impl ExchangeJudge<'_> {
     pub(super) fn parameters(
@@ -64,6 +64,8 @@ impl ExchangeJudge<'_> {
         number: u32,
     ) {
         let length = key.1.len();
+        // A subprogram may have created a V.L, and deleted it at its end.
+        let rule = if key.1 == "V.L" { assumed(DYN_5) } else { DYN_5.into() };
         let counts = &mut self.cnc.parameters.counts;
         if !counts.contains_key(&key) && !self.budget.take(length) {
             return;
@@ -73,7 +75,7 @@ impl ExchangeJudge<'_> {
         if let Some(index) = same.and_then(|before| before.answered_beyond) {
             let expected =
                 || format!("an error number for index {index} between two counts of {number}");
-            self.records.on(Topic::CncDyn, observation).check(DYN_5, false, expected, "a success");
+            self.records.on(Topic::CncDyn, observation).check(rule, false, expected, "a success");
         }
     }
 }

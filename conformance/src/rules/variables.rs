@@ -152,10 +152,8 @@ impl ExchangeJudge<'_> {
     /// The number of variables of a kind, unless a program may change it.
     fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
         let counts = &self.cnc.variables.channel(call)?.counts;
-        let is_of_program = match kind {
-            "" => OF_PROGRAM.iter().any(|kind| counts.get(*kind).is_some_and(|count| *count > 0)),
-            kind => OF_PROGRAM.contains(&kind),
-        };
+        // The empty kind is all kinds, those of programs too.
+        let is_of_program = kind.is_empty() || OF_PROGRAM.contains(&kind);
         counts.get(kind).copied().filter(|_| !is_of_program)
     }
 

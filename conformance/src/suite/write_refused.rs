@@ -7,12 +7,12 @@ use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
-    Probe, RawCall, WritableNumber, WriteCheck, axis_address, changed_value, each_of_access,
-    elements_with_flag, handle_of, in_channel, is_sendable, require_taken, writable_numbers,
-    write_check,
+    NOTHING_WRITABLE, Probe, RawCall, WritableNumber, WriteCheck, axis_address, changed_value,
+    each_of_access, elements_with_flag, handle_of, in_channel, is_sendable, require_taken,
+    writable_numbers, write_check,
 };
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Rule, Step, Stop};
+use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Rule, Step, Stop, applicable};
 use crate::objects::{Object, ValueAddress};
 
 #[rustfmt::skip]
@@ -134,13 +134,15 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let (channel, watched, value) = (known.channel, known.address(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
+    // With the current value a write to the watched variable would not show.
+    let other = changed_value(value, false);
     let good = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
-        let bad = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, value).into();
+        let bad = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, &other[..]).into();
         let what = format!("a write to the handle {free:#x}");
         refused(probe, &[ADS_4, VAR_12], &what, (bad, good), &watched)?;
     }
-    let bad = known.by_handle((&[0]).into(), value);
+    let bad = known.by_handle((&[0]).into(), &other);
     refused(probe, &[VAR_12], "an index of no array", (bad, good), &watched)?;
     let good = known.by_name(value);
     let text = known.name().to_string();
@@ -155,11 +157,13 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         let what = format!("a write to the name \"{unknown}\"");
-        let bad = WriteByName { channel, name: unknown.as_cnc_str(), value: value.into() }.into();
+        let value = other.as_slice().into();
+        let bad = WriteByName { channel, name: unknown.as_cnc_str(), value }.into();
         refused(probe, &[ADS_4, VAR_13], &what, (bad, good), &watched)?;
     }
     let element: CncString = format!("{text}[0]").parse()?;
-    let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
+    let value = other.as_slice().into();
+    let bad = WriteByName { channel, name: element.as_cnc_str(), value }.into();
     refused(probe, &[VAR_13], "an element of no array", (bad, good), &watched)
 }
 
@@ -184,12 +188,14 @@ fn to_absent_channel(probe: &mut Probe<'_>) -> Step {
         if functions.contains(&good.function()) || !probe.may(good)? {
             continue;
         }
-        let Some(bad) = in_channel(&RawCall::new(good)?, channel, absent) else { continue };
+        let other = changed_value(&value, false);
+        let bad = RawCall::new(address.write(&other)?)?;
+        let Some(bad) = in_channel(&bad, channel, absent) else { continue };
         functions.push(good.function());
         let what = format!("a write to channel {}, which is not configured", absent.number());
         refused_call(probe, &[ADS_4], &what, (&bad, good), &address)?;
     }
-    Ok(())
+    applicable(!functions.is_empty(), NOTHING_WRITABLE)
 }
 
 /// Maximum number of arrays that are tried.

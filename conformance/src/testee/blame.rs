@@ -63,10 +63,9 @@ impl WrongFields {
     }
 
     fn add(&mut self, name: &str, is_reversed: bool) -> Option<()> {
-        let place = self.rows().position(|row| row.name == name)?;
-        let is_number =
-            |row: &FieldSpec| matches!(row.ty, Type::Uns16 | Type::Uns32 | Type::Real64);
-        self.is_reversed |= is_reversed && self.rows().nth(place).is_some_and(is_number);
+        let (place, row) = self.rows().enumerate().find(|(_, row)| row.name == name)?;
+        let is_number = matches!(row.ty, Type::Uns16 | Type::Uns32 | Type::Real64);
+        self.is_reversed |= is_reversed && is_number;
         *self.is_wrong.get_mut(place)? = true;
         Some(())
     }
@@ -125,10 +124,9 @@ impl WrongFields {
         cited: &[&'static str],
         broken: &BTreeSet<&'static str>,
     ) -> Option<&'static str> {
-        let clauses = || self.clauses();
-        let mine = clauses().find(|id| cited.contains(id));
-        let cause = mine.or_else(|| clauses().find(|id| broken.contains(id)))?;
-        if clauses().any(|id| id == requirement) {
+        let mine = self.clauses().find(|id| cited.contains(id));
+        let cause = mine.or_else(|| self.clauses().find(|id| broken.contains(id)))?;
+        if self.clauses().any(|id| id == requirement) {
             return None;
         }
         let is = |clause: ClauseId| clause.as_str() == requirement;

@@ -127,7 +127,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.adr.attribute-of-next", &[ADR_6],
-        "attributes are counted from 0: they are those of the element behind",
+        "attributes are counted from 0: they are those of the next element",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x400..=0x800) => cnc.at(call, group(call), offset(call).wrapping_add(1)),
             _ => cnc.answer(call),

@@ -72,7 +72,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         measured(bytes)
     }),
     sent("cnc.ads.write-reply-length", &[ADS_2, VAR_17],
-        "the reply to a Write has a length, 0, behind the result",
+        "the reply to a Write has a length, 0, after the result",
         |_, request, mut bytes| {
             if is(request, &[Command::WRITE]) {
                 bytes.extend([0; 4]);

@@ -18,7 +18,7 @@ const UUID: &str = ServiceVariable::UUID;
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.platform-axis-last", &[ADR_3],
-        "the contents of the last platform axis are refused, its descriptors are not",
+        "the contents of the last platform axis are rejected, its descriptors are not",
         |cnc, call| {
             let next = cnc.read(call.port, (group(call) | 0x13_0000).wrapping_add(1), 0);
             if group(call) & 0xEF_FF00 == 0x02_0200 && instance(call) > 0 && next.is_err() {
@@ -53,7 +53,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             })
         }),
     row("cnc.dyn.name-of-96", &[DYN_6],
-        "a name that takes 96 bytes with its NUL is refused where a value is asked for by name",
+        "a name that takes 96 bytes with its NUL is rejected where a value is asked for by name",
         |cnc, call| if is(call, &[Function::DynamicValueByName]) && call.data.len() == 96 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -72,20 +72,20 @@ pub(super) const ROWS: &[CncSeed] = &[
             if indices.is_empty() { cnc.answer(call) } else { cnc.with(call, &with_indices(name, &indices)) }
         }),
     row("cnc.var.write-2048", &[VAR_12, VAR_13],
-        "a write of 2048 bytes, with what stands in front of the value, is refused",
+        "a write of 2048 bytes, with what stands in front of the value, is rejected",
         |cnc, call| if is(call, &[Function::WriteByHandle, Function::WriteByName])
             && call.data.len() == 2048 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.read-2048", &[VAR_14], "a value of 2048 bytes is refused by handle",
+    row("cnc.var.read-2048", &[VAR_14], "a value of 2048 bytes is rejected by handle",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), cnc.answer(call)) {
             (true, Ok(bytes)) if bytes.len() == 2048 => Err(AdsError::INVALID_SIZE),
             (_, answer) => answer,
         }),
     row("cnc.var.write-name-of-255", &[VAR_13],
-        "a value that stands behind the longest name, at the offset 256, is refused",
+        "a value that stands after the longest name, at the offset 256, is rejected",
         |cnc, call| if is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -116,7 +116,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             })
         }),
     on("cnc.stm.room-4093", &[STM_3],
-        "the interface holds 4093 bytes: the write that would fill it is refused for now",
+        "the interface holds 4093 bytes: the write that would fill it is rejected for now",
         STREAM, |cnc, call| {
             let channel = u8::try_from(instance(call)).unwrap_or_default();
             let held =
@@ -146,7 +146,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 .collect();
             cnc.with(call, &kept)
         }),
-    row("cnc.svc.response-127", &[SVC_1], "a RESPONSE of 128 bytes, its NUL among them, is refused",
+    row("cnc.svc.response-127", &[SVC_1], "a RESPONSE of 128 bytes, its NUL among them, is rejected",
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
             let is_response = is(call, &[Function::WriteByName]) && text(call.data) == name;

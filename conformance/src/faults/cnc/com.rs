@@ -72,7 +72,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| list(cnc, call, |records| records.truncate(1))),
     row("cnc.com.many-two", &[COM_3], "there are two descriptors at most, however many are asked for",
         |cnc, call| list(cnc, call, |records| records.truncate(2))),
-    row("cnc.com.many-refused", &[COM_3], "a read of more than one descriptor is refused",
+    row("cnc.com.many-refused", &[COM_3], "a read of more than one descriptor is rejected",
         |cnc, call| if is(call, &[Function::ReadDescriptors]) && call.read_length >= 168 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -98,7 +98,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         Ok(bytes)
     }),
     row("cnc.com.platform-list-missing", &[COM_4],
-        "platform data is described under channel 1 only: 0x130100 is refused",
+        "platform data is described under channel 1 only: 0x130100 is rejected",
         |cnc, call| match com_group(call) {
             Some(com)
                 if com.access == Access::Object
@@ -110,7 +110,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.com.platform-not-in-channel-1", &[COM_4],
-        "platform data is read under channel 0 only: under channel 1 it is refused",
+        "platform data is read under channel 0 only: under channel 1 it is rejected",
         |cnc, call| match (com_group(call), offset(call)) {
             (Some(com), 0x251 | 0x252)
                 if com.access == Access::Element

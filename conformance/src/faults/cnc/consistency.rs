@@ -110,7 +110,8 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.dyn.values-kept", &[DYN_3, DYN_4],
         "a parameter has the value it had when it was first asked for",
         |cnc, call| cached(cnc, call, VALUES)),
-    row("cnc.dyn.names-in-turn", &[DYN_2], "names come one behind the other, whatever index is asked for",
+    row("cnc.dyn.names-in-turn", &[DYN_2],
+        "names are returned one after the other, whatever the index of the request",
         |cnc, call| {
             let known = is(call, NAME) && cnc.answer(call).is_ok();
             if !known {

@@ -53,7 +53,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.blank-refused", &[SDA_11], "reading at a place without an axis is refused",
+    row("cnc.sda.blank-refused", &[SDA_11], "reading at a place without an axis is rejected",
         |cnc, call| if empty_place(call) && group(call) & 0xF00 == 0x300 {
             Err(AdsError::INVALID_DATA)
         } else {
@@ -76,7 +76,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.blank-com-refused", &[SDA_11], "objects of COM at a place without an axis are refused",
+    row("cnc.sda.blank-com-refused", &[SDA_11], "objects of COM at a place without an axis are rejected",
         |cnc, call| match (group(call) & 0xEF_FFFF, is_blank(offset(call))) {
             (0x02_0102 | 0x02_0103 | 0x02_0106, true) => Err(AdsError::INVALID_DATA),
             _ => cnc.answer(call),
@@ -88,7 +88,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.sda.functions-behind-content", &[SDA_12],
-        "the functions of the decoder have offsets from 0x100 on, behind its contents",
+        "the functions of the decoder have offsets from 0x100 on, after its contents",
         |cnc, call| match super::of_decoder(call) {
             Some(_) if is_at(call, FUNCTIONS) => Err(AdsError::INVALID_OFFSET),
             Some(0x102..=0x1FF) => cnc.answer(&at(call, group(call), offset(call) & 0xFF)),

@@ -40,7 +40,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.dyn.name-of-32", &[DYN_6],
-        "names of more than 32 bytes, NULs behind them counted, are refused",
+        "names of more than 32 bytes, NULs after them counted, are rejected",
         |cnc, call| match of_decoder(call) {
             Some(0x1C | 0x1F | 0x22 | 0x25) if call.data.len() > 32 => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),

@@ -110,7 +110,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }),
         )),
     on("cnc.gen.descriptor-access-wide", &[GEN_2],
-        "write access takes 4 bytes, and all behind it in a descriptor 2 bytes more",
+        "write access takes 4 bytes, and all after it in a descriptor 2 bytes more",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|bytes| {
             let records = records(&bytes);
             let wide = |record: &[u8; 84]| {

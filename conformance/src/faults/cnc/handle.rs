@@ -82,7 +82,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.handle-needs-name", &[VAR_10],
-        "the handle of a description is understood only behind a handle by name",
+        "the handle of a description is understood only after a handle by name",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
                 let handle = u32_at(bytes, 0).unwrap_or_default();

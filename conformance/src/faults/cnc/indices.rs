@@ -18,12 +18,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             (true, Err(_)) if described(cnc, call).is_none() => within_length(call, Ok(vec![0; 4])),
             (_, answer) => answer,
         }),
-    row("cnc.var.indices-more", &[VAR_11], "bytes behind the indices are ignored",
+    row("cnc.var.indices-more", &[VAR_11], "bytes after the indices are ignored",
         |cnc, call| match (of_decoder(call), parts(call.data)) {
             (Some(0x47), Some((handle, at, _))) => cnc.with(call, &joined(handle, &at, &[])),
             _ => cnc.answer(call),
         }),
-    row("cnc.var.indices-fewer", &[VAR_11], "indices that are missing behind their number are taken for 0",
+    row("cnc.var.indices-fewer", &[VAR_11], "indices that are missing after their number are taken for 0",
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 1..=8)) if call.data.len() >= 8 => {
                 let mut data = call.data.to_vec();

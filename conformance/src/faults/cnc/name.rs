@@ -19,7 +19,7 @@ const fn german(mut row: CncSeed) -> CncSeed {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.var.name-of-200", &[VAR_9], "names of more than 200 characters are refused",
+    row("cnc.var.name-of-200", &[VAR_9], "names of more than 200 characters are rejected",
         |cnc, call| if is(call, NAMED) && text(call.data).len() > 200 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -38,7 +38,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-not-ended", &[VAR_9], "names with a NUL are refused",
+    row("cnc.var.name-not-ended", &[VAR_9], "names with a NUL are rejected",
         |cnc, call| if !is_lookup(call) {
             cnc.answer(call)
         } else if call.data.contains(&0) {
@@ -162,7 +162,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 .or_else(|_| cnc.answer(call))
         }),
     row("cnc.var.element-by-name-refused", &[VAR_20, VAR_14],
-        "names with an index of an element are refused",
+        "names with an index of an element are rejected",
         |cnc, call| if is(call, NAMED) && text(call.data).ends_with(b"]") {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {

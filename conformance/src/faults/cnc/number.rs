@@ -29,7 +29,7 @@ pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
-    row("cnc.var.sum-refused", &[VAR_1], "the empty kind is refused",
+    row("cnc.var.sum-refused", &[VAR_1], "the empty kind is rejected",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {

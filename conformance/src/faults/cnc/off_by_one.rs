@@ -46,7 +46,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)
         }),
     row("cnc.com.many-access-stays", &[COM_2, COM_3],
-        "of several descriptors those behind one with write access have it too",
+        "in a read of several descriptors, those after one with write access have it too",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
             let mut writable = false;
             for record in records_mut(&mut bytes) {

@@ -50,7 +50,7 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.adr.spindles-without-flag", &[ADR_6, ADR_5],
-        "spindles have no write flag: 0x25800 is refused",
+        "spindles have no write flag: 0x25800 is rejected",
         |cnc, call| match group(call) & 0xFF_FF00 {
             0x02_5800 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
@@ -160,7 +160,7 @@ pub(super) const ROWS: &[CncSeed] = &[
          the platform axis's without a channel",
         hld_apart),
     on("cnc.dyn.value-six-digits", &[DYN_3, DYN_4],
-        "values of parameters have six digits behind the point: 1e-300 is 0",
+        "values of parameters have six digits after the point: 1e-300 is 0",
         BOTH, |cnc, call| cnc.answer(call).map(six_digits)),
     row("cnc.var.read-only-by-handle", &[VAR_6],
         "what is READ_ONLY is written by its handle, and not by its name",

@@ -65,7 +65,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-64", &[SVC_1], "a RESPONSE of more than 64 bytes is refused",
+    row("cnc.svc.response-64", &[SVC_1], "a RESPONSE of more than 64 bytes is rejected",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 64 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -174,7 +174,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
         }),
     row("cnc.svc.request-state-stays", &[SVC_4],
-        "REQUEST_STATE stays as it is when the service has finished",
+        "REQUEST_STATE keeps its value after the service has finished",
         |cnc, call| {
             if reads(call, REQUEST_STATE)
                 && let Some(kept) = cnc.memory().get(&key(call))

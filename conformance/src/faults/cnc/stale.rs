@@ -120,7 +120,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.at(&Call { data: &name, ..*call }, group(call), at)
         }),
     on("cnc.dyn.name-after-error", &[DYN_2],
-        "behind an index that was refused the next name is that of the first parameter",
+        "after a rejected index, the next name is that of the first parameter",
         NAME, |cnc, call| {
             let answer = cnc.answer(call);
             let before = std::mem::replace(&mut cnc.memory().count, u32::from(answer.is_err()));
@@ -169,7 +169,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             set(bytes, TARGET, &first)
         }),
     sent("cnc.ads.result-stays", &[ADS_2, ADS_4],
-        "the first Write behind a refusal has the result of that, and is done",
+        "after a rejected Write, the next one is executed and has the same error number",
         |cnc, request, bytes| {
             let result = u32_at(&bytes, RESULT).unwrap_or_default();
             let mut memory = cnc.memory();
@@ -184,7 +184,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 }
             }
         }),
-    sent("cnc.ads.refused-invoke-id-0", &[ADS_5], "a refusal has the invoke ID 0",
+    sent("cnc.ads.refused-invoke-id-0", &[ADS_5], "a rejection has the invoke ID 0",
         |_, _, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) => set(bytes, INVOKE_ID, &[0; 4]),
             _ => bytes,

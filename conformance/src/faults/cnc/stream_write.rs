@@ -81,13 +81,13 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-991", &[STM_2], "a write of 992 bytes is refused",
+    row("cnc.stm.packet-991", &[STM_2], "a write of 992 bytes is rejected",
         |cnc, call| if stream(call) && call.data.len() == 992 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-512", &[STM_2], "a write of more than 512 bytes is refused",
+    row("cnc.stm.packet-512", &[STM_2], "a write of more than 512 bytes is rejected",
         |cnc, call| if stream(call) && call.data.len() > 512 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -215,7 +215,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }
         cnc.answer(call)
     }),
-    row("cnc.stm.line-of-512", &[STM_20], "a line of more than 510 characters is refused", |cnc, call| {
+    row("cnc.stm.line-of-512", &[STM_20], "a line of more than 510 characters is rejected", |cnc, call| {
         let long = |line: &[u8]| line.len() > 512;
         if stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
             Err(AdsError::INVALID_SIZE)

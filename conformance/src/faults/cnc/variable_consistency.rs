@@ -74,7 +74,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.with(call, &data)
         }),
     row("cnc.var.write-refused-done", &[VAR_12, VAR_13],
-        "a value of more bytes than the variable has is refused, and its front written",
+        "a value of more bytes than the variable has is rejected, and its front written",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let len = value_at(call).saturating_add(old(cnc, call).len());
@@ -84,7 +84,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.write-read-only-refused-done", &[VAR_6],
-        "a write of what is READ_ONLY is refused, and its value read from then on",
+        "a write of what is READ_ONLY is rejected, and its value read from then on",
         |cnc, call| {
             let key = (group(call), 0, text(call.data).to_vec());
             match function(call) {
@@ -101,7 +101,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
         }),
     on("cnc.var.text-keeps-rest", &[VAR_12, VAR_13, VAR_25],
-        "of a text that is written shorter the old one stays behind it",
+        "when a shorter text is written, the end of the old one stays after it",
         WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
             let value = call.data.get(at..).unwrap_or_default();

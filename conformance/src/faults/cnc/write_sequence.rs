@@ -62,7 +62,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)
         }),
     row("cnc.com.refused-write-done", &[COM_5],
-        "a write of fewer bytes than a content has is refused, and those bytes are written",
+        "a write of fewer bytes than a content has is rejected, and those bytes are written",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
@@ -74,7 +74,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (_, answer) => answer,
         }),
     on("cnc.sda.written-once", &[SDA_9],
-        "an element is written once: from then on it is refused, whatever its flag says",
+        "an element is written once: from then on it is rejected, whatever its flag says",
         &[Function::WriteElement], |cnc, call| {
             let key = (group(call), offset(call), Vec::new());
             if cnc.memory().get(&key).is_some() {
@@ -103,7 +103,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
         }),
     on("cnc.var.write-after-error", &[VAR_13],
-        "the first write by name behind one that was refused succeeds and changes nothing",
+        "after a rejected write by name, the next one is answered as a success and changes nothing",
         BY_NAME, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
@@ -123,7 +123,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             Ok(done)
         }),
     on("cnc.stm.again-lost", &[STM_6],
-        "the first write behind one that was refused for now is acknowledged and lost",
+        "after a write that was rejected for now, the next one is acknowledged and lost",
         STREAM, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
@@ -133,7 +133,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             done
         }),
     row("cnc.stm.full-in-part", &[STM_6],
-        "of a write that there is no room for the first line is taken, and the whole is refused",
+        "of a write that there is no room for the first line is taken, and the whole is rejected",
         |cnc, call| match (is(call, STREAM), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => {
                 let _ = cnc.with(call, lines(call.data).next().unwrap_or_default());
@@ -142,7 +142,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (_, answer) => answer,
         }),
     on("cnc.stm.behind-end-lost", &[STM_10],
-        "the packet that is written behind one with a program end is acknowledged and lost",
+        "the packet that is written after one with a program end is acknowledged and lost",
         STREAM, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());

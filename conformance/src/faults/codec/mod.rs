@@ -100,7 +100,7 @@ fn too_strict() -> Vec<Seed> {
         let name = stream.layout().name;
         let any = !stream.layout().is_fixed() && !those.is_empty();
         any.then(|| {
-            let what = format!("{name}: the longest there may be is refused");
+            let what = format!("{name}: the longest there may be is rejected");
             let id = format!("codec.refuses.longest.{name}");
             seed(id, broken(those.into_iter()), what, CodecFault::Longest(name))
         })

@@ -119,7 +119,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
         CodecFault::Around(|right, question| accepts(right, question, "packets", "nul"))),
     row("codec.nc.takes-long-lines", &[STM_20], "lines of more than 990 characters are written as they are",
         CodecFault::Around(|right, question| accepts(right, question, "packets", "too-long"))),
-    row("codec.nc.cuts-long-lines", &[STM_20], "a line of 990 characters is refused",
+    row("codec.nc.cuts-long-lines", &[STM_20], "a line of 990 characters is rejected",
         CodecFault::Around(|right, question| {
             let text = question.hex.as_deref().unwrap_or_default();
             let long =

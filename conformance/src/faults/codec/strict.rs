@@ -27,32 +27,32 @@ fn strict(
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecSeed] = &[
-    row("codec.refuses.elementary", &[VAR_7], "a description without dimensions is refused",
+    row("codec.refuses.elementary", &[VAR_7], "a description without dimensions is rejected",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-description", |question| at(question, 16) == Some(0))
         })),
-    row("codec.refuses.arrays", &[VAR_4], "a description of more than one dimension is refused",
+    row("codec.refuses.arrays", &[VAR_4], "a description of more than one dimension is rejected",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-description", |question| {
                 at(question, 16).is_some_and(|m| m > 1)
             })
         })),
-    row("codec.refuses.whole", &[VAR_11], "a read by handle without indices is refused",
+    row("codec.refuses.whole", &[VAR_11], "a read by handle without indices is rejected",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-handle-read", |question| at(question, 4) == Some(0))
         })),
-    row("codec.refuses.extended-empty", &[VAR_16], "an extended description without data is refused",
+    row("codec.refuses.extended-empty", &[VAR_16], "an extended description without data is rejected",
         CodecFault::Around(|right, question| {
             strict(right, question, "variable-extended-description", |question| {
                 question.hex.as_ref().is_some_and(Vec::is_empty)
             })
         })),
-    row("codec.refuses.absent-instance", &[SDA_2], "the object address (0, 0) is refused",
+    row("codec.refuses.absent-instance", &[SDA_2], "the object address (0, 0) is rejected",
         CodecFault::Around(|right, question| {
             strict(right, question, "object-address", |question| at(question, 0) == Some(0))
         })),
     row("codec.refuses.result-alone", &[ADS_6],
-        "a reply that ends behind a result that is not 0 is refused",
+        "a reply that ends after a result that is not 0 is rejected",
         CodecFault::Around(|right, question| {
             let alone = question.hex.as_ref().is_some_and(|hex| hex.len() == 4);
             if question.op == "decode" && alone && question.stream.ends_with("read-reply") {
@@ -61,12 +61,12 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 strict(right, question, "read-write-reply", |_| alone)
             }
         })),
-    row("codec.refuses.sum", &[VAR_1], "the empty kind is refused", CodecFault::Around(|right, question| {
+    row("codec.refuses.sum", &[VAR_1], "the empty kind is rejected", CodecFault::Around(|right, question| {
         strict(right, question, "variable-kind", |question| {
             question.hex.as_deref() == Some(&[0])
         })
     })),
-    row("codec.refuses.empty-packet", &[STM_2, STM_4], "a packet of more than one line is refused",
+    row("codec.refuses.empty-packet", &[STM_2, STM_4], "a packet of more than one line is rejected",
         CodecFault::Around(|right, question| {
             strict(right, question, "program-stream", |question| {
                 question

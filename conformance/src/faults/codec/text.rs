@@ -65,7 +65,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.nul.missing.variable-kind", &[VAR_1], "kinds are written without a NUL",
         CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[0], bytes))),
     row("codec.nul.missing.variable-index-kind", &[VAR_3],
-        "kinds behind an index are written without a NUL",
+        "kinds after an index are written without a NUL",
         CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[1], bytes))),
     row("codec.nul.missing.variable-name", &[VAR_9], "names are written without a NUL",
         CodecFault::Bytes(|stream, bytes| nul(stream, NAMES[2], bytes))),
@@ -79,7 +79,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
             bytes
         })),
     row("codec.nul.double.variable-name-write", &[VAR_13],
-        "two NULs are written behind a name before a value",
+        "two NULs are written after a name before a value",
         CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
             if let Some(nul) = nul.filter(|_| stream == "variable-name-write") {
@@ -88,7 +88,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
             bytes
         })),
     row("codec.nul.field.variable-name-write", &[VAR_13],
-        "a value is written behind a name field of 256 bytes",
+        "a value is written after a name field of 256 bytes",
         CodecFault::Bytes(|stream, mut bytes| {
             let nul = bytes.iter().position(|byte| *byte == 0);
             if let Some(nul) = nul.filter(|_| stream == "variable-name-write") {

@@ -47,7 +47,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }
         bytes
     }),
-    sent("different.device-silent-of-itself", "ReadDeviceInfo and ReadState are refused",
+    sent("different.device-silent-of-itself", "ReadDeviceInfo and ReadState are rejected",
         |_, request, mut bytes| {
             let inquiries = [Command::READ_DEVICE_INFO, Command::READ_STATE];
             if inquiries.contains(&request.header().command) {
@@ -56,14 +56,14 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             measured(bytes)
         }),
-    on("different.extended-external-only", &[], "an extended description of what has none is refused",
+    on("different.extended-external-only", &[], "an extended description of what has none is rejected",
         &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| if bytes.is_empty() {
             Err(AdsError::INVALID_DATA)
         } else {
             Ok(bytes)
         })),
     unprinted(row("different.remains-behind-names", &[],
-        "behind the NUL of names, types and units there are remains of others",
+        "after the NUL of names, types and units there are remains of others",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 let remains = |bytes: Vec<u8>| {
@@ -79,7 +79,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         })),
-    unprinted(row("different.texts-end", &[], "the value of a STRING ends behind its NUL", |cnc, call| {
+    unprinted(row("different.texts-end", &[], "the value of a STRING ends after its NUL", |cnc, call| {
         // In either addressing, handles are known from the reply that returned them.
         let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
         let is_text =

@@ -24,13 +24,13 @@ pub(super) const ROWS: &[CncSeed] = &[
         } else {
             cnc.answer(call)
         }),
-    row("different.name-bytes-behind", &[], "bytes behind the NUL of a name are ignored",
+    row("different.name-bytes-behind", &[], "bytes after the NUL of a name are ignored",
         |cnc, call| if is_lookup(call) && call.data.contains(&0) {
             cnc.with(call, &[text(call.data), &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("different.kind-of-256", &[], "a kind takes 32 bytes at most, NULs behind it counted",
+    row("different.kind-of-256", &[], "a kind takes 32 bytes at most, NULs after it counted",
         |cnc, call| if is(call, COUNT) && call.data.len() > 32 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -42,7 +42,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }
         _ => cnc.answer(call),
     }),
-    row("different.kind-of-259", &[], "an index and a kind take 36 bytes at most, NULs behind it counted",
+    row("different.kind-of-259", &[], "an index and a kind take 36 bytes at most, NULs after it counted",
         |cnc, call| if is(call, INDEXED) && call.data.len() > 36 {
             Err(AdsError::INVALID_SIZE)
         } else {
@@ -55,7 +55,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("different.index-kind-unended", &[], "behind an index a kind without a NUL is taken",
+    row("different.index-kind-unended", &[], "a kind without a NUL is accepted after an index",
         |cnc, call| match (of_decoder(call), call.data.get(4..)) {
             (Some(0x45 | 0x4B), Some(kind)) if !kind.contains(&0) => {
                 cnc.with(call, &[call.data, &[0]].concat())
@@ -63,7 +63,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         }),
     row("different.short-values", &[],
-        "a value of fewer bytes than the variable has is written, and zeros behind it, but to a service",
+        "a value of fewer bytes than the variable has is written, and zeros after it, but to a service",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) if !call.data.starts_with(b"V.G.SERVICE.") => {
                 let longer = (1..=8).map(|more| [call.data, &vec![0; more]].concat());

@@ -100,7 +100,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }
     }),
     row("different.stream-busy", &[],
-        "every third write of a stream is refused for now, whatever room there is",
+        "every third write of a stream is rejected for now, whatever room there is",
         |cnc, call| if is(call, STREAM) && (1..=992).contains(&call.data.len()) {
             let mut memory = cnc.memory();
             memory.count = memory.count.wrapping_add(1);
@@ -113,7 +113,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)
         }),
     sent("different.errors-with-zeros",
-        "a refused Read or ReadWrite has as many zeros as were asked for, up to 64",
+        "a rejected Read or ReadWrite has as many zeros as were asked for, up to 64",
         |_, request: &FrameRef<'_>, mut bytes| {
             let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
             let refused = matches!(u32_at(&bytes, 38), Some(1..));
@@ -175,12 +175,12 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         })),
-    row("different.texts-whole", &[], "a STRING is written with all its bytes, and refused with fewer",
+    row("different.texts-whole", &[], "a STRING is written with all its bytes, and rejected with fewer",
         |cnc, call| match writes_text(cnc, call) {
             Some(size) if after_nul(call.data).len() < size => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
-    row("different.texts-ended", &[], "a STRING is written with a NUL, and refused without",
+    row("different.texts-ended", &[], "a STRING is written with a NUL, and rejected without",
         |cnc, call| match writes_text(cnc, call) {
             Some(_) if !after_nul(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),

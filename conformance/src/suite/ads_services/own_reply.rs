@@ -18,7 +18,7 @@ const TRIES: usize = 3;
 
 pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
     for (function, calls) in calls_by_function(probe)? {
-        let Some((call, other)) = different(probe, calls)? else { continue };
+        let Some((call, other, earlier)) = different(probe, calls)? else { continue };
         let rules = [clause(call.service).into(), Rule::of(function.spec().clause)];
         let mut is_own = false;
         for _ in 0..TRIES {
@@ -26,7 +26,9 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
             let first = data_of(probe, &call)?;
             let evidence = probe.evidence();
             let (second, third) = (data_of(probe, &call)?, data_of(probe, &call)?);
-            is_own |= first == second || second != third;
+            // A value that changes by itself is not the reply to the earlier request.
+            let is_another = first.as_ref().is_some_and(|first| *first != earlier);
+            is_own |= first == second || second != third || is_another;
             probe.set_evidence(evidence);
         }
         let expected = || format!("{}: the reply to this request", function.spec().name);
@@ -73,14 +75,20 @@ fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCa
     Ok(all)
 }
 
-/// Two requests with different replies. Each is sent twice: the first reply may be that to another one.
-fn different(probe: &mut Probe<'_>, calls: Vec<RawCall>) -> Step<Option<(RawCall, RawCall)>> {
+/// Two requests with different replies, and the reply to the second. Each is sent twice: the first reply may be
+/// that to another one.
+fn different(
+    probe: &mut Probe<'_>,
+    calls: Vec<RawCall>,
+) -> Step<Option<(RawCall, RawCall, Vec<u8>)>> {
     let mut known: Option<(RawCall, Vec<u8>)> = None;
     for call in calls {
         probe.call(&call)?;
         let Some(data) = data_of(probe, &call)? else { continue };
         match &known {
-            Some((other, theirs)) if *theirs != data => return Ok(Some((call, other.clone()))),
+            Some((other, theirs)) if *theirs != data => {
+                return Ok(Some((call, other.clone(), theirs.clone())));
+            }
             Some(_) => {}
             None => known = Some((call, data)),
         }

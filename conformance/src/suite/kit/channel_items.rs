@@ -5,8 +5,9 @@ use ads_cnc::dynamic::{DynamicKind, DynamicName};
 use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, CountDynamic, CountElements, DescribeByName,
     DescribeExtended, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, HandleByName,
-    ReadByHandle, ReadByName, ReadElement, Request,
+    ReadByHandle, ReadByName, ReadElement, ReadElementType, Request,
 };
+use ads_cnc::sda::ElementText;
 use ads_cnc::{CncString, Decode as _, Description, Kind, U32List};
 
 use crate::judge::{IfPresent as _, Step};
@@ -78,7 +79,8 @@ impl ChannelItems {
 /// Maximum number of objects of a channel, and of elements of an instance, that are requested.
 const CONTENTS_MAX: usize = 2;
 
-/// Queries of the elements and objects of a channel.
+/// Queries of the elements and objects of a channel, without the contents of texts: how many bytes a reply with
+/// a text has is not documented.
 pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<RawCall>> {
     let mut calls = Vec::new();
     for instance in probe.instances().if_applicable()?.unwrap_or_default() {
@@ -88,13 +90,17 @@ pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec
         calls.extend(CountElements::new(instance.first).ok().map(RawCall::new).transpose()?);
         for element in instance.elements().take(CONTENTS_MAX) {
             let length = probe.length_of(element)?;
-            let content = length.and_then(|length| ReadElement::new(element, length).ok());
+            let ty = probe.try_read::<ElementText>(ReadElementType::new(element))?;
+            let is_text = ty.is_some_and(|ty| ty.text.text == *"STRING");
+            let content = length.filter(|_| !is_text);
+            let content = content.and_then(|length| ReadElement::new(element, length).ok());
             let requests = attribute_reads(element).into_iter().chain(content.map(Request::from));
             calls.extend(requests.map(RawCall::new).collect::<Step<Vec<_>>>()?);
         }
     }
     let objects = probe.objects().if_applicable()?.unwrap_or_default();
-    let reads = objects.iter().filter_map(|object| RawCall::new(object.address.read().ok()?).ok());
+    let numbers = objects.iter().filter(|object| !object.is_text());
+    let reads = numbers.filter_map(|object| RawCall::new(object.address.read().ok()?).ok());
     calls.extend(
         reads.filter(|call| in_channel(call, channel, channel).is_some()).take(CONTENTS_MAX),
     );

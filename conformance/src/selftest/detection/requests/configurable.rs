@@ -20,7 +20,7 @@ pub(in crate::selftest::detection) enum Compare {
     Configured,
 }
 
-/// The numbers of the simulated channels, by rank.
+/// The numbers of the channels of the default model, by rank.
 const NUMBERS: [u8; 3] = [1, 2, 6];
 
 /// What a reply is of: function, group by number, offset, data of the request.
@@ -90,5 +90,16 @@ pub(super) fn by_number(group: IndexGroup) -> IndexGroup {
             class.index_group()
         }
         _ => group,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulator::Model;
+
+    #[test]
+    fn the_numbers_are_those_of_the_model() {
+        assert!(Model::default_model().unwrap().channels().eq(NUMBERS));
     }
 }

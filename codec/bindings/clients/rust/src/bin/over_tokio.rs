@@ -78,7 +78,7 @@ fn take_frames(received: &[u8], pending: &Pending) -> std::result::Result<usize,
     // `split` rejects a frame that is longer than a service can have.
     while let Some((frame, len)) = FrameRef::split(&received[end..], u32::MAX)? {
         end += len;
-        // Requests, and replies that nobody waits for, are passed over.
+        // Other frames are skipped: requests, and replies that came too late.
         let is_reply = frame.header().state_flags == StateFlags::RESPONSE;
         if let Some(waiting) = lock(pending).remove(&frame.header().invoke_id).filter(|_| is_reply)
         {
