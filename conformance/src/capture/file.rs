@@ -44,9 +44,12 @@ pub enum FileError {
     /// The system cannot read it.
     #[error("{0}")]
     Io(#[from] std::io::Error),
-    /// It is neither pcap nor pcapng.
-    #[error("neither pcap nor pcapng")]
+    /// It is of another format.
+    #[error("neither pcap nor pcapng nor NetMon 2.x")]
     Format,
+    /// It is of another version of NetMon: major and minor.
+    #[error("a capture of NetMon {0}.{1}, not 2.x; convert it with editcap -F pcapng")]
+    NetMonVersion(u8, u8),
     #[error("the file is empty")]
     Empty,
 }

@@ -2,8 +2,9 @@
 
 use std::collections::VecDeque;
 
-use ads_cnc::ads::{AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
+use ads_cnc::ads::{AmsHeader, AmsPort, AmsTcpHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::operation::Task;
 use ads_cnc::{Decode as _, Error};
 
 use super::tcp::Mark;
@@ -200,6 +201,22 @@ fn router(tcp: &[u8]) -> Option<usize> {
     let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;
     let is_known = matches!(header.reserved, 1 | 0x1000..=0x1002);
     is_known.then(|| length.saturating_add(AMS_TCP_HEADER_LEN))
+}
+
+/// Whether this is the port of a task of a CNC.
+pub(super) fn is_cnc(port: AmsPort) -> bool {
+    Task::from_port(port).is_some()
+}
+
+/// Whether a frame is a reply; if the flags are not valid, the ports decide.
+pub(super) fn is_reply(header: &AmsHeader) -> bool {
+    match header.state_flags {
+        StateFlags::REQUEST => false,
+        StateFlags::RESPONSE => true,
+        _ if is_cnc(header.target.port) => false,
+        _ if is_cnc(header.source.port) => true,
+        flags => flags.0 & 1 == 1,
+    }
 }
 
 /// Whether a frame may begin here: both lengths agree, command and flags are known.

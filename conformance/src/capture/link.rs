@@ -1,17 +1,19 @@
-//! Finds the TCP segment in a captured packet.
+//! Finds the TCP segment, or the AMS frame in an EtherCAT frame, in a captured packet.
 
 use std::net::{IpAddr, SocketAddr};
 
 use etherparse::{EtherType, LaxNetSlice, LaxSlicedPacket, TransportSlice};
 use pcap_parser::Linktype;
 
+use super::endpoint::Endpoint;
+use super::ethercat::{self, AmsFrame, EtherCatContent};
 use super::file::Packet;
 
 /// A TCP segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TcpSegment<'p> {
-    pub(super) from: SocketAddr,
-    pub(super) to: SocketAddr,
+    pub(super) from: Endpoint,
+    pub(super) to: Endpoint,
     pub(super) sequence: u32,
     pub(super) acknowledged: Option<u32>,
     pub(super) syn: bool,
@@ -26,6 +28,8 @@ pub(super) struct TcpSegment<'p> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PacketContent<'p> {
     Tcp(TcpSegment<'p>),
+    /// An AMS frame in an EtherCAT frame.
+    Ams(AmsFrame<'p>),
     /// Another protocol.
     Other,
     /// A fragment of an IP packet; fragments are not reassembled.
@@ -36,7 +40,7 @@ pub(super) enum PacketContent<'p> {
     Link(i32),
 }
 
-pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
+pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     let bytes = packet.bytes;
     let after = |length: usize| bytes.get(length..).unwrap_or_default();
     let typed = |at: usize| match bytes.get(at..) {
@@ -56,7 +60,17 @@ pub(super) fn segment<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
         Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), after(20))),
         Linktype(other) => return PacketContent::Link(other),
     };
-    read.map_or(PacketContent::Unreadable, |read| of_ip(&read, packet.missing))
+    let Some(read) = read else { return PacketContent::Unreadable };
+    match read.ether_payload() {
+        Some(payload) if payload.ether_type.0 == ethercat::ETHER_TYPE => {
+            match EtherCatContent::of(payload.payload) {
+                EtherCatContent::Ams(frame) => PacketContent::Ams(frame),
+                EtherCatContent::Other => PacketContent::Other,
+                EtherCatContent::Unreadable => PacketContent::Unreadable,
+            }
+        }
+        _ => of_ip(&read, packet.missing),
+    }
 }
 
 fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
@@ -79,8 +93,8 @@ fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
             }
         }
         Some(TransportSlice::Tcp(tcp)) => PacketContent::Tcp(TcpSegment {
-            from: SocketAddr::new(from, tcp.source_port()),
-            to: SocketAddr::new(to, tcp.destination_port()),
+            from: Endpoint::Tcp(SocketAddr::new(from, tcp.source_port())),
+            to: Endpoint::Tcp(SocketAddr::new(to, tcp.destination_port())),
             sequence: tcp.sequence_number(),
             acknowledged: tcp.ack().then(|| tcp.acknowledgment_number()),
             syn: tcp.syn(),

@@ -2,10 +2,10 @@
 //!
 //! | step | where |
 //! |---|---|
-//! | packets out of pcap and pcapng | `file` |
-//! | TCP segments out of packets | `link` |
+//! | packets out of pcap and pcapng, or NetMon 2.x | `file`, `netmon` |
+//! | TCP segments, or AMS frames in EtherCAT frames, out of packets | `link`, `ethercat` |
 //! | TCP reassembly | `tcp`, `table` |
-//! | AMS frames | `frames` |
+//! | AMS frames | `frames`, `ams_clients` |
 //! | requests paired with their replies and judged | `judge` |
 //! | a conversation into a pcapng file | `writer`, `frame` |
 //!
@@ -22,11 +22,15 @@
 //! # Ok::<(), ads_cnc_conformance::capture::FileError>(())
 //! ```
 
+mod ams_clients;
+mod endpoint;
+mod ethercat;
 mod file;
 mod frame;
 mod frames;
 mod judge;
 mod link;
+mod netmon;
 mod observation;
 mod table;
 mod tally;
@@ -36,8 +40,8 @@ mod vectors;
 mod writer;
 
 use std::io::Read;
-use std::net::SocketAddr;
 
+pub use endpoint::Endpoint;
 pub use file::{FileEnd, FileError, RECORD_MAX};
 pub use table::Ports;
 pub use tally::CaptureTally;
@@ -45,6 +49,7 @@ pub use time::Time;
 pub use vectors::{Collector, VECTORS_MAX};
 pub use writer::Capture;
 
+use self::ams_clients::AmsClients;
 use self::file::Packet;
 use self::judge::TrafficJudge;
 use self::link::PacketContent;
@@ -83,17 +88,18 @@ pub struct Checked {
 pub enum CapturePiece {
     /// A whole frame.
     Frame {
-        from: SocketAddr,
-        /// The address it was sent to.
-        to: SocketAddr,
-        /// The whole frame.
+        from: Endpoint,
+        /// The receiver.
+        to: Endpoint,
+        /// The whole frame. If it was captured in an EtherCAT frame, which has no AMS/TCP header, that
+        /// header is added.
         bytes: Vec<u8>,
     },
     /// Bytes that were not captured.
     Gap {
-        from: SocketAddr,
-        /// The address they were sent to.
-        to: SocketAddr,
+        from: Endpoint,
+        /// The receiver.
+        to: Endpoint,
         /// How many; 0 if unknown.
         length: u64,
     },
@@ -101,8 +107,8 @@ pub enum CapturePiece {
     Rest(usize),
 }
 
-/// Reassembles the TCP connections of a pcap or pcapng file and calls `each` with their frames and
-/// gaps. Nothing is judged.
+/// Reads a pcap, pcapng or NetMon 2.x file, reassembles its TCP connections and calls `each` with
+/// every frame and gap. Nothing is judged.
 ///
 /// ```
 /// use ads_cnc_conformance::capture::{FileEnd, Ports, frames};
@@ -115,14 +121,14 @@ pub enum CapturePiece {
 /// ```
 ///
 /// # Errors
-/// If it is neither pcap nor pcapng. A truncated file is read up to its end, see [`FileEnd`].
+/// If it is none of these formats. A truncated file is read up to its end, see [`FileEnd`].
 pub fn frames(
     input: impl Read + Send,
     ports: Ports,
     mut each: impl FnMut(CapturePiece),
 ) -> Result<FileEnd, FileError> {
     let mut table = ConnectionTable::new(ports);
-    read(input, &mut table, |step| {
+    read(input, &mut table, &mut AmsClients::default(), |step| {
         if let ReadStep::Event(event, _) = step
             && let Some(piece) = CapturePiece::of(event)
         {
@@ -145,9 +151,10 @@ impl CapturePiece {
             }
             ConnectionEvent::Skipped(length) => Self::Rest(length),
             ConnectionEvent::Unfinished => Self::Rest(0),
-            ConnectionEvent::Router | ConnectionEvent::Joined(_) | ConnectionEvent::Ended(_) => {
-                return None;
-            }
+            ConnectionEvent::Router
+            | ConnectionEvent::Joined(_)
+            | ConnectionEvent::Running(_)
+            | ConnectionEvent::Ended(_) => return None,
         })
     }
 }
@@ -160,24 +167,43 @@ enum ReadStep<'s> {
     Event(ConnectionEvent, &'s ConnectionTable),
 }
 
+/// Calls a function with every packet of a file of one of the formats.
+fn packets(
+    mut input: impl Read + Send,
+    each: impl FnMut(Packet<'_>),
+) -> Result<FileEnd, FileError> {
+    let mut start = Vec::new();
+    let magic = u64::try_from(netmon::MAGIC.len()).unwrap_or_default();
+    input.by_ref().take(magic).read_to_end(&mut start)?;
+    if start == netmon::MAGIC || start == netmon::MAGIC_1 {
+        return netmon::packets(input, each);
+    }
+    file::packets((&*start).chain(input), each)
+}
+
 fn read(
     input: impl Read + Send,
     table: &mut ConnectionTable,
+    clients: &mut AmsClients,
     mut each: impl FnMut(ReadStep<'_>),
 ) -> Result<FileEnd, FileError> {
     let mut events = Vec::new();
-    let end = file::packets(input, |packet| {
-        let content = link::segment(&packet);
+    let end = packets(input, |packet| {
+        let content = link::content(&packet);
+        let Packet { number, time, .. } = packet;
+        let mark = Mark { packet: number, time, acknowledged: None };
         let wanted = matches!(&content, PacketContent::Tcp(segment) if table.wants(segment));
         each(ReadStep::Packet(&packet, content, wanted));
         if let (PacketContent::Tcp(segment), true) = (content, wanted) {
-            let Packet { number, time, .. } = packet;
-            let mark = Mark { packet: number, time, acknowledged: None };
             table.push(&segment, mark, &mut events);
+        }
+        if let PacketContent::Ams(frame) = content {
+            clients.push(frame, mark, &mut events);
         }
         events.drain(..).for_each(|event| each(ReadStep::Event(event, table)));
     })?;
     table.finish(&mut events);
+    clients.finish(&mut events);
     events.drain(..).for_each(|event| each(ReadStep::Event(event, table)));
     Ok(end)
 }
@@ -185,14 +211,15 @@ fn read(
 /// After how many packets the failed cases are counted for the progress.
 const PACKETS_BETWEEN_COUNTS: u64 = 4096;
 
-/// Judges a file of captured packets, pcap or pcapng.
+/// Judges a file of captured packets: pcap, pcapng or NetMon 2.x.
 ///
 /// # Errors
-/// If it is neither pcap nor pcapng. A truncated file is judged up to its end.
+/// If it is none of these formats. A truncated file is judged up to its end.
 pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked, FileError> {
     let mut table = ConnectionTable::new(options.ports);
     let mut judge = TrafficJudge::new(options.vectors);
-    let end = read(input, &mut table, |step| match step {
+    let mut clients = AmsClients::default();
+    let end = read(input, &mut table, &mut clients, |step| match step {
         ReadStep::Packet(packet, content, wanted) => {
             count(&mut judge.tally.packets);
             if judge.tally.packets.is_multiple_of(PACKETS_BETWEEN_COUNTS) {
@@ -202,6 +229,7 @@ pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked
             match content {
                 PacketContent::Tcp(_) if wanted => count(&mut judge.tally.segments),
                 PacketContent::Tcp(_) => count(&mut judge.tally.elsewhere),
+                PacketContent::Ams(_) => count(&mut judge.tally.ethercat),
                 PacketContent::Other => {}
                 PacketContent::Fragment => count(&mut judge.tally.fragments),
                 PacketContent::Unreadable => count(&mut judge.tally.unreadable),

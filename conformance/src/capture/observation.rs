@@ -1,9 +1,9 @@
 //! Captured frames as the evidence of checks.
 
 use std::fmt::{self, Display};
-use std::net::SocketAddr;
 use std::time::Duration;
 
+use super::endpoint::Endpoint;
 use super::frames::Span;
 use super::time::Time;
 use crate::exchange::Exchange;
@@ -13,8 +13,8 @@ use crate::rules::Observation;
 /// Where in the capture a frame was seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Location {
-    pub(super) from: SocketAddr,
-    pub(super) to: SocketAddr,
+    pub(super) from: Endpoint,
+    pub(super) to: Endpoint,
     pub(super) asked: Option<Span>,
     pub(super) answered: Option<Span>,
 }

@@ -1,10 +1,10 @@
 //! The table of TCP connections: takes segments, emits frames with their location.
 
 use std::collections::BTreeMap;
-use std::net::SocketAddr;
 
 use ads_cnc::Error;
 
+use super::endpoint::Endpoint;
 use super::frames::{FramePiece, Frames, Span};
 use super::link::TcpSegment;
 use super::tcp::{DirectedSegment, DirectionState, Mark, ReassembledPiece};
@@ -30,8 +30,8 @@ pub enum Ports {
 pub(super) struct SegmentDirection {
     /// Number of the connection, from 1 on.
     pub(super) connection: u64,
-    pub(super) from: SocketAddr,
-    pub(super) to: SocketAddr,
+    pub(super) from: Endpoint,
+    pub(super) to: Endpoint,
 }
 
 #[derive(Debug)]
@@ -46,6 +46,8 @@ pub(super) enum ConnectionEvent {
     Skipped(usize),
     /// A connection whose beginning was not captured.
     Joined(u64),
+    /// A conversation without a beginning, of which every frame since then was captured.
+    Running(u64),
     /// A frame that was incomplete when the connection or the capture ended.
     Unfinished,
     /// The connection has ended.
@@ -64,7 +66,7 @@ pub(super) struct Ending {
 #[derive(Debug)]
 struct TcpConnection {
     number: u64,
-    ends: [SocketAddr; 2],
+    ends: [Endpoint; 2],
     halves: [DirectionState; 2],
     frames: [Frames; 2],
     /// Whether it is known to carry AMS: by its port, or because a frame was found.
@@ -81,7 +83,7 @@ struct TcpConnection {
 #[derive(Debug)]
 pub(super) struct ConnectionTable {
     ports: Ports,
-    open: BTreeMap<(SocketAddr, SocketAddr), TcpConnection>,
+    open: BTreeMap<(Endpoint, Endpoint), TcpConnection>,
     connections: u64,
     buffered: usize,
     segments: u64,
@@ -106,7 +108,9 @@ impl ConnectionTable {
 
     /// Whether the sender's direction was captured up to this offset.
     pub(super) fn has(&self, way: &SegmentDirection, place: u64) -> bool {
-        self.half(way).is_some_and(|half| half.is_seen() && half.offset() >= place)
+        // Without TCP the offset is that of the last captured byte.
+        matches!(way.from, Endpoint::Ams(..))
+            || self.half(way).is_some_and(|half| half.is_seen() && half.offset() >= place)
     }
 
     fn half(&self, way: &SegmentDirection) -> Option<&DirectionState> {
@@ -180,7 +184,7 @@ impl ConnectionTable {
         }
     }
 
-    fn end(&mut self, key: (SocketAddr, SocketAddr), out: &mut Vec<ConnectionEvent>) {
+    fn end(&mut self, key: (Endpoint, Endpoint), out: &mut Vec<ConnectionEvent>) {
         let Some(mut connection) = self.open.remove(&key) else { return };
         self.buffered = self.buffered.saturating_sub(connection.memory_size());
         let events = out.len();
@@ -202,12 +206,12 @@ impl ConnectionTable {
     }
 }
 
-fn key(one: SocketAddr, other: SocketAddr) -> (SocketAddr, SocketAddr) {
+fn key(one: Endpoint, other: Endpoint) -> (Endpoint, Endpoint) {
     if one <= other { (one, other) } else { (other, one) }
 }
 
 impl TcpConnection {
-    fn new(number: u64, ends: [SocketAddr; 2], is_ams: bool) -> Self {
+    fn new(number: u64, ends: [Endpoint; 2], is_ams: bool) -> Self {
         Self {
             number,
             ends,
@@ -226,7 +230,7 @@ impl TcpConnection {
         halves.chain(self.frames.iter().map(Frames::memory_size)).fold(0, usize::saturating_add)
     }
 
-    fn side(&self, from: SocketAddr) -> usize {
+    fn side(&self, from: Endpoint) -> usize {
         usize::from(self.ends.first() != Some(&from))
     }
 

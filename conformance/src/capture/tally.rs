@@ -29,6 +29,8 @@ pub struct CaptureTally {
     pub elsewhere: u64,
     /// TCP connections on the selected ports.
     pub connections: u64,
+    /// EtherCAT frames with an AMS frame.
+    pub ethercat: u64,
     /// Connections whose beginning was not captured.
     pub joined: u64,
     /// Retransmitted segments.
@@ -103,6 +105,7 @@ impl CaptureTally {
              frames, {exchanges} requests with their answers"
         )];
         let told = [
+            (self.ethercat, "AMS frames in EtherCAT frames, without TCP"),
             (self.refused, "requests answered by an error number"),
             (self.joined, "connections whose beginning was not captured"),
             (self.repeated, "segments that came once more"),

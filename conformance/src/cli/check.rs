@@ -22,9 +22,10 @@ const TRAFFIC: &str = "Traffic";
 
 /// Judge captured traffic by the same requirements
 ///
-/// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them. TCP
-/// connections are put together in both directions, requests are paired with their replies, and
-/// exchanges are compared with each other. Frames to AMS ports other than 551 (GEO), 552
+/// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them, or
+/// NetMon 2.x, as the ADS Monitor of Beckhoff writes it. TCP connections are reassembled in both
+/// directions, AMS frames in EtherCAT frames are read too, requests are paired with their replies,
+/// and exchanges are compared with each other. Frames to AMS ports other than 551 (GEO), 552
 /// (SDA) and 553 (COM), and calls of addresses at which nothing is documented, are counted.
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES, after_long_help = AFTER)]
@@ -75,8 +76,10 @@ Examples:
 
 What is read:
   Ethernet with and without VLAN tags, raw IP, Linux cooked (SLL, SLL2) and loopback (NULL, LOOP);
-  IPv4 and IPv6. Fragments of IP packets are counted, not put together. What never came, or was cut
-  off by a snap length, is a gap: what it touches is inconclusive. A connection that began before the
+  IPv4 and IPv6. AMS frames in EtherCAT frames (EtherType 0x88A4, type 2) are one conversation per
+  AMS NetId of clients, whatever --port selects. Fragments of IP packets are counted, not put
+  together. What never came, or was cut off by a snap length, is a gap: what it touches is
+  inconclusive. A connection that began before the
   capture is judged from the first frame that is found. A file that ends too early is judged up to
   there, and the report says so.
 

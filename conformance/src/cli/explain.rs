@@ -115,7 +115,7 @@ enum ServiceName {
     ReadWrite,
 }
 
-/// Whether the bytes begin as pcap or pcapng does.
+/// Whether the bytes begin as a file of pcap, pcapng or NetMon does.
 fn is_capture(bytes: &[u8]) -> bool {
     let starts = [
         [0xD4, 0xC3, 0xB2, 0xA1],
@@ -123,6 +123,8 @@ fn is_capture(bytes: &[u8]) -> bool {
         [0x4D, 0x3C, 0xB2, 0xA1],
         [0xA1, 0xB2, 0x3C, 0x4D],
         [0x0A, 0x0D, 0x0D, 0x0A],
+        *b"GMBU",
+        *b"RTSS",
     ];
     starts.iter().any(|start| bytes.starts_with(start))
 }

@@ -43,6 +43,11 @@ impl Moment {
         Self::from_datetime(text.parse().ok()?)
     }
 
+    /// Whole seconds since 1970, if not before.
+    pub(crate) fn seconds(self) -> Option<u64> {
+        u64::try_from(self.0).ok()
+    }
+
     /// The beginning of a day in UTC.
     pub(crate) fn from_date(date: Date) -> Option<Self> {
         let Date { year, month, day } = date;

@@ -4,5 +4,6 @@ mod cli;
 mod defects;
 mod maker;
 mod missing;
+mod monitor;
 mod talk;
 mod wire;

@@ -267,3 +267,9 @@ pub(crate) fn passes(checked: &Checked) -> usize {
     }
     with(checked, Verdict::Pass).len()
 }
+
+/// The number of exchanges and of checks, and the requirements that pass.
+pub(crate) fn sum(checked: &Checked) -> (u64, usize, Vec<String>) {
+    let checks = checked.outcomes.iter().map(|outcome| outcome.checks).sum();
+    (checked.tally.exchanges, checks, with(checked, Verdict::Pass))
+}

@@ -1,23 +1,15 @@
 //! However a conversation comes over the wire, the same comes of it; and what is missing is told.
 
-use ads_cnc_conformance::capture::{
-    CaptureOptions, Checked, Collector, FileEnd, FileError, Ports, check,
-};
+use ads_cnc_conformance::capture::{CaptureOptions, Collector, FileEnd, FileError, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
 
 use crate::maker::{
-    Link, Message, Segment, Side, checked, checked_anywhere, passes, pcap, segments, with,
+    Link, Message, Segment, Side, checked, checked_anywhere, passes, pcap, segments, sum, with,
 };
 use crate::talk::{conversation as talk, everything, recorded};
 
 fn conversation() -> Vec<Message> {
     talk(None, everything)
-}
-
-/// What was judged, and by how many checks.
-fn sum(checked: &Checked) -> (u64, usize, Vec<String>) {
-    let checks = checked.outcomes.iter().map(|outcome| outcome.checks).sum();
-    (checked.tally.exchanges, checks, with(checked, Verdict::Pass))
 }
 
 #[test]

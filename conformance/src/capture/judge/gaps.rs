@@ -7,15 +7,13 @@ use ads_cnc::{Decode as _, Error};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::super::frames::Span;
+use super::super::frames::{Span, is_cnc, is_reply};
 use super::super::observation::CapturedFrames;
 use super::super::table::{Ending, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
-use super::{
-    CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, is_cnc, is_reply, location,
-};
+use super::{CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, location};
 use crate::judge::{Checks as _, Describe, Rule};
 use crate::rules::{Observation, Topic, service_clause};
 
@@ -134,7 +132,8 @@ impl TrafficJudge {
         }
         let keys = self.waiting.range((connection, 0)..=(connection, u32::MAX));
         let keys: Vec<_> = keys.map(|(key, _)| *key).collect();
-        if let Some(way) = ending.unseen.filter(|_| !keys.is_empty() || !lost.unasked.is_empty()) {
+        let is_missed = !keys.is_empty() || (!lost.unasked.is_empty() && !lost.is_running);
+        if let Some(way) = ending.unseen.filter(|_| is_missed) {
             self.one_sided(&way, !keys.is_empty());
         }
         for key in keys {
@@ -143,7 +142,7 @@ impl TrafficJudge {
             }
         }
         // Requests sent before the capture began are answered in it.
-        let unasked = lost.unasked.iter().filter(|_| !lost.joined);
+        let unasked = lost.unasked.iter().filter(|_| !lost.joined && !lost.is_running);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());
         }

@@ -6,10 +6,10 @@ mod pair;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;
 
-use ads_cnc::ads::{AmsHeader, AmsPort, FrameRef, StateFlags};
-use ads_cnc::operation::{Call, Task};
+use ads_cnc::ads::{AmsHeader, FrameRef};
+use ads_cnc::operation::Call;
 
-use super::frames::Span;
+use super::frames::{Span, is_cnc, is_reply};
 use super::observation::{CapturedFrames, Location};
 use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
 use super::tally::{CaptureTally, count, count_of};
@@ -39,6 +39,8 @@ struct CapturedFrame {
 struct ConnectionLoss {
     /// Its beginning was not captured.
     joined: bool,
+    /// Requests may have been sent before the capture; all frames since then were captured.
+    is_running: bool,
     /// The last packet after a gap.
     gap: Option<u64>,
     /// The first replies without a request.
@@ -78,22 +80,6 @@ pub(super) struct TrafficJudge {
     now: Option<Time>,
     /// The last packet that completed a frame.
     newest: u64,
-}
-
-/// Whether this is the port of a task of a CNC.
-fn is_cnc(port: AmsPort) -> bool {
-    Task::from_port(port).is_some()
-}
-
-/// Whether a frame is a reply; if the flags are not valid, the ports decide.
-fn is_reply(header: &AmsHeader) -> bool {
-    match header.state_flags {
-        StateFlags::REQUEST => false,
-        StateFlags::RESPONSE => true,
-        _ if is_cnc(header.target.port) => false,
-        _ if is_cnc(header.source.port) => true,
-        flags => flags.0 & 1 == 1,
-    }
 }
 
 fn location(way: &SegmentDirection, asked: Option<Span>, answered: Option<Span>) -> Location {
@@ -156,6 +142,9 @@ impl TrafficJudge {
                 count(&mut self.tally.joined);
                 self.lost.entry(connection).or_default().joined = true;
                 self.rules.forget_cncs();
+            }
+            ConnectionEvent::Running(connection) => {
+                self.lost.entry(connection).or_default().is_running = true;
             }
             ConnectionEvent::Unfinished => count(&mut self.tally.unfinished),
             ConnectionEvent::Ended(ending) => self.ended(ending),

@@ -2,10 +2,11 @@
 
 use ads_cnc_vectors::ids::*;
 
+use super::super::frames::is_cnc;
 use super::super::observation::CapturedFrames;
 use super::super::table::{ConnectionTable, SegmentDirection};
 use super::super::tally::{count, count_of};
-use super::{CapturedFrame, EarlyReplies, TrafficJudge, is_cnc, location};
+use super::{CapturedFrame, EarlyReplies, TrafficJudge, location};
 use crate::judge::Checks as _;
 use crate::rules::{Topic, service_clause};
 
@@ -142,7 +143,7 @@ impl TrafficJudge {
         Some(one)
     }
 
-    /// Whether another request with this invoke ID waits for its reply; `None` if that reply may be
+    /// Whether another request of this client with this invoke ID waits for its reply; `None` if that reply may be
     /// missing in the capture.
     pub(super) fn is_repeated(
         &self,
@@ -154,7 +155,12 @@ impl TrafficJudge {
         let got = seen.span.last.acknowledged?;
         let is_whole = lost.is_none_or(|lost| !lost.joined && lost.gap.is_none());
         let known = is_whole && table.has(&back, got);
-        known.then(|| self.waiting.contains_key(&(seen.way.connection, seen.header.invoke_id)))
+        known.then(|| {
+            // Several clients may share a connection between two routers.
+            let alike = self.waiting.get(&(seen.way.connection, seen.header.invoke_id));
+            let mut alike = alike.into_iter().flatten().take(ALIKE_MAX);
+            alike.any(|asked| asked.header.source == seen.header.source)
+        })
     }
 
     pub(super) fn reply(&mut self, reply: CapturedFrame) {

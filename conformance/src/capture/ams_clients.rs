@@ -1,0 +1,93 @@
+//! Conversations of AMS frames that were captured without TCP.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::ads::AmsNetId;
+
+use super::ethercat::AmsFrame;
+use super::frames::{Span, is_reply};
+use super::table::{CONNECTIONS_MAX, ConnectionEvent, Ending, SegmentDirection};
+use super::tcp::Mark;
+
+/// Added to the number of each conversation: the numbers of TCP connections begin at 1.
+const NUMBERS: u64 = 1 << 63;
+
+/// The conversation of all clients on a machine with all CNCs.
+#[derive(Debug)]
+struct AmsClient {
+    /// Number of its last frame, and of the packet with it.
+    last: u64,
+    packet: u64,
+    /// Number of bytes that it sent, and that were sent to it.
+    sent: [u64; 2],
+    /// The direction of the first request.
+    way: SegmentDirection,
+}
+
+/// The clients of all AMS frames that were captured without TCP.
+#[derive(Debug, Default)]
+pub(super) struct AmsClients {
+    all: BTreeMap<AmsNetId, AmsClient>,
+    frames: u64,
+    /// Number of clients, including those that are not followed anymore.
+    clients: u64,
+}
+
+impl AmsClients {
+    pub(super) fn push(&mut self, frame: AmsFrame<'_>, mark: Mark, out: &mut Vec<ConnectionEvent>) {
+        self.frames = self.frames.saturating_add(1);
+        let (from, to) = (frame.header.source, frame.header.target);
+        let is_reply = is_reply(&frame.header);
+        let (client, other) = if is_reply { (to, from) } else { (from, to) };
+        if !self.all.contains_key(&client.net_id) {
+            if self.all.len() >= CONNECTIONS_MAX {
+                self.end_oldest(out);
+            }
+            self.clients = self.clients.saturating_add(1);
+            let connection = NUMBERS | self.clients;
+            let way = SegmentDirection { connection, from: client.into(), to: other.into() };
+            self.all.insert(client.net_id, AmsClient { last: 0, packet: 0, sent: [0; 2], way });
+            out.push(ConnectionEvent::Running(connection));
+        }
+        let Some(known) = self.all.get_mut(&client.net_id) else { return };
+        known.last = self.frames;
+        known.packet = mark.packet;
+        let [asked, replied] = &mut known.sent;
+        let (sent, received) = if is_reply { (replied, asked) } else { (asked, replied) };
+        // The header that the frame would have over TCP.
+        let length = u32::try_from(frame.bytes.len()).unwrap_or(u32::MAX);
+        let bytes = [&[0, 0], &length.to_le_bytes()[..], frame.bytes].concat();
+        *sent = sent.saturating_add(u64::try_from(bytes.len()).unwrap_or(u64::MAX));
+        let mark = Mark { acknowledged: Some(*received), ..mark };
+        let span = Span { first: mark, last: mark, end: *sent };
+        let connection = known.way.connection;
+        let way = SegmentDirection { connection, from: from.into(), to: to.into() };
+        out.push(match frame.is_cut {
+            true => ConnectionEvent::Cut(bytes, way, span),
+            false => ConnectionEvent::Frame(bytes, way, span),
+        });
+    }
+
+    fn end_oldest(&mut self, out: &mut Vec<ConnectionEvent>) {
+        let oldest = self.all.iter().min_by_key(|(_, one)| one.last).map(|(key, _)| *key);
+        if let Some(client) = oldest.and_then(|key| self.all.remove(&key)) {
+            out.push(ConnectionEvent::Ended(client.ending()));
+        }
+    }
+
+    /// Ends all conversations.
+    pub(super) fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
+        let ended = std::mem::take(&mut self.all).into_values();
+        out.extend(ended.map(|client| ConnectionEvent::Ended(client.ending())));
+    }
+}
+
+impl AmsClient {
+    fn ending(&self) -> Ending {
+        let way = self.way;
+        let back = SegmentDirection { from: way.to, to: way.from, ..way };
+        let unseen = self.sent.iter().zip([way, back]).find(|(sent, _)| **sent == 0);
+        let unseen = unseen.map(|(_, way)| way);
+        Ending { connection: way.connection, last: self.packet, unseen }
+    }
+}

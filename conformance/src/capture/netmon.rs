@@ -1,0 +1,243 @@
+//! Reads packets from a NetMon 2.x file, the format of Beckhoff's ADS Monitor.
+//!
+//! All numbers are little-endian. Offsets are from the beginning of the file.
+//!
+//! | offset | of the file header |
+//! |--:|---|
+//! | 0 | `GMBU` |
+//! | 4 | version: minor, major |
+//! | 6 | link type of all packets, in versions before 2.1 |
+//! | 8 | begin: year, month, day of the week, day, hour, minute, second, millisecond |
+//! | 24 | frame table: offset, length |
+//! | 32 | offset and length of each other table |
+//! | 128 | the first packet |
+//!
+//! | offset | of a packet |
+//! |--:|---|
+//! | 0 | microseconds since the begin, 8 bytes |
+//! | 8 | length of the packet |
+//! | 12 | captured length |
+//! | 16 | captured bytes |
+//! | | version 2.1: link type; 2.2: and process, 4 bytes; 2.3: and time in UTC and zone, 9 bytes |
+//!
+//! The frame table has the offset of each packet. Packets are read in the order of the file, since
+//! the input need not be seekable, and compared with the frame table at the end.
+
+use std::io::{ErrorKind, Read};
+use std::time::Duration;
+
+use pcap_parser::Linktype;
+
+use super::file::{FileEnd, FileError, Packet, RECORD_MAX};
+use super::time::Time;
+use crate::text::Moment;
+
+pub(super) const MAGIC: [u8; 4] = *b"GMBU";
+
+/// The beginning of a file of NetMon 1.x, with the same version numbers.
+pub(super) const MAGIC_1: [u8; 4] = *b"RTSS";
+
+const HEADER_LEN: usize = 128;
+const PACKET_HEADER_LEN: usize = 16;
+
+/// Offset in the file header of the offset and length of the frame table; those of four to five
+/// other tables follow.
+const TABLES: usize = 24;
+const TABLES_END: usize = 72;
+
+/// Added to the numbers of link types that are not read.
+const NETMON_LINKS: i32 = 0x1_0000;
+
+/// Bytes of the frame table that are read at once.
+const TABLE_CHUNK: usize = 4096;
+
+/// Calls a function with every packet of a file, of which [`MAGIC`] was read already.
+pub(super) fn packets(
+    input: impl Read,
+    mut each: impl FnMut(Packet<'_>),
+) -> Result<FileEnd, FileError> {
+    let mut input = Input { input, offset: 4 };
+    let Some(header) = input.header()? else {
+        return Ok(FileEnd::Cut("it ends in the header of the file".to_owned()));
+    };
+    let mut offsets = Offsets::default();
+    let mut bytes = Vec::new();
+    while input.offset < header.packets_end {
+        offsets.add(u32::try_from(input.offset).unwrap_or(u32::MAX));
+        let number = offsets.count;
+        match input.packet(&header, &mut bytes) {
+            Err(why) => return Ok(FileEnd::Cut(format!("packet {number}: {why}"))),
+            Ok((time, link, original)) => {
+                let missing = original.saturating_sub(bytes.len());
+                each(Packet { number, time, link, bytes: &bytes, missing });
+            }
+        }
+    }
+    Ok(match input.frame_table(header.table) {
+        None => FileEnd::Cut("it ends in the frame table".to_owned()),
+        Some(listed) if listed == offsets => FileEnd::Whole,
+        Some(listed) => FileEnd::Cut(format!(
+            "the frame table lists {} packets, and {} were found one after the other; convert the \
+             file with editcap -F pcapng",
+            listed.count, offsets.count
+        )),
+    })
+}
+
+/// The offsets of packets, in any order.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Offsets {
+    count: u64,
+    sum: u64,
+}
+
+impl Offsets {
+    fn add(&mut self, offset: u32) {
+        self.count = self.count.saturating_add(1);
+        self.sum = self.sum.wrapping_add(offset.into());
+    }
+}
+
+struct Header {
+    /// Number of bytes after each packet.
+    trailer: usize,
+    /// The link type of all packets.
+    link: u16,
+    begin: Option<Moment>,
+    /// Offset of the first table, before which the packets end.
+    packets_end: u64,
+    /// Offset and length of the frame table.
+    table: (u64, u64),
+}
+
+struct Input<R> {
+    input: R,
+    /// Number of bytes read.
+    offset: u64,
+}
+
+impl<R: Read> Input<R> {
+    /// Reads until the buffer is full or the file ends; returns whether it is full.
+    fn fill(&mut self, mut buf: &mut [u8]) -> std::io::Result<bool> {
+        while !buf.is_empty() {
+            match self.input.read(buf) {
+                Ok(0) => return Ok(false),
+                Ok(read) => {
+                    self.offset =
+                        self.offset.saturating_add(u64::try_from(read).unwrap_or(u64::MAX));
+                    buf = buf.get_mut(read..).unwrap_or_default();
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(true)
+    }
+
+    /// The header of the file; `None` if the file ends in it.
+    fn header(&mut self) -> Result<Option<Header>, FileError> {
+        let mut bytes = [0; HEADER_LEN];
+        let rest = bytes.get_mut(MAGIC.len()..).unwrap_or_default();
+        if !self.fill(rest)? {
+            return Ok(None);
+        }
+        let (minor, major) = (byte(&bytes, 4), byte(&bytes, 5));
+        if major != 2 {
+            return Err(FileError::NetMonVersion(major, minor));
+        }
+        let trailer = match minor {
+            0 => 0,
+            1 => 2,
+            2 => 6,
+            _ => 15,
+        };
+        let [year, month, _, day, hour, minute, second] =
+            [8, 10, 12, 14, 16, 18, 20].map(|at| word(&bytes, at));
+        let begin = format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z");
+        let tables = (TABLES..TABLES_END).step_by(8).map(|at| u64::from(long(&bytes, at)));
+        let packets_end = tables.filter(|offset| *offset > 0).min().unwrap_or(0);
+        Ok(Some(Header {
+            trailer,
+            link: word(&bytes, 6),
+            begin: Moment::from_rfc3339(&begin),
+            packets_end,
+            table: (long(&bytes, TABLES).into(), long(&bytes, TABLES.saturating_add(4)).into()),
+        }))
+    }
+
+    /// Reads a packet into `bytes`; returns its time, link type and original length.
+    fn packet(
+        &mut self,
+        header: &Header,
+        bytes: &mut Vec<u8>,
+    ) -> Result<(Option<Time>, Linktype, usize), String> {
+        let cut = |whole: std::io::Result<bool>| match whole {
+            Ok(true) => Ok(()),
+            Ok(false) => Err("the file ends in it".to_owned()),
+            Err(error) => Err(error.to_string()),
+        };
+        let mut about = [0; PACKET_HEADER_LEN];
+        cut(self.fill(&mut about))?;
+        let captured = usize::try_from(long(&about, 12)).unwrap_or(usize::MAX);
+        if captured > RECORD_MAX {
+            return Err(format!("it has {captured} bytes, at most {RECORD_MAX} are read"));
+        }
+        bytes.resize(captured, 0);
+        cut(self.fill(bytes))?;
+        let mut trailer = [0; 15];
+        let trailer = trailer.get_mut(..header.trailer).unwrap_or_default();
+        cut(self.fill(trailer))?;
+        let link = if trailer.is_empty() { header.link } else { word(trailer, 0) };
+        let micros = u64::from(long(&about, 0)) | u64::from(long(&about, 4)) << 32;
+        let time = header.begin.and_then(|begin| begin.seconds()).map(|begin| {
+            let begin = Duration::from_secs(begin);
+            Time::of_duration(begin.saturating_add(Duration::from_micros(micros)))
+        });
+        let original = usize::try_from(long(&about, 8)).unwrap_or(usize::MAX);
+        Ok((time, link_type(link), original))
+    }
+
+    /// The offsets in the frame table; `None` if the file ends in it.
+    fn frame_table(&mut self, (offset, length): (u64, u64)) -> Option<Offsets> {
+        let mut chunk = [0; TABLE_CHUNK];
+        while self.offset < offset {
+            let rest = usize::try_from(offset.saturating_sub(self.offset)).unwrap_or(usize::MAX);
+            let rest = chunk.get_mut(..rest.min(TABLE_CHUNK))?;
+            self.fill(rest).ok().filter(|whole| *whole)?;
+        }
+        let mut listed = Offsets::default();
+        let mut rest = if self.offset == offset { length } else { 0 };
+        while rest > 0 {
+            let part = usize::try_from(rest).unwrap_or(usize::MAX).min(TABLE_CHUNK);
+            let part = chunk.get_mut(..part)?;
+            self.fill(part).ok().filter(|whole| *whole)?;
+            part.chunks_exact(4).for_each(|four| listed.add(long(four, 0)));
+            rest = rest.saturating_sub(u64::try_from(part.len()).unwrap_or(u64::MAX));
+        }
+        Some(listed)
+    }
+}
+
+/// The link types that NetMon and pcap number differently.
+fn link_type(network: u16) -> Linktype {
+    match network {
+        1 => Linktype::ETHERNET,
+        8 => Linktype::RAW,
+        // Numbers that pcap does not have, so that packets are counted and not misread.
+        other => Linktype(NETMON_LINKS | i32::from(other)),
+    }
+}
+
+fn byte(bytes: &[u8], at: usize) -> u8 {
+    bytes.get(at).copied().unwrap_or_default()
+}
+
+fn word(bytes: &[u8], at: usize) -> u16 {
+    let two = bytes.get(at..).and_then(<[u8]>::first_chunk).copied();
+    u16::from_le_bytes(two.unwrap_or_default())
+}
+
+fn long(bytes: &[u8], at: usize) -> u32 {
+    let four = bytes.get(at..).and_then(<[u8]>::first_chunk).copied();
+    u32::from_le_bytes(four.unwrap_or_default())
+}
