@@ -15,14 +15,19 @@ use crate::tables::{self, OffsetTable, Tables};
 #[command(after_help = TABLES_EXAMPLES)]
 pub(super) struct TablesArguments {
     /// Print them as one JSON document, by conformance/schema/tables.schema.json [default: as text]
-    #[arg(long)]
+    #[arg(long, conflicts_with = "ksy")]
     json: bool,
+
+    /// Print the streams as a Kaitai Struct description, for readers in other languages
+    #[arg(long)]
+    ksy: bool,
 }
 
 const TABLES_EXAMPLES: &str = "\
 Examples:
   ads-cnc tables
   ads-cnc tables --json > tables.json
+  ads-cnc tables --ksy > ads_cnc.ksy
 
 Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
@@ -46,9 +51,10 @@ impl TablesArguments {
     /// Prints the tables and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let tables = Tables::new();
-        let shown = show(|out| match self.json {
-            true => crate::text::json::write(&tables, out),
-            false => print(&tables, out),
+        let shown = show(|out| match (self.json, self.ksy) {
+            (true, _) => crate::text::json::write(&tables, out),
+            (false, true) => out.write_all(tables::description(&tables).as_bytes()),
+            (false, false) => print(&tables, out),
         });
         shown.map_or_else(lost, |()| Exit::Success)
     }

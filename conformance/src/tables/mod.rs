@@ -1,7 +1,7 @@
 //! The tables of the codec as data: streams with their fields, functions with their addresses.
 //!
 //! For code generators and for other tools. [`Tables`] is what `ads-cnc tables --json` prints; the dissector
-//! for Wireshark is made from it.
+//! for Wireshark and the description for Kaitai Struct are made from it.
 //!
 //! ```
 //! use ads_cnc_conformance::tables::{SizeTable, Tables};
@@ -14,6 +14,7 @@
 //! assert_eq!((read.service.as_str(), read.port, read.effect), ("ReadWrite", 552, "Query"));
 //! ```
 
+mod kaitai;
 mod wireshark;
 
 use ads_cnc::address::IndexGroup;
@@ -21,6 +22,7 @@ use ads_cnc::layout::{FieldSpec, Layout, Size, Stream};
 use ads_cnc::operation::{Effect, Function, GroupRule, OffsetRule};
 use serde::Serialize;
 
+pub use kaitai::description;
 pub use wireshark::dissector;
 
 /// All tables.
@@ -90,7 +92,7 @@ pub enum SizeTable {
     CString { max: u32, optional: bool },
     /// Text to the end of the stream, with or without NULs at its end.
     OptionalNul { max: u32 },
-    /// Text to a NUL or to the end of the stream. Bytes after the NUL are no text.
+    /// Text that ends at the first NUL or with the stream. The bytes after the NUL do not belong to it.
     TextAndTail { min: u32, max: u32 },
     /// An unsigned number of one, two or four bytes: all that the stream has.
     UnsignedRest { max: u32 },

@@ -1,0 +1,121 @@
+"""Reads golden vectors with the reader in Python that Kaitai Struct made, and judges what a reader found.
+
+    .ci/kaitai.py read VECTORS.json …               prints what the reader finds, by the ID of the vector
+    .ci/kaitai.py judge FOUND.json TABLES.json VECTORS.json …
+                                                    compares that with each accepted vector
+"""
+
+import json
+import re
+import struct
+import sys
+
+
+def vectors(files):
+    for file in files:
+        with open(file, encoding="utf-8") as text:
+            yield from json.load(text)["vectors"]
+
+
+def data(vector):
+    return b"".join(bytes.fromhex(segment["hex"]) for segment in vector["segments"])
+
+
+def camel(name):
+    return "".join(word.capitalize() for word in re.split("[-_]", name))
+
+
+def plain(value):
+    if isinstance(value, (bytes, bytearray)):
+        return {"hex": value.hex()}
+    if isinstance(value, list):
+        return [plain(one) for one in value]
+    if not hasattr(value, "__dict__"):
+        return value
+    return {name: plain(one) for name, one in vars(value).items() if not name.startswith("_")}
+
+
+def read(files):
+    from ads_cnc import AdsCnc
+    from kaitaistruct import KaitaiStream
+
+    import io
+
+    found = {}
+    for vector in vectors(files):
+        stream = getattr(AdsCnc, camel(vector["stream"]), None)
+        if stream is None:
+            continue
+        try:
+            found[vector["id"]] = plain(stream(KaitaiStream(io.BytesIO(data(vector)))))
+        except Exception as error:
+            found[vector["id"]] = f"{type(error).__name__}: {error}"
+    print(json.dumps(found))
+
+
+def is_same(expected, value, is_text=False):
+    """Whether a value that was read is that of these bytes."""
+    if isinstance(value, dict):
+        # A text is read without its NUL.
+        return value["hex"] == expected.hex() or (is_text and value["hex"] == expected.split(b"\0")[0].hex())
+    if isinstance(value, list):
+        size = len(expected) // max(len(value), 1)
+        items = [expected[size * place : size * (place + 1)] for place in range(len(value))]
+        return b"".join(items) == expected and all(map(is_same, items, value))
+    if len(expected) == 8:
+        number = struct.unpack("<d", expected)[0]
+        # JSON has no NaN.
+        return value is None or value != value if number != number else struct.pack("<d", value) == expected
+    # A field that may be absent is not read.
+    return value == int.from_bytes(expected, "little") if expected else value is None
+
+
+def fields(vector):
+    """The bytes of each field; of a field with several items, together."""
+    found = {}
+    for segment in vector["segments"]:
+        record, name = re.fullmatch(r"(?:descriptors\[(\d+)\]\.)?(\w+)(?:\[\d+\])?", segment["field"]).groups()
+        found[record, name] = found.get((record, name), b"") + bytes.fromhex(segment["hex"])
+    return found
+
+
+def in_javascript(name):
+    first, *others = name.split("_")
+    return first + "".join(word.capitalize() for word in others)
+
+
+def judge(found, tables, files):
+    with open(found, encoding="utf-8") as text:
+        found = json.load(text)
+    with open(tables, encoding="utf-8") as text:
+        streams = json.load(text)["streams"]
+    texts = {(one["name"], field["name"]) for one in streams for field in one["fields"] if field["type"] == "STRING"}
+    accepted = rejected = compared = 0
+    faults, without = [], set()
+    for vector in vectors(files):
+        read = found.get(vector["id"])
+        if read is None:
+            without.add(vector["stream"])
+            continue
+        if "accept" not in vector["expect"]:
+            rejected += isinstance(read, str)
+            continue
+        accepted += 1
+        if isinstance(read, str):
+            faults.append(f"{vector['id']}: {read}")
+            continue
+        for (record, name), expected in fields(vector).items():
+            values = read if record is None else read["records"][int(record)]
+            value = values.get(name, values.get(in_javascript(name)))
+            compared += 1
+            if not is_same(expected, value, (vector["stream"], name) in texts):
+                faults.append(f"{vector['id']}: {name}: {expected.hex()} was read as {value!r}")
+    print(f"{accepted} accepted vectors, {compared} fields, {len(faults)} faults; {rejected} others rejected; "
+          f"no reader for {', '.join(sorted(without))}")
+    print(*faults, sep="\n", end="\n" if faults else "")
+    sys.exit(bool(faults) or accepted < 300)
+
+
+if __name__ == "__main__":
+    action, *arguments = sys.argv[1:]
+    read(arguments) if action == "read" else judge(*arguments[:2], arguments[2:])
