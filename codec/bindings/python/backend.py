@@ -2,6 +2,7 @@
 puts beside it. Needs only the standard library, as does installing the wheel."""
 
 import base64
+import collections
 import hashlib
 import pathlib
 import re
@@ -11,6 +12,9 @@ import zipfile
 HERE = pathlib.Path(__file__).resolve().parent
 LICENCES = [HERE.parent.parent / f"LICENSE-{name}" for name in ("APACHE", "MIT")]
 LIBRARIES = ("libads_cnc.so", "libads_cnc.dylib", "ads_cnc.dll")
+
+# What the metadata of a wheel has.
+About = collections.namedtuple("About", "name version summary licence python readme")
 
 
 def field(name):
@@ -27,6 +31,42 @@ def digest(data):
     return base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
 
 
+def write_wheel(directory, about, platforms, files, executable=()):
+    """Writes a wheel of these files, by path; `platforms` are separated by dots. Returns its name.
+
+    All wheels of one version have the same bytes, whenever they are made.
+    """
+    name, tag = about.name.replace("-", "_"), f"py3-none-{platforms}"
+    info = f"{name}-{about.version}.dist-info"
+    metadata = [
+        "Metadata-Version: 2.4",
+        f"Name: {about.name}",
+        f"Version: {about.version}",
+        f"Summary: {about.summary}",
+        f"License-Expression: {about.licence}",
+        *(f"License-File: {path.name}" for path in LICENCES),
+        f"Requires-Python: {about.python}",
+        "Description-Content-Type: text/markdown",
+        "",
+        about.readme,
+    ]
+    tags = [f"Tag: py3-none-{platform}" for platform in platforms.split(".")]
+    wheel = ["Wheel-Version: 1.0", "Generator: backend.py", "Root-Is-Purelib: false", *tags, ""]
+    files = dict(files)
+    files[f"{info}/METADATA"] = "\n".join(metadata).encode()
+    files[f"{info}/WHEEL"] = "\n".join(wheel).encode()
+    files |= {f"{info}/licenses/{path.name}": path.read_bytes() for path in LICENCES}
+    record = [f"{path},sha256={digest(data)},{len(data)}" for path, data in files.items()]
+    files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
+    output = f"{name}-{about.version}-{tag}.whl"
+    with zipfile.ZipFile(pathlib.Path(directory, output), "w", zipfile.ZIP_DEFLATED) as archive:
+        for path, data in files.items():
+            entry = zipfile.ZipInfo(path)
+            entry.external_attr = (0o100755 if path in executable else 0o100644) << 16
+            archive.writestr(entry, data, zipfile.ZIP_DEFLATED)
+    return output
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     package = HERE / "src" / "ads_cnc"
     files = {
@@ -34,29 +74,6 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     }
     if not any(f"ads_cnc/{name}" in files for name in LIBRARIES) or "ads_cnc/_functions.py" not in files:
         raise SystemExit("no library to pack: codec/bindings/build python puts it there")
-    name, version = field("name").replace("-", "_"), field("version")
-    info, tag = f"{name}-{version}.dist-info", f"py3-none-{platform()}"
-    metadata = [
-        "Metadata-Version: 2.4",
-        f"Name: {field('name')}",
-        f"Version: {version}",
-        f"Summary: {field('description')}",
-        f"License-Expression: {field('license')}",
-        *(f"License-File: {path.name}" for path in LICENCES),
-        f"Requires-Python: {field('requires-python')}",
-        "Description-Content-Type: text/markdown",
-        "",
-        (HERE / "README.md").read_text(encoding="utf-8"),
-    ]
-    wheel = ["Wheel-Version: 1.0", "Generator: backend.py", "Root-Is-Purelib: false", f"Tag: {tag}", ""]
-    files[f"{info}/METADATA"] = "\n".join(metadata).encode()
-    files[f"{info}/WHEEL"] = "\n".join(wheel).encode()
-    files |= {f"{info}/licenses/{path.name}": path.read_bytes() for path in LICENCES}
-    record = [f"{path},sha256={digest(data)},{len(data)}" for path, data in files.items()]
-    files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
-    output = f"{name}-{version}-{tag}.whl"
-    with zipfile.ZipFile(pathlib.Path(wheel_directory, output), "w", zipfile.ZIP_DEFLATED) as archive:
-        for path, data in files.items():
-            # All wheels of one version are the same, whenever they are made.
-            archive.writestr(zipfile.ZipInfo(path), data, zipfile.ZIP_DEFLATED)
-    return output
+    readme = (HERE / "README.md").read_text(encoding="utf-8")
+    described = (field(name) for name in ("name", "version", "description", "license", "requires-python"))
+    return write_wheel(wheel_directory, About(*described, readme), platform(), files)
