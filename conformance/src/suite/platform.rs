@@ -1,6 +1,7 @@
 //! Cases of the platform and its axes in the COM task.
 
 use std::collections::HashSet;
+use std::iter;
 
 use ads_cnc::address::{
     Access, Channel, ComGroup, ComTable, Group, IndexGroup, IndexOffset, PlatformAxis,
@@ -28,6 +29,12 @@ pub(super) const CASES: &[CaseRow] = &[
         "Content is where the manuals print it"),
 ];
 
+/// Channel 1, which the manuals name for the platform's objects; `None` if the first channel has another
+/// number.
+fn platform_channel(probe: &Probe<'_>) -> Step<Option<Channel>> {
+    Ok(Some(probe.channel()?).filter(|channel| channel.number() == 1))
+}
+
 fn platform_objects(probe: &mut Probe<'_>) -> Step {
     let platform = object_count(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
         Stop::NotApplicable(_) => Stop::not_applicable("the platform has no object"),
@@ -42,7 +49,9 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         other => other?,
     };
     let own = descriptors_one_by_one(probe, COM_4, ObjectList::PLATFORM, platform)?;
-    let first = Channel::new(1)?;
+    let Some(first) = platform_channel(probe)? else {
+        return Err(Stop::not_applicable("the first channel is not channel 1"));
+    };
     let all = known_object_count(probe, first.into())?;
     let listed = descriptors_one_by_one(probe, COM_4, first.into(), all)?;
     let names: HashSet<String> =
@@ -94,7 +103,7 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
 /// under either channel.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
-    let first = ObjectList::from(probe.channel_of(1)?);
+    let first = platform_channel(probe)?.map(ObjectList::from);
     let of = |list| all.iter().filter(move |one| one.list == List::from(list));
     let mut steady = Steady::default();
     let mut any = false;
@@ -105,11 +114,12 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         any = true;
         let what = object.name.to_string();
         let same = |one: &&Object| one.name == object.name && one.size() == object.size();
-        if let Some(other) = of(first).find(same).and_then(|other| other.address.read().ok()) {
+        let other = first.and_then(|first| of(first).find(same));
+        if let Some(other) = other.and_then(|other| other.address.read().ok()) {
             steady.same(probe, COM_4, &what, one, other)?;
         }
         // Also at the object's offset in the groups of both.
-        for list in [ObjectList::PLATFORM, first] {
+        for list in iter::once(ObjectList::PLATFORM).chain(first) {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
             let there = ReadObject::new(group, offset, object.size())?;
             let answered = probe.try_ask(there)?.is_some();

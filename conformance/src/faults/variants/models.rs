@@ -7,6 +7,7 @@ use crate::faults::cnc::{CncFault, CncSeed, fault};
 pub(super) const ROWS: &[CncSeed] = &[
     model("different.model", "the CNC is a small one, with things of its own", MODEL),
     model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
+    model("different.model-channel-3", "the only channel has the number 3", THIRD),
     model("different.model-many",
         "the CNC has twelve channels, none with the number 4, and axes in another order", MANY),
 ];
@@ -47,6 +48,39 @@ name = "BV {}"
 name = "BV axis {}"
 [class.spindle.each]
 name = "S {}"
+"#;
+
+/// A CNC whose first channel is not channel 1, which the manuals name for the objects of the platform.
+const THIRD: &str = r#"
+[platform]
+objects = [{ name = "cycle", type = "DWORD", offset = 0x251, value = 1000 }]
+
+[[axis]]
+name = "X"
+
+[[channel]]
+number = 3
+places = [1]
+objects = [{ name = "state", type = "LWORD", offset = 1, writable = true, value = 5 }]
+variables = [{ name = "V.E.only", type = "REAL64", writable = true, value = 0.5 }]
+[class.position-controller.axis]
+name = "LR {}"
+[class.interpolator.channel]
+name = "IPO {}"
+[class.interpolator.axis]
+name = "IPO axis {}"
+[class.decoder.channel]
+name = "SDA {}"
+[class.decoder.axis]
+name = "SDA axis {}"
+[class.hld.channel]
+name = "HLD {}"
+[class.hld.axis]
+name = "HLD axis {}"
+[class.path-preparation.channel]
+name = "BV {}"
+[class.path-preparation.axis]
+name = "BV axis {}"
 "#;
 
 /// A CNC with more of everything than usual, in another order.
