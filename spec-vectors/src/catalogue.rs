@@ -212,6 +212,20 @@ pub struct Assumption {
     /// Whether the bytes that an encoder writes rest on it, though what a decoder reads does not.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub encodes: bool,
+    /// What alone rests on it; `None` for the whole outcome.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
+}
+
+/// The part of an accepted vector's outcome that rests on an assumption.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum About {
+    /// How texts end: whether a NUL ends them, and what follows it. Characters do not rest on it.
+    End,
+    /// Whether the bytes are accepted at all. The value of bytes that are accepted does not rest on it.
+    Acceptance,
 }
 
 /// The weakest level of these clauses; [`Level::Info`] if an assumption decides.
@@ -219,8 +233,16 @@ pub(crate) fn level(cited: &[String], assumed: &[Assumption]) -> Level {
     if assumed.iter().any(|one| one.decides) {
         return Level::Info;
     }
-    let levels = cited.iter().filter_map(|id| crate::clause(id)).map(|one| one.level());
-    levels.max().unwrap_or(Level::Info)
+    levels(cited).max().unwrap_or(Level::Info)
+}
+
+/// The weakest level of those of these clauses that a document states.
+pub(crate) fn stated_level(cited: &[String]) -> Level {
+    levels(cited).filter(|level| *level != Level::Info).max().unwrap_or(Level::Info)
+}
+
+fn levels(cited: &[String]) -> impl Iterator<Item = Level> {
+    cited.iter().filter_map(|id| crate::clause(id)).map(|one| one.level())
 }
 
 /// The requirements of these clauses, each once.

@@ -37,8 +37,8 @@ mod sequence;
 mod vector;
 
 pub use catalogue::{
-    Assumption, Basis, Clause, ClauseId, Document, Erratum, Level, Observable, Part, Reading,
-    Requirement, Source, Status,
+    About, Assumption, Basis, Clause, ClauseId, Document, Erratum, Level, Observable, Part,
+    Reading, Requirement, Source, Status,
 };
 pub use hex::Hex;
 pub use load::{

@@ -394,6 +394,20 @@ impl Vector {
         if self.assumed.iter().any(|one| one.encodes) { Level::Info } else { self.level() }
     }
 
+    /// What a difference means that no assumption is about: the weakest level of what it cites and a
+    /// document states.
+    ///
+    /// ```
+    /// use ads_cnc_vectors::{Level, vector};
+    ///
+    /// // No manual says that the number has four bytes; that it is 16 is not assumed.
+    /// let count = vector("object-count").unwrap();
+    /// assert_eq!((count.level(), count.stated_level()), (Level::Info, Level::Must));
+    /// ```
+    pub fn stated_level(&self) -> Level {
+        catalogue::stated_level(&self.requirements)
+    }
+
     /// The requirements of what it cites, each once.
     pub fn cited(&self) -> Vec<&'static Requirement> {
         catalogue::requirements_of(&self.requirements)

@@ -9,6 +9,8 @@ use crate::text::hex::compact;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
     Other(String),
+    /// A text has the expected characters, and ends otherwise.
+    End(String),
     /// The testee omits the bytes after a text.
     Omitted(String),
 }
@@ -34,20 +36,30 @@ fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
     if let Some(surplus) = given.keys().find(|name| !meant.contains_key(*name)) {
         return other(&within(place, surplus), "no such field");
     }
-    let mut untold = None;
+    let mut slight = None;
     for (name, value) in meant {
         let place = within(place, name);
         let difference = match given.get(name) {
             None => other(&place, "is missing"),
             Some(found) => one(&place, value, found),
         };
-        match difference {
-            Some(Difference::Other(_)) => return difference,
-            Some(Difference::Omitted(_)) => untold = untold.or(difference),
-            None => {}
+        slight = worse(slight, difference);
+        if let Some(Difference::Other(_)) = slight {
+            return slight;
         }
     }
-    untold
+    slight
+}
+
+/// The difference that weighs more; of two that weigh the same, the first.
+fn worse(one: Option<Difference>, other: Option<Difference>) -> Option<Difference> {
+    let weight = |difference: &Option<Difference>| match difference {
+        None => 0,
+        Some(Difference::Omitted(_)) => 1,
+        Some(Difference::End(_)) => 2,
+        Some(Difference::Other(_)) => 3,
+    };
+    if weight(&other) > weight(&one) { other } else { one }
 }
 
 pub(super) fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference> {
@@ -65,16 +77,9 @@ pub(super) fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference
                 );
             }
             let pairs = items.iter().zip(given).enumerate();
-            let mut differences = pairs.filter_map(|(index, (meant, found))| {
-                one(&format!("{place}[{index}]"), meant, found)
-            });
-            let first = differences.next()?;
-            match first {
-                Difference::Other(_) => Some(first),
-                untold => {
-                    differences.find(|one| matches!(one, Difference::Other(_))).or(Some(untold))
-                }
-            }
+            let differences = pairs
+                .map(|(index, (meant, found))| one(&format!("{place}[{index}]"), meant, found));
+            differences.fold(None, worse)
         }
     }
 }
@@ -91,11 +96,14 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     }
     match meant.kind {
         Type::String => {
-            let characters = hex(place, meant.hex.as_deref().unwrap_or_default(), text("hex"));
-            if characters.is_some() {
-                return characters;
+            let expected = meant.hex.as_deref().unwrap_or_default();
+            match hex(place, expected, text("hex")) {
+                Some(Difference::Other(what)) if has_other_end(meant, text("hex")) => {
+                    Some(Difference::End(what))
+                }
+                None => end(place, meant, found),
+                characters => characters,
             }
-            end(place, meant, found)
         }
         Type::Bytes => hex(place, meant.hex.as_deref().unwrap_or_default(), text("hex")),
         Type::Real32 | Type::Real64 | Type::Real | Type::Lreal => {
@@ -151,6 +159,15 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     }
 }
 
+/// Whether a text has the characters up to its first NUL, or all but the last of a text that no NUL ends.
+fn has_other_end(meant: &Tagged, given: Option<&str>) -> bool {
+    let meant_text = meant.hex.as_deref().unwrap_or_default();
+    let Some(Ok(given)) = given.map(compact::parse) else { return false };
+    let to_nul = |bytes: &[u8]| bytes.split(|byte| *byte == 0).next().map(<[u8]>::to_vec);
+    to_nul(&given) == to_nul(meant_text)
+        || meant.open && meant_text.split_last().is_some_and(|(_, most)| most == given)
+}
+
 /// Compares the bytes after a text. A testee may omit them.
 fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
@@ -171,7 +188,7 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
         (false, tail) => format!("{} after its NUL", compact::show(tail)),
     };
     if is_told {
-        other(place, format_args!("{expected} is expected"))
+        Some(Difference::End(format!("{place}: {expected} is expected")))
     } else {
         Some(Difference::Omitted(format!("{place}: {expected}, which is not told")))
     }

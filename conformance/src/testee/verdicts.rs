@@ -2,8 +2,10 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use ads_cnc::layout::Stream;
-use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
+use ads_cnc::layout::{Stream, Type};
+use ads_cnc_vectors::{
+    About, Assumption, Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector,
+};
 
 use super::blame::WrongFields;
 use super::describe::{describe, evidence};
@@ -219,7 +221,7 @@ impl Verdicts<'_> {
         if !lenient {
             Level::Must
         } else if self.is_of_edition(&case.body) {
-            level(&case.body, verdict, &question.op)
+            level(&case.body, verdict, &question.op, reaction)
         } else {
             Level::Info
         }
@@ -265,7 +267,9 @@ impl Verdicts<'_> {
                     return Some(Deviation::fail(expected, || describe(reaction)));
                 };
                 let (verdict, what) = match compare::compare(&accept.value, value)? {
-                    compare::Difference::Other(what) => (Verdict::Fail, what),
+                    compare::Difference::Other(what) | compare::Difference::End(what) => {
+                        (Verdict::Fail, what)
+                    }
                     compare::Difference::Omitted(what) if self.terms.strict => {
                         (Verdict::Fail, what)
                     }
@@ -348,9 +352,9 @@ impl Verdicts<'_> {
 }
 
 /// The level of a case's expectation; if the sibling's was missed, its level counts too.
-fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
+fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> Level {
     let (own, sibling) = match body {
-        Body::Vector(one) if op == "encode" => (one.encoding_level(), None),
+        Body::Vector(one) if one.is_accepted() => (accepted_level(one, op, reaction), None),
         Body::Vector(one) => {
             (one.level(), one.sibling.as_deref().and_then(vector).map(Vector::level))
         }
@@ -363,6 +367,54 @@ fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
         Some(sibling) if verdict == Verdict::Vacuous => own.max(sibling),
         _ => own,
     }
+}
+
+/// The level of the answer to an accepted vector, if it is wrong.
+fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level {
+    let Expect::Accept(accept) = &vector.expect else { return vector.level() };
+    let TesteeReaction::Answer(Answer::Ok(output)) = reaction else { return vector.level() };
+    let decides = |one: &&Assumption| one.decides || one.encodes && op == "encode";
+    let is_about =
+        |about: Option<About>| vector.assumed.iter().filter(decides).any(|one| one.about == about);
+    let has_other_end = || match (&output.value, &output.hex) {
+        (Some(value), _) => {
+            !matches!(compare::compare(&accept.value, value), Some(compare::Difference::Other(_)))
+        }
+        (None, Some(bytes)) => {
+            forms(vector, accept).iter().any(|form| has_end_alone(vector, form, bytes))
+        }
+        (None, None) => false,
+    };
+    if is_about(None) || is_about(Some(About::End)) && has_other_end() {
+        Level::Info
+    } else if is_about(Some(About::Acceptance)) || is_about(Some(About::End)) {
+        vector.stated_level()
+    } else {
+        vector.level()
+    }
+}
+
+/// Whether bytes are the expected ones but for the ends of texts: what follows the first NUL of a field, and NULs
+/// at the end of the stream.
+fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
+    let trimmed = |bytes: &[u8]| {
+        let len =
+            bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last.saturating_add(1));
+        bytes.get(..len).unwrap_or_default().to_vec()
+    };
+    if trimmed(expected) == trimmed(found) {
+        return true;
+    }
+    let Some(stream) = Stream::by_name(&vector.stream) else { return false };
+    let (mut rest, mut is_same) = (found, expected.len() == found.len());
+    let walked = stream.walk(expected, |segment| {
+        let Some((part, left)) = rest.split_at_checked(segment.bytes.len()) else { return };
+        rest = left;
+        let is_text = segment.field.spec().is_some_and(|row| row.ty == Type::String);
+        let to_nul = |bytes: &[u8]| bytes.split(|byte| *byte == 0).next().map(<[u8]>::to_vec);
+        is_same &= part == segment.bytes || is_text && to_nul(part) == to_nul(segment.bytes);
+    });
+    walked.is_ok() && is_same
 }
 
 /// A fault in the packets for this text.
