@@ -6,6 +6,7 @@ use serde_json::Value;
 
 pub const PROTOCOL: u32 = 1;
 
+use crate::edition::Edition;
 use crate::text::{did_you_mean, hex::compact, shorten};
 
 /// A line to the testee.
@@ -140,7 +141,7 @@ pub struct Capabilities {
 pub(crate) const OPS: [&str; 4] = ["decode", "encode", "packets", "check"];
 
 impl Capabilities {
-    /// What is wrong with a name among the ops or streams that does not exist.
+    /// What is wrong with a name among the ops, streams or editions that does not exist.
     pub(crate) fn misspelt(&self) -> Option<String> {
         let is_op = |op: &&String| !OPS.contains(&op.as_str());
         if let Some(op) = self.ops.iter().find(is_op) {
@@ -151,8 +152,11 @@ impl Capabilities {
             vectors.chain(["nc-text", "nc-check"])
         };
         let is_unknown = |name: &&String| !streams().any(|stream| stream == name.as_str());
-        let name = self.streams.iter().find(is_unknown)?;
-        Some(format!("no vector has the stream {name:?}{}", did_you_mean(name, streams())))
+        if let Some(name) = self.streams.iter().find(is_unknown) {
+            let meant = did_you_mean(name, streams());
+            return Some(format!("no vector has the stream {name:?}{meant}"));
+        }
+        self.editions.iter().find_map(|name| Edition::by_name(name).err())
     }
 
     /// Whether it claims this op for this stream.

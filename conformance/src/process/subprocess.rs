@@ -3,7 +3,7 @@
 use std::process::ExitStatus;
 use std::time::Duration;
 
-use super::{LineProcess, RecvError, Stderr, interrupt, shell};
+use super::{LineProcess, RecvError, Stderr, cut, interrupt, shell};
 use crate::deadline::Deadline;
 
 /// How long a program may take to end after its stdin is closed.
@@ -106,10 +106,16 @@ impl Subprocess {
             Err(RecvError::Garbled(why)) => Err(Reaction::Garbled(why)),
             Err(RecvError::Silence) => Err(Reaction::Silent(timeout)),
             Err(RecvError::Interrupted) => Err(Reaction::Broken("interrupted".to_owned())),
-            Err(RecvError::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
-                Some(status) => format!("it ended, {status}"),
-                None => "it closed its stdout".to_owned(),
-            })),
+            Err(RecvError::Closed) => {
+                let end = match running.ended(GRACE) {
+                    Some(status) => format!("it ended, {status}"),
+                    None => "it closed its stdout".to_owned(),
+                };
+                let stderr = self.stderr();
+                let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
+                let last = last.map(|last| format!("; its stderr ends with: {}", cut(last)));
+                Err(Reaction::Died(end + &last.unwrap_or_default()))
+            }
         }
     }
 

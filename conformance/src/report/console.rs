@@ -67,7 +67,8 @@ fn unstarted(
     writeln!(out, "{verdict}  {}", shorten(&what, RESULT_MAX.saturating_mul(2)))?;
     let stderr = report.target.stderr.as_deref().unwrap_or_default();
     let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
-    if let Some(last) = last {
+    // The end of a testee that has ended is in `found`.
+    if let Some(last) = last.filter(|_| !found.contains("its stderr ends with: ")) {
         writeln!(out, "  its stderr: {}", shorten(last, RESULT_MAX))?;
     }
     let cause = if garbled.is_some() {

@@ -115,7 +115,7 @@ impl Testee for TesteeProcess {
 /// If it is not one.
 pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     let hello: TesteeHello = serde_json::from_str(line).map_err(|error| {
-        TesteeReaction::Garbled(format!("{error} in the answer to hello: {}", cut(line)))
+        TesteeReaction::Garbled(format!("the answer to hello: {}", not_json(line, &error)))
     })?;
     match hello.protocol {
         PROTOCOL => match hello.capabilities.misspelt() {
@@ -125,6 +125,16 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
         other => {
             Err(TesteeReaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}")))
         }
+    }
+}
+
+/// What is wrong with a line that is not a JSON message of the protocol.
+fn not_json(line: &str, error: &serde_json::Error) -> String {
+    let shown = cut(line);
+    if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
+        format!("{error}: {shown}")
+    } else {
+        format!("the line is not JSON: {shown}; stdout is for answers alone, print to stderr")
     }
 }
 
@@ -145,10 +155,14 @@ pub fn answered(line: &str, seq: u64) -> (TesteeReaction, bool) {
         Ok(Reply { seq: None, answer: Answer::Error { message } }) => {
             (TesteeReaction::Garbled(format!("it could not read the case: {message}")), true)
         }
-        Ok(reply) => {
-            let found = reply.seq.map_or_else(|| "none".to_owned(), |seq| seq.to_string());
-            (TesteeReaction::Garbled(format!("seq {found} answers seq {seq}")), false)
+        Ok(Reply { seq: None, .. }) => (
+            TesteeReaction::Garbled(format!("the answer has no seq; seq {seq} is expected")),
+            false,
+        ),
+        Ok(Reply { seq: Some(other), .. }) => {
+            let why = format!("the answer has seq {other}; seq {seq} is expected");
+            (TesteeReaction::Garbled(why), false)
         }
-        Err(error) => (TesteeReaction::Garbled(format!("{error}: {}", cut(line))), true),
+        Err(error) => (TesteeReaction::Garbled(not_json(line, &error)), true),
     }
 }
