@@ -182,6 +182,14 @@ impl Exchange {
         }
     }
 
+    /// As [`result`](Self::result), with the usual meaning of an error number.
+    pub(crate) fn result_in_words(&self) -> String {
+        let error = self.answer().filter(|answer| answer.ams_error.is_ok());
+        let meaning = error.and_then(|answer| meaning(answer.result));
+        let meaning = meaning.map_or_else(String::new, |meaning| format!(" ({meaning})"));
+        format!("{}{meaning}", self.result())
+    }
+
     pub fn call(&self) -> Call<'_> {
         Call {
             port: self.port,
@@ -225,6 +233,20 @@ impl From<&Exchange> for Evidence {
         };
         evidence.cut(&exchange.sent, &exchange.received)
     }
+}
+
+/// The usual meaning of an error number; the CNC's numbers are not documented (ADS-7).
+pub(crate) const fn meaning(error: AdsError) -> Option<&'static str> {
+    Some(match error {
+        AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",
+        AdsError::INVALID_GROUP => "no such channel, axis or class",
+        AdsError::INVALID_OFFSET => "no such object, element or function",
+        AdsError::INVALID_ACCESS => "this must not be read, or not be written",
+        AdsError::INVALID_SIZE => "the size does not fit",
+        AdsError::INVALID_DATA => "no such index or handle, or not now",
+        AdsError::SYMBOL_NOT_FOUND => "no such name",
+        _ => return None,
+    })
 }
 
 /// The AMS header of a frame, whatever its lengths.

@@ -59,7 +59,11 @@ impl Observation for CapturedFrames<'_> {
         match self {
             Self::Exchange(exchange, location) => {
                 let evidence = Evidence::from(*exchange);
-                Evidence { call: format!("{}\n            {location}", evidence.call), ..evidence }
+                // A note on what was cut may follow.
+                let words = exchange.result_in_words();
+                let result = evidence.result.replacen(&exchange.result(), &words, 1);
+                let call = format!("{}\n            {location}", evidence.call);
+                Evidence { call, result, ..evidence }
             }
             Self::Bytes(bytes, location) => {
                 Evidence { call: location.to_string(), sent: bytes.to_vec(), ..Evidence::default() }

@@ -3,8 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
+use ads_cnc::CncStr;
+use ads_cnc::ads::AmsPort;
+use ads_cnc::operation::{Call, DispatchError, Function, Service};
+
 use super::file::FileEnd;
 use crate::exchange::Exchange;
+use crate::rules::function_at;
+use crate::text::hex::spaced;
+use crate::text::{escape, plural, shorten};
+use crate::values::until_nul;
 
 /// Maximum number of different addresses that are counted.
 const UNKNOWN_MAX: usize = 1000;
@@ -90,42 +98,63 @@ impl CaptureTally {
     /// Lists a request with its reply.
     pub(super) fn list(&mut self, packet: u64, exchange: &Exchange) {
         if self.listed.len() < LISTED_MAX {
-            let request = exchange.call().dispatch().ok();
-            let name = request.map_or("not documented", |request| request.function().spec().name);
-            self.listed.push(format!("#{packet}  {name}: {exchange}: {}", exchange.result()));
+            let (asked, result) = (asked(exchange), answered(exchange));
+            self.listed.push(format!("#{packet}  {asked}: {result}"));
         }
+    }
+
+    /// What of the traffic is missing in the capture.
+    pub fn missing(&self) -> Vec<String> {
+        let cut = match &self.end {
+            Some(FileEnd::Cut(why)) => Some(format!("judged up to a cut of the file: {why}")),
+            _ => None,
+        };
+        let gaps = (self.gaps > 0).then(|| {
+            let gaps = of_number(self.gaps, "gap");
+            format!("{gaps}: what they touch is inconclusive")
+        });
+        cut.into_iter().chain(gaps).collect()
     }
 
     /// One line for each group of counters: what the capture has, and which part of it was not
     /// judged.
     pub fn lines(&self) -> Vec<String> {
-        let Self { packets, segments, connections, frames, exchanges, .. } = self;
+        let number = of_number;
         let mut lines = vec![format!(
-            "{packets} packets, {segments} TCP segments in {connections} connections, {frames} \
-             frames, {exchanges} requests with their answers"
+            "{}, {} in {}, {}, {} with an answer",
+            number(self.packets, "packet"),
+            number(self.segments, "TCP segment"),
+            number(self.connections, "connection"),
+            number(self.frames, "frame"),
+            number(self.exchanges, "request"),
         )];
+        // What is counted, and what is said of it.
         let told = [
-            (self.ethercat, "AMS frames in EtherCAT frames, without TCP"),
-            (self.refused, "requests answered by an error number"),
-            (self.joined, "connections whose beginning was not captured"),
-            (self.repeated, "segments that came once more"),
-            (self.early, "segments that came out of order"),
-            (self.gaps, "gaps: what they touch is inconclusive"),
-            (self.skipped, "bytes passed over to find a frame"),
-            (self.unanswered, "requests without an answer"),
+            (self.ethercat, "AMS frame", " in EtherCAT, without TCP"),
+            (self.refused, "request", " answered with an error"),
+            (self.joined, "connection", " with a beginning that was not captured"),
+            (self.repeated, "segment", " captured once more"),
+            (self.early, "segment", " out of order"),
+            (self.skipped, "byte", " skipped to find a frame"),
+            (self.unanswered, "request", " without an answer"),
             (
                 self.forgotten,
-                "of them forgotten: more than 4096 on a connection, or 16 MiB, waited",
+                "request",
+                " of these forgotten: more than 4096 on a connection, or 16 MiB, waited",
             ),
-            (self.unkept, "names, objects and elements not compared: 24 MiB of them are kept"),
-            (self.unasked, "answers to no request that was captured"),
-            (self.unfinished, "frames unfinished when the connection or the capture ended"),
-            (self.router, "messages to a local router, not judged"),
-            (self.fragments, "fragments of IP packets, not put together"),
-            (self.unreadable, "packets with headers cut or wrong, not judged"),
+            (
+                self.unkept,
+                "fact",
+                " of names, objects and elements not compared: at most 24 MiB are kept",
+            ),
+            (self.unasked, "answer", " to no request that was captured"),
+            (self.unfinished, "frame", " unfinished at the end of the connection or the capture"),
+            (self.router, "message", " to a local router, not judged"),
+            (self.fragments, "fragment", " of IP packets, not put together"),
+            (self.unreadable, "packet", " with headers cut or wrong, not judged"),
         ];
-        let told = told.into_iter().filter(|(number, _)| *number > 0);
-        lines.extend(told.map(|(number, what)| format!("{number} {what}")));
+        let told = told.into_iter().filter(|(number, ..)| *number > 0);
+        lines.extend(told.map(|(number, noun, what)| of_number(number, noun) + what));
         lines.extend(unjudged("link types", &self.links));
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
         lines.extend(unjudged("AMS commands", &self.commands));
@@ -136,11 +165,111 @@ impl CaptureTally {
                 "not looked at: {elsewhere} TCP segments on other ports; see --port and --any-port"
             ));
         }
-        if let Some(FileEnd::Cut(why)) = &self.end {
-            lines.push(format!("judged up to a cut of the file: {why}"));
-        }
+        lines.extend(self.missing());
         lines
     }
+}
+
+/// Maximum number of bytes of a value that are shown.
+const VALUE_MAX: usize = 16;
+
+/// Maximum number of fields of a request that are shown, and of characters of each.
+const FIELDS_MAX: usize = 3;
+const FIELD_MAX: usize = 64;
+
+/// What a request asks for: the function with the name or index in its data, or its address.
+fn asked(exchange: &Exchange) -> String {
+    let call = exchange.call();
+    let (function, fault) = match call.dispatch() {
+        Ok(request) => (Some(request.function()), None),
+        Err(refusal) => {
+            let function = function_at(&call);
+            (function, function.and_then(|function| mistake(function, &call, &refusal)))
+        }
+    };
+    let Some(spec) = function.filter(|_| fault.is_some() || call.dispatch().is_ok()) else {
+        return format!("not documented: {exchange}");
+    };
+    let spec = spec.spec();
+    let mut fields = Vec::new();
+    if let Some(stream) = spec.request {
+        // A fault is told by `mistake`.
+        let _fault = stream.walk(call.data, |segment| {
+            if fields.len() < FIELDS_MAX {
+                fields.extend(shown(segment.field.name(), segment.bytes));
+            }
+        });
+        // A name without its NUL is a name to a reader.
+        let first = stream.layout().fields.first().map_or("", |field| field.name);
+        if fields.is_empty() && first == "name" {
+            fields.extend(shown(first, call.data));
+        }
+    }
+    if fields.is_empty() {
+        let Exchange { index_group, index_offset, .. } = exchange;
+        fields.push(format!("{index_group}, {index_offset}"));
+    }
+    let fault = fault.map_or_else(String::new, |fault| format!(", {fault}"));
+    let title = spec.name.trim_end_matches(" by index");
+    format!("{title} {}{fault}", fields.join(", "))
+}
+
+/// A field of a request that tells what it is about; `None` for others.
+fn shown(field: &str, bytes: &[u8]) -> Option<String> {
+    match (field, <[u8; 4]>::try_from(bytes)) {
+        ("name" | "kind", _) => {
+            let text = CncStr::from_bytes(until_nul(bytes)).ok()?.to_string();
+            (!text.is_empty()).then(|| shorten(&escape(&text), FIELD_MAX))
+        }
+        ("handle", Ok(number)) => Some(format!("{:#x}", u32::from_le_bytes(number))),
+        ("index" | "class" | "instance", Ok(number)) => {
+            Some(format!("{field} {}", u32::from_le_bytes(number)))
+        }
+        _ => None,
+    }
+}
+
+/// What is wrong with the call of a function; `None` if the function is not meant.
+fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Option<String> {
+    let spec = function.spec();
+    let is_com = |port: AmsPort| port == AmsPort::COM;
+    match refusal {
+        DispatchError::Stream(error) => Some(format!("malformed: {error}")),
+        _ if is_com(call.port) != is_com(spec.task.port()) => {
+            Some(format!("at port {} instead of {}", call.port, spec.task.port()))
+        }
+        // A Read at the address of a function may be meant for an element there (SDA-12).
+        DispatchError::Service { expected, found } if *found != Service::Read => {
+            Some(format!("by {found} instead of {expected}"))
+        }
+        _ => None,
+    }
+}
+
+/// The result of an exchange, with the first bytes of a value.
+fn answered(exchange: &Exchange) -> String {
+    let written = (exchange.service == Service::Write).then_some(&*exchange.data);
+    match exchange.success() {
+        Some([]) if written.is_some_and(|data| !data.is_empty()) => {
+            format!("{} written", bytes_of(written.unwrap_or_default()))
+        }
+        Some(data) if !data.is_empty() => bytes_of(data),
+        _ => exchange.result_in_words(),
+    }
+}
+
+fn bytes_of(data: &[u8]) -> String {
+    match data.get(..VALUE_MAX) {
+        Some(start) if data.len() > VALUE_MAX => {
+            format!("{} … ({} bytes)", spaced(start), data.len())
+        }
+        _ => spaced(data),
+    }
+}
+
+/// A counter and what it counts.
+fn of_number(number: u64, noun: &str) -> String {
+    plural(usize::try_from(number).unwrap_or(usize::MAX), noun)
 }
 
 /// The counters of a map as text, the first of them only.

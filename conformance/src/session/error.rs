@@ -8,7 +8,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::Function;
 
 use crate::client::{Client, Target};
-use crate::exchange::ExchangeError;
+use crate::exchange::{ExchangeError, meaning};
 use crate::gate::Refusal;
 use crate::judge::Exit;
 
@@ -206,17 +206,3 @@ fn does_not_match(f: &mut fmt::Formatter<'_>, what: &dyn fmt::Display) -> fmt::R
 }
 
 impl std::error::Error for ToolError {}
-
-/// The usual meaning of an error number; the CNC's numbers are not documented (ADS-7).
-const fn meaning(error: AdsError) -> Option<&'static str> {
-    Some(match error {
-        AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",
-        AdsError::INVALID_GROUP => "no such channel, axis or class",
-        AdsError::INVALID_OFFSET => "no such object, element or function",
-        AdsError::INVALID_ACCESS => "this must not be read, or not be written",
-        AdsError::INVALID_SIZE => "the size does not fit",
-        AdsError::INVALID_DATA => "no such index or handle, or not now",
-        AdsError::SYMBOL_NOT_FOUND => "no such name",
-        _ => return None,
-    })
-}
