@@ -123,7 +123,7 @@ fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Exp
     let offset = offset(place, function, &mut notes);
     match found {
         Ok(function) => meanings(place, function, &mut notes),
-        Err(refusal) => notes.push(refusal.to_string()),
+        Err(refusal) => notes.push(at_other_port(place).unwrap_or_else(|| refusal.to_string())),
     }
     ExplainedAddress {
         port: place.port.map(|port| port.0),
@@ -135,6 +135,13 @@ fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Exp
         function: function.map(|function| function_report(function.spec())),
         notes,
     }
+}
+
+/// The function that another task has at this address.
+fn at_other_port(place: &ServiceAddress) -> Option<String> {
+    let port = place.port?;
+    let spec = find(&ServiceAddress { port: None, ..*place }).ok()?.spec();
+    Some(format!("{}, at port {port} instead of {}", spec.name, spec.task.port()))
 }
 
 fn function_report(spec: &'static FunctionSpec) -> FunctionReport {

@@ -63,11 +63,30 @@ end
 -- The tasks GEO and SDA both answer for the classes.
 local function same_task(port, other) return (port == 553) == (other == 553) end
 
+-- A function with a mistake in its call: the same row, with another title.
+local function mistaken(row, mistake)
+    local copy = { mistake = mistake }
+    for key, value in pairs(row) do copy[key] = value end
+    copy.title = row.title .. ", " .. mistake
+    return copy
+end
+
 local function function_of(command, port, group, offset)
     for _, row in ipairs(tables.functions) do
         if same_task(row.port, port) and has_group(row.groups, group) and has_offset(row.offsets, offset) then
             if row.command == command then return row end
-            if row.request ~= "content" and row.reply ~= "content" then return nil end
+            -- A Read may be meant for an element at the place of the function.
+            if row.request ~= "content" and row.reply ~= "content" then
+                if command == 2 then return nil end
+                local copy = mistaken(row, "by another service than " .. row.service)
+                copy.request, copy.reply = nil, nil
+                return copy
+            end
+        end
+    end
+    for _, row in ipairs(tables.functions) do
+        if row.command == command and has_group(row.groups, group) and has_offset(row.offsets, offset) then
+            return mistaken(row, ("at port %d instead of %d"):format(port, row.port))
         end
     end
 end
@@ -119,7 +138,13 @@ local function walk(stream, range, tree)
                 end
             elseif length > 0 then
                 add_field(tree, field, range(at, length))
+                if field.size.kind == "c-string" and range(at + length - 1, 1):uint() ~= 0 then
+                    tree:add(fault_field, range(at), "no NUL after " .. field.name)
+                end
                 if field.type == "UNS32" then count = range(at, 4):le_uint() end
+            end
+            if length == 0 and field.size.kind == "c-string" and not field.size.optional then
+                tree:add(fault_field, range, "no NUL after " .. field.name)
             end
             at = at + length
         end
@@ -178,6 +203,7 @@ local function show(frame, range, pinfo, tree, place)
     top:add(function_field, row.id):set_generated()
     top:add(clause_field, row.clause):set_generated()
     top:add(effect_field, row.effect):set_generated()
+    if row.mistake and not is_reply then top:add(fault_field, row.mistake):set_generated() end
     local info = (is_reply and "< " or "> ") .. row.title
     if group then info = info .. (" 0x%X, 0x%X"):format(group, offset) end
     if result ~= 0 then info = info .. (": ADS error 0x%X"):format(result) end
