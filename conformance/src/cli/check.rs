@@ -14,7 +14,7 @@ use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Por
 use crate::edition::Edition;
 use crate::judge::{Case, Exit, Selection};
 use crate::process::progress;
-use crate::report::{self, About, Detail, Report, TargetReport};
+use crate::report::{self, About, Detail, Report, SubjectReport, TargetReport};
 use crate::text::Moment;
 
 /// The heading of these options in the help.
@@ -162,6 +162,7 @@ impl CheckArguments {
                 file: Some(self.file.display().to_string()),
                 ..TargetReport::default()
             },
+            traffic: checked.tally.lines(),
             profile: None,
             found: None,
             waivers,
@@ -240,6 +241,9 @@ impl CheckArguments {
         let display = self.display.display();
         self.reports.write(report, |out| {
             if display.detail == Detail::Quiet {
+                // A verdict on half a conversation must not be taken for one on the whole.
+                let missing = checked.tally.missing().into_iter().chain(unjudged(report));
+                missing.into_iter().try_for_each(|line| writeln!(out, "note: {line}"))?;
                 return report::print(report, display, out);
             }
             writeln!(out, "Traffic")?;
@@ -257,7 +261,15 @@ impl CheckArguments {
                 writeln!(out, "  and {more} more exchanges (-v shows the first 10000)")?;
             }
             writeln!(out)?;
+            unjudged(report).try_for_each(|line| writeln!(out, "note: {line}\n"))?;
             report::print(report, display, out)
         })
     }
+}
+
+/// The sides of which nothing was judged.
+fn unjudged(report: &Report) -> impl Iterator<Item = String> + '_ {
+    let is_judged = |one: &&SubjectReport| one.totals.keys().any(|verdict| verdict.is_judged());
+    let unjudged = report.subjects.iter().filter(move |one| !is_judged(one));
+    unjudged.map(|one| format!("nothing of the {} was judged", one.subject))
 }

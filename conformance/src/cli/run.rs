@@ -426,6 +426,7 @@ impl Run {
             seed,
             only: self.only.clone(),
             target,
+            traffic: Vec::new(),
             profile: None,
             found: None,
             waivers,

@@ -31,6 +31,8 @@ pub struct About {
     /// The selection; empty for all.
     pub only: Vec<String>,
     pub target: TargetReport,
+    /// Of a capture: what it has, and which part of it was not judged.
+    pub traffic: Vec<String>,
     pub profile: Option<Profile>,
     /// What the queries before the cases found.
     pub found: Option<FoundReport>,
@@ -54,6 +56,7 @@ impl Report {
             seed,
             only,
             target,
+            traffic,
             profile,
             found,
             waivers,
@@ -98,6 +101,7 @@ impl Report {
             seed,
             only,
             target,
+            traffic,
             profile: profile.as_ref().map(ProfileReport::from),
             found,
             waivers,
@@ -322,6 +326,7 @@ mod tests {
                 seed: 1,
                 only: Vec::new(),
                 target: TargetReport::default(),
+                traffic: Vec::new(),
                 profile: None,
                 found: None,
                 waivers: Waivers::default(),

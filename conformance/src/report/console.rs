@@ -215,11 +215,12 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     let more = all.len().saturating_sub(REASONS_MAX);
     for ((verdict, note), (number, names)) in all.into_iter().take(REASONS_MAX) {
         let names = names.into_iter().collect::<Vec<_>>().join(", ");
-        writeln!(
-            out,
-            "    {number} {verdict}: {}",
-            shorten(&format!("{note}{names}"), RESULT_MAX)
-        )?;
+        // A case that passed was judged: its note is no reason.
+        let of = match (number, verdict) {
+            (1, Verdict::Pass) => "note".to_owned(),
+            _ => format!("{number} {verdict}"),
+        };
+        writeln!(out, "    {of}: {}", shorten(&format!("{note}{names}"), RESULT_MAX))?;
     }
     match more {
         0 => Ok(()),

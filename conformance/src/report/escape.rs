@@ -24,6 +24,7 @@ impl Report {
             seed: _,
             only,
             target,
+            traffic,
             profile,
             found,
             waivers,
@@ -37,7 +38,7 @@ impl Report {
             cases,
         } = &mut self;
         all([suite, vectors, time]);
-        all(editions.iter_mut().chain(only).chain(again));
+        all(editions.iter_mut().chain(only).chain(traffic).chain(again));
         escape_target(target);
         if let Some(ProfileReport { name, claims }) = profile {
             all([name]);

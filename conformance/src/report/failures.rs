@@ -27,6 +27,9 @@ pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> 
         all.iter().partition(|group| group.is_failure());
     for group in &others {
         brief(group, display, out)?;
+        if let Some(location) = report.target.file.as_ref().and_then(|_| location(group)) {
+            writeln!(out, "  {location}")?;
+        }
     }
     if !others.is_empty() {
         writeln!(out)?;
@@ -51,6 +54,12 @@ fn brief(group: &Group<'_>, display: Display, out: &mut dyn Write) -> io::Result
     let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
     let sentence = sentence(failure, RESULT_MAX);
     writeln!(out, "{verdict}  {clauses}  {}{}: {sentence}", case.id, alike(group))
+}
+
+/// Where in a capture the example of a group was seen: the last line of its call.
+fn location<'r>(group: &Group<'r>) -> Option<&'r str> {
+    let (_, failure) = group.example()?;
+    failure.evidence.as_ref()?.call.lines().last().map(str::trim_start)
 }
 
 /// The number of the other checks of a group.
@@ -176,7 +185,15 @@ fn bytes(evidence: &EvidenceReport, display: Display, out: &mut dyn Write) -> io
         })
     };
     let most = if display.detail == Detail::Verbose { usize::MAX } else { RESULT_MAX };
-    writeln!(out, "  sent      {}", shorten(call, most))?;
+    // The bytes of a capture that are no exchange may come from either side.
+    let who = if result.is_empty() && frame_sent.is_empty() { "captured" } else { "sent" };
+    // A location, which follows on a line of its own, is of use only as a whole.
+    let (call, location) = call.split_at(call.find('\n').unwrap_or(call.len()));
+    let (call, location) = match location {
+        "" if who == "captured" => (call.to_owned(), ""),
+        _ => (shorten(call, most), location),
+    };
+    writeln!(out, "  {who:<8}  {call}{location}")?;
     show(sent.as_ref().map(lines).unwrap_or_default(), out)?;
     if received.is_some() || !frame_sent.is_empty() {
         writeln!(out, "  received  {}", shorten(result, most))?;

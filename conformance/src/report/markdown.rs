@@ -36,6 +36,10 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "| {name} | {} |", plain(&value))?;
         }
     }
+    if !report.traffic.is_empty() {
+        writeln!(out, "\n### Traffic\n")?;
+        report.traffic.iter().try_for_each(|line| writeln!(out, "- {}", plain(line)))?;
+    }
     totals(report, out)?;
     failures(report, out)?;
     waivers(&report.waivers, out)

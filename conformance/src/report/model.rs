@@ -35,6 +35,9 @@ pub struct Report {
     /// The selection; empty for all.
     pub only: Vec<String>,
     pub target: TargetReport,
+    /// Of a capture: what it has, and which part of it was not judged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub traffic: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileReport>,
     /// What the queries before the cases found.

@@ -83,6 +83,43 @@ fn a_capture_that_is_not_whole_is_an_error() {
     }
 }
 
+/// Half a conversation must not look like a whole one, whatever is shown.
+#[test]
+fn what_is_missing_is_said_everywhere() {
+    let folder = Folder::new("cut");
+    let (file, page, note) =
+        (folder.file("cut.pcapng"), folder.file("cut.html"), folder.file("cut.md"));
+    let said = ads_cnc(&["get", "V.E.matrix", "--capture", &file]);
+    assert_eq!(said.status.code(), Some(0));
+    let whole = fs::read(&file).unwrap();
+    fs::write(&file, &whole[..whole.len() - 70]).unwrap();
+    let checked =
+        ads_cnc(&["check", "--any-port", "-q", &file, "--html", &page, "--markdown", &note]);
+    let shown = text(&checked.stdout);
+    let why = "judged up to a cut of the file";
+    assert!(shown.starts_with(&format!("note: {why}")), "{shown}");
+    assert_eq!(shown.lines().count(), 2, "{shown}");
+    for file in [page, note] {
+        let report = fs::read_to_string(file).unwrap();
+        assert!(report.contains("Traffic") && report.contains(why));
+    }
+}
+
+/// The list of exchanges names what was asked for, and what came back.
+#[test]
+fn exchanges_have_names_and_values() {
+    let folder = Folder::new("list");
+    let file = folder.file("list.pcapng");
+    let shown = |name: &str| {
+        ads_cnc(&["get", name, "--capture", &file]);
+        text(&ads_cnc(&["check", "--any-port", &file]).stdout)
+    };
+    let value = "read variable value by name V.E.matrix: 0b 00 0c 00 0d 00 15 00 16 00 17 00\n";
+    assert!(shown("V.E.matrix").contains(value));
+    let refused = "read variable value by name V.E.none: ADS error 0x710 (no such name)\n";
+    assert!(shown("V.E.none").contains(refused));
+}
+
 /// The suite itself, which sends what no client should: the CNC passes, the client does not.
 #[test]
 fn the_suite_is_no_model_of_a_client() {
