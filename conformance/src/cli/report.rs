@@ -8,6 +8,7 @@ use super::message::print_error;
 use super::report_output::{ReportFormats, is_stdout, lost, show, write};
 use crate::judge::Exit;
 use crate::report::{self, Report};
+use crate::text::utf8;
 
 /// Show a JSON report, write it in other formats, or compare it with an earlier one
 #[derive(Debug, clap::Args)]
@@ -78,12 +79,13 @@ impl ReportArgs {
 
 fn read(file: &Path) -> Result<Report, String> {
     let failed = |why: String| format!("{}: {why}", file.display());
-    let mut text = String::new();
+    let mut bytes = Vec::new();
     let read = if is_stdout(file) {
-        io::stdin().lock().read_to_string(&mut text).map(|_| ())
+        io::stdin().lock().read_to_end(&mut bytes).map(|_| ())
     } else {
-        std::fs::read_to_string(file).map(|read| text = read)
+        std::fs::read(file).map(|read| bytes = read)
     };
     read.map_err(|error| failed(error.to_string()))?;
+    let text = utf8(bytes).map_err(failed)?;
     Report::from_json(&text).map_err(|error| failed(format!("no report: {error}")))
 }

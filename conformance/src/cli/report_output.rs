@@ -9,6 +9,7 @@ use clap::Args;
 use super::message::print_error;
 use crate::judge::{Exit, Waivers};
 use crate::report::{self, Report};
+use crate::text::utf8;
 
 /// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
@@ -174,6 +175,7 @@ pub(super) fn lost(error: io::Error) -> Exit {
 }
 
 fn waivers(file: &Path) -> Result<Waivers, String> {
-    let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    let bytes = fs::read(file).map_err(|error| error.to_string());
+    let text = bytes.and_then(utf8).map_err(|why| format!("{}: {why}", file.display()))?;
     Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())
 }

@@ -18,6 +18,7 @@ use serde::de::{Deserializer, Error as _};
 use toml::value::Datetime;
 
 use super::{Allowed, AllowedList, Entry, Moment};
+use crate::text::utf8;
 
 /// An error in the file of `--allow-write`.
 #[derive(Clone, Debug)]
@@ -44,7 +45,8 @@ impl Allowed {
     /// If the file cannot be read, and those of [`from_toml`](Self::from_toml).
     pub fn from_file(file: &Path) -> Result<Self, AllowFileError> {
         let failed = |why: String| AllowFileError { file: Some(file.to_owned()), why };
-        let text = fs::read_to_string(file).map_err(|error| failed(error.to_string()))?;
+        let bytes = fs::read(file).map_err(|error| failed(error.to_string()))?;
+        let text = utf8(bytes).map_err(failed)?;
         Self::from_toml(&text).map_err(|error| failed(error.why))
     }
 

@@ -17,6 +17,7 @@ use serde::de::{Deserializer, Error as _};
 
 use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
+use crate::text::utf8;
 
 /// A profile with a comment on every key; its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
@@ -46,7 +47,8 @@ impl Profile {
     /// If the file cannot be read, and those of [`from_toml`](Self::from_toml).
     pub fn from_file(file: &Path) -> Result<Self, ProfileFileError> {
         let failed = |why: String| ProfileFileError { file: Some(file.to_owned()), why };
-        let text = fs::read_to_string(file).map_err(|error| failed(error.to_string()))?;
+        let bytes = fs::read(file).map_err(|error| failed(error.to_string()))?;
+        let text = utf8(bytes).map_err(failed)?;
         Self::from_toml(&text).map_err(|error| failed(error.why))
     }
 

@@ -18,6 +18,24 @@ pub(crate) fn shorten(text: &str, most: usize) -> String {
     if shown.len() < text.len() { shown + "…" } else { shown }
 }
 
+/// Whether a file begins with the mark of UTF-16, as Windows PowerShell 5 writes with `>`.
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF])
+}
+
+pub(crate) const UTF16: &str = "the file is UTF-16; save it as UTF-8";
+
+/// The text of a file, without the mark of UTF-8; or why it is not UTF-8.
+pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
+    if is_utf16(&bytes) {
+        return Err(UTF16.to_owned());
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        format!("the file is not UTF-8, from byte {} on", error.utf8_error().valid_up_to())
+    })?;
+    Ok(text.strip_prefix('\u{FEFF}').map(str::to_owned).unwrap_or(text))
+}
+
 /// A number and its noun, with an s unless it is one.
 pub(crate) fn plural(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::{UTF16, is_utf16};
+
 /// An error in a data model, with its position and the reason.
 ///
 /// ```
@@ -50,7 +52,10 @@ impl Source<'_> {
     /// The error for a file that is not UTF-8 from this offset on.
     pub(super) fn not_text(bytes: &[u8], at: usize, file: &str) -> ModelError {
         let byte = bytes.get(at).copied().unwrap_or_default();
-        let reason = format!("the file must be UTF-8; byte {byte:#04X} is not");
+        let reason = match is_utf16(bytes) {
+            true => UTF16.to_owned(),
+            false => format!("the file must be UTF-8; byte {byte:#04X} is not"),
+        };
         ModelError { file: file.to_owned(), line: Some(line(bytes, at)), reason }
     }
 }
