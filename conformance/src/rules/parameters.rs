@@ -41,7 +41,10 @@ impl ExchangeJudge<'_> {
             return;
         }
         if index > count {
-            let expected = || format!("one of 1 to {count}");
+            let expected = || match count {
+                0 => "no index: the list is empty".to_owned(),
+                _ => format!("an index from 1 to {count}"),
+            };
             let found = || format!("index {index}");
             self.judge_nonexistent(observation, request, DYN_5, expected, found);
         }

@@ -160,7 +160,8 @@ fn documented(
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
         let mut record = records.on(Topic::ClientServices, observation);
-        let (expected, found) = (|| format!("room for {least} bytes"), || format!("for {asked}"));
+        let expected = || format!("a read length of {least} bytes, which the reply needs");
+        let found = || format!("at most {asked} asked for");
         record.check(rule, asked >= least, expected, found);
     }
     let mut record = records.on(case, observation);

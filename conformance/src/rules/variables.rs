@@ -140,9 +140,14 @@ impl ExchangeJudge<'_> {
                         && given.access == known.access
                         && given.size == known.size
                         && given.dimensions.iter().eq(known.dimensions.iter().copied());
-                    let found = || format!("{given:?}");
+                    let dimensions = given.dimensions.iter().collect::<Vec<_>>();
+                    let found = || in_words(given.var_type, given.access, given.size, &dimensions);
                     let mut record = self.records.on(Topic::CncVar, observation);
-                    record.check(VAR_28, same, || format!("as by index: {known:?}"), found);
+                    let expected = || {
+                        let Description { var_type, access, size, ref dimensions, .. } = known;
+                        format!("as by index: {}", in_words(var_type, access, size, dimensions))
+                    };
+                    record.check(VAR_28, same, expected, found);
                 }
             }
             _ => {}
@@ -200,8 +205,13 @@ impl ExchangeJudge<'_> {
             let unique = *of == kind && *at == index;
             let found = || format!("{name} at index {index}, and at {at}");
             record.check(VAR_3, unique, "another variable at each index", found);
-            let found = || format!("{variable:?}");
-            record.check(assumed(VAR_4), !unique || *known == variable, "as before", found);
+            let words = |one: &Description| {
+                let facts = in_words(one.var_type, one.access, one.size, &one.dimensions);
+                format!("handle {:#x}, {facts}", one.handle.0)
+            };
+            let same = !unique || *known == variable;
+            let expected = || format!("as before: {}", words(known));
+            record.check(assumed(VAR_4), same, expected, || words(&variable));
         }
         let other = channel.handles.get(&handle).filter(|other| **other != name);
         let found = || format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
@@ -252,6 +262,11 @@ pub(crate) fn check_extended(record: &mut impl Checks, reply: &ExtendedReply, at
     let known = [Validity::CHANNEL, Validity::GLOBAL];
     let found = || format!("{} for {at}", extended.validity.0);
     record.check(VAR_15, known.contains(&extended.validity), "a validity of 1 or 2", found);
+}
+
+/// A description as a report shows it.
+fn in_words(ty: VariableType, access: VariableAccess, size: u32, dimensions: &[u32]) -> String {
+    format!("{ty}, {access}, {size} bytes, dimensions {dimensions:?}")
 }
 
 /// Checks a description by itself.
