@@ -25,6 +25,7 @@ use serde::Serialize;
 
 use crate::clients;
 use crate::judge::Needs;
+use crate::rules::captured_cases;
 use crate::suite;
 use crate::text::wrap;
 
@@ -62,7 +63,7 @@ pub struct RequirementRow {
     pub accepted: Vec<String>,
     /// Vectors and sequences that must be rejected.
     pub rejected: Vec<String>,
-    /// Cases of the suite against a target, and scenarios for a client. Cases that decode a vector
+    /// Cases of the suite against a target or captured traffic, and scenarios for a client. Cases that decode a vector
     /// are listed with the vectors.
     pub cases: Vec<String>,
     /// Tests of the simulated CNC, for what no case can show.
@@ -91,6 +92,7 @@ pub struct RulingRow {
 pub fn matrix() -> Vec<RequirementRow> {
     let mut cases = suite::cases();
     cases.extend(clients::scenarios().iter().map(clients::Scenario::case));
+    cases.extend(captured_cases());
     requirements().iter().map(|requirement| row(requirement, &cases)).collect()
 }
 

@@ -30,7 +30,7 @@ pub(crate) use self::knowledge::TargetVariable;
 pub(crate) use self::objects::check_descriptor;
 pub(crate) use self::observation::Observation;
 pub(crate) use self::requests::function_at;
-pub(crate) use self::topic::{Topic, reply_cases};
+pub(crate) use self::topic::{Topic, captured_cases, reply_cases};
 pub(crate) use self::variables::{check_description, check_extended};
 use crate::wire_service;
 
