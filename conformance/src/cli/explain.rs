@@ -129,6 +129,22 @@ fn is_capture(bytes: &[u8]) -> bool {
     starts.iter().any(|start| bytes.starts_with(start))
 }
 
+/// Whether the bytes are text of hexadecimal digits.
+fn is_hex(bytes: &[u8]) -> bool {
+    let text = std::str::from_utf8(bytes);
+    text.is_ok_and(|text| parse_hex(text).is_ok_and(|bytes| !bytes.is_empty()))
+}
+
+/// Whether the bytes begin as an Ethernet frame with IPv4 or IPv6, with or without a VLAN tag.
+fn is_ethernet(bytes: &[u8]) -> bool {
+    let of_ip = |at: usize| match bytes.get(at..) {
+        Some([8, 0, version, ..]) => version >> 4 == 4,
+        Some([0x86, 0xDD, version, ..]) => version >> 4 == 6,
+        _ => false,
+    };
+    of_ip(12) || (bytes.get(12..14) == Some(&[0x81, 0]) && of_ip(16))
+}
+
 /// The index group with the decimal digits of an unknown one as hexadecimal digits.
 fn meant_as_hex(group: u32) -> Option<IndexGroup> {
     let is_known = |group: u32| IndexGroup::new(group).parts().is_some();
@@ -189,6 +205,12 @@ impl Explain {
             place => match bytes.unwrap_or_default() {
                 [] => Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
                 bytes if looks_like_frame(bytes) => Ok(ExplainSubject::Frames(place)),
+                bytes if self.file.is_some() && !self.hex && is_hex(bytes) => {
+                    Err("the file has hexadecimal text, not bytes: --hex reads that".to_owned())
+                }
+                bytes if is_ethernet(bytes) => {
+                    Err("this is a whole Ethernet frame: copy the TCP payload only".to_owned())
+                }
                 bytes => Err(unknown(bytes)),
             },
         }
@@ -213,7 +235,14 @@ impl Explain {
             (None, []) => return Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
             (None, words) => words.join(" "),
         };
-        parse_hex(&text).map(Some).map_err(|error| error.to_string())
+        parse_hex(&text).map(Some).map_err(|error| match self.hex_bytes.as_slice() {
+            [file] if Path::new(file).is_file() => {
+                format!(
+                    "{file} is a file: --file {file} reads bytes, ads-cnc check {file} a capture"
+                )
+            }
+            _ => error.to_string(),
+        })
     }
 
     fn paint(&self) -> Paint {
