@@ -34,7 +34,8 @@ pub(super) struct CheckArguments {
     file: PathBuf,
 
     /// Look at this TCP port too, whichever side has it; repeatable [default: 48898 alone]
-    #[arg(long, help_heading = TRAFFIC, value_name = "N", conflicts_with = "any_port")]
+    #[arg(long, help_heading = TRAFFIC, value_name = "N", conflicts_with = "any_port",
+        value_parser = clap::value_parser!(u16).range(1..))]
     port: Vec<u16>,
 
     /// Look at every TCP connection, and judge those in which an AMS frame is found
@@ -42,7 +43,7 @@ pub(super) struct CheckArguments {
     any_port: bool,
 
     /// Write the streams that were captured as golden vectors: to a new file, or into a folder
-    #[arg(long, help_heading = TRAFFIC, value_name = "DIR|FILE")]
+    #[arg(long, help_heading = TRAFFIC, value_name = "DIR|FILE", value_parser = vectors_file)]
     extract_vectors: Option<PathBuf>,
 
     /// Leave texts and NC programs in the vectors as they were captured
@@ -205,7 +206,13 @@ impl CheckArguments {
         let read = File::open(&self.file).and_then(|mut file| file.read_exact(&mut start));
         let unpack = match start {
             _ if read.is_err() => return error.to_string(),
-            [0x1F, 0x8B, ..] => "gzip -dk",
+            [0x1F, 0x8B, ..] => {
+                let file = self.file.display();
+                return format!(
+                    "the file is compressed; unpack it first: gzip -dk {file}, or editcap {file} \
+                     out.pcapng"
+                );
+            }
             [0x28, 0xB5, 0x2F, 0xFD] => "zstd -dk",
             [0xFD, b'7', b'z', b'X'] => "xz -dk",
             _ => return error.to_string(),
@@ -264,6 +271,14 @@ impl CheckArguments {
             unjudged(report).try_for_each(|line| writeln!(out, "note: {line}\n"))?;
             report::print(report, display, out)
         })
+    }
+}
+
+/// Standard output has the report.
+fn vectors_file(text: &str) -> Result<PathBuf, String> {
+    match text {
+        "-" => Err("a file or a folder is needed: stdout has the report".to_owned()),
+        path => Ok(path.into()),
     }
 }
 
