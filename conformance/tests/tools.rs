@@ -160,6 +160,13 @@ fn what_cannot_be_read_says_what_to_do() {
             &["get", "example.p_count"],
             &["get", "V.E.vartest", "--channel", "9"],
             &["get", "V.A.ACT_POS"],
+            &["get", ""],
+            &["get", "V.E.matrix[1,2]"],
+            &["get", "V.A.ACT_POS", "--axis", "9"],
+            &["get", "MC_active_single_block_r"],
+            &["get", "p1"],
+            &["browse", "--filter", "V.E.vartest"],
+            &["browse", "--variables", "--channel", "9"],
         ])
     );
 }
@@ -179,6 +186,7 @@ fn values_are_set_in_the_simulated_cnc() {
             &["set", "V.P.count", "4", "--edition", "de-1.051"],
             &["set", "V.E.vartest", "7", "--type", "UNS16", "--dry-run"],
             &["set", "V.E.vartest", "7", "--dry-run"],
+            &["set", "V.E.matrix", "[[1,2,3],[4,5,6]]"],
         ])
     );
 }
@@ -198,6 +206,8 @@ fn what_cannot_be_set_says_why() {
             &["set", "mc_program_stream_w", "N10"],
             &["set", "P1", "3"],
             &["set", "V.P.count", "4"],
+            &["set", "V.A.WCS", "1,5", "--axis", "2"],
+            &["set", "V.E.matrix", "[[1,2],[3,4],[5,6]]"],
         ])
     );
 }

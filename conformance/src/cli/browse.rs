@@ -13,7 +13,7 @@ use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::judge::Exit;
 use crate::objects::{
     NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
-    WalkResult, columns, csv, table, walk,
+    WalkResult, channels_of, columns, csv, table, walk,
 };
 use crate::session::{Session, ToolError};
 use crate::text::{hex, json};
@@ -44,7 +44,7 @@ pub(super) struct Browse {
     #[arg(long, value_name = "PATTERN")]
     filter: Option<String>,
 
-    /// Only lists of this name, whole, as the table has it, with * and ?: 'COM *', 'decoder channel 1'
+    /// Only lists of this name, whole, as the table has it, with * and ?: "COM *", "decoder channel 1"
     #[arg(long, value_name = "LIST")]
     of: Option<String>,
 
@@ -64,6 +64,10 @@ pub(super) struct Browse {
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     format: BrowseFormat,
 
+    /// The same as --format json
+    #[arg(long, conflicts_with = "format")]
+    json: bool,
+
     #[command(flatten)]
     target: TargetArgs,
 
@@ -77,8 +81,8 @@ pub(super) struct Browse {
 const EXAMPLES: &str = "\
 Examples:
   ads-cnc browse
-  ads-cnc browse --of 'COM *' --filter single_block --content
-  ads-cnc browse --variables --filter 'V.G.*'
+  ads-cnc browse --of \"COM *\" --filter single_block --content
+  ads-cnc browse --variables --filter \"V.G.*\"
   ads-cnc browse --format csv --target 192.0.2.10 --net-id 192.0.2.10.1.1 --rate 200 > objects.csv
 
 At most 100000 objects with 8 MiB of names are listed, 1000000 requests sent and 8 MiB of values
@@ -142,15 +146,38 @@ impl Browse {
         for note in &found.notes {
             print_error(note);
         }
+        if let Some(others) = self.other_channels(&mut session, &found) {
+            print_error(others);
+            return Ok(Exit::Nothing);
+        }
         if found.objects.is_empty() {
             print_error(match (&self.filter, &self.of, self.variables) {
                 (None, None, false) => "the CNC has no objects; --variables lists its variables",
                 (None, None, true) => "the CNC has no variables",
+                (Some(name), ..) if !self.variables && name.to_uppercase().starts_with("V.") => {
+                    "nothing fits: --variables lists variables"
+                }
                 _ => "nothing fits: --filter takes a part of a name, --of the whole name of a list",
             });
             return Ok(Exit::Nothing);
         }
         Ok(if found.is_cut { Exit::Nothing } else { Exit::Success })
+    }
+
+    /// The channels of the CNC, if none of those given is there.
+    fn other_channels(&self, session: &mut Session, found: &WalkResult) -> Option<String> {
+        // The channel of something that was found is there.
+        let is_found = |channel: &Channel| {
+            let list = format!(" channel {} ", channel.number());
+            found.objects.iter().any(|object| format!("{} ", object.list).contains(&list))
+        };
+        if self.channel.is_empty() || session.is_dry() || self.channel.iter().any(is_found) {
+            return None;
+        }
+        let there = channels_of(session).ok()?;
+        let is_none = !self.channel.iter().any(|channel| there.contains(channel));
+        let there: Vec<String> = there.iter().map(|one| one.number().to_string()).collect();
+        is_none.then(|| format!("the CNC has the channels {}", there.join(", ")))
     }
 
     fn write(
@@ -160,7 +187,8 @@ impl Browse {
         contents: Option<&[ReadContent]>,
     ) -> Result<(), ToolError> {
         let mut out = BufWriter::new(io::stdout().lock());
-        let shown = match self.format {
+        let format = if self.json { BrowseFormat::Json } else { self.format };
+        let shown = match format {
             BrowseFormat::Json => {
                 let objects =
                     found.objects.iter().enumerate().map(|(place, object)| {

@@ -35,7 +35,7 @@ pub(super) struct Get {
     #[arg(long, conflicts_with = "hex")]
     json: bool,
 
-    /// Only the bytes
+    /// Only the bytes, as hexadecimal digits on one line
     #[arg(long)]
     hex: bool,
 
@@ -52,13 +52,13 @@ pub(super) struct Get {
 const EXAMPLES: &str = "\
 Examples:
   ads-cnc get V.E.Testvar
-  ads-cnc get 'V.E.matrix[1][2]' --plain
+  ads-cnc get \"V.E.matrix[1][2]\" --plain
   ads-cnc get V.A.ACT_POS.X
   ads-cnc get V.A.ACT_POS --axis 2
   ads-cnc get P1 --channel 1 --json
   ads-cnc get V.CYC.count --type UNS32
   ads-cnc get mc_active_single_block_r --target 192.0.2.10 --net-id 192.0.2.10.1.1
-  ads-cnc get example.enable --of 'HLD axis 1'
+  ads-cnc get example.enable --of \"HLD axis 1\"
 
 Exit codes: 0 read; 1 the CNC has nothing of this name, or what it answers is no value of the type;
 2 wrong usage, and several things have the name; 3 no answer; 4 refused for safety; 70 internal
@@ -80,7 +80,7 @@ impl Get {
             let report = ObjectsReport::new(&session, vec![one], Vec::new());
             json::write(&report, &mut out)
         } else if self.hex {
-            show(&hex::dump(&bytes), "", &mut out)
+            writeln!(out, "{}", hex::spaced(&bytes))
         } else if self.plain {
             let value = plain(&object.ty, &bytes);
             value.map_or(Ok(()), |value| writeln!(out, "{value}"))

@@ -12,7 +12,7 @@ use super::model::ModelArgs;
 use super::target::{ChannelArgs, TargetArgs};
 use crate::deadline::Deadline;
 use crate::explain::type_by_name;
-use crate::named::Lookup;
+use crate::named::{Lookup, by_name_alone};
 use crate::objects::{Object, Options, Pattern, channels_of, walk};
 use crate::session::ToolError;
 use crate::text::nearest;
@@ -22,7 +22,7 @@ use crate::text::nearest;
 pub(super) struct NameArgs {
     /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (P1, V.P.count), of a
     /// COM object or of an element of SDA and GEO
-    #[arg(value_name = "NAME")]
+    #[arg(value_name = "NAME", value_parser = given_name)]
     name: String,
 
     #[command(flatten)]
@@ -65,7 +65,9 @@ impl NameArgs {
         model: &ModelArgs,
     ) -> Option<String> {
         let is_variable = is_like_variable(&self.name);
-        if !(error.ads_error().is_some() || is_variable && matches!(error, ToolError::Unable(_))) {
+        let is_absent = matches!(error, ToolError::Absent(_));
+        let is_unable = is_variable && matches!(error, ToolError::Unable(_));
+        if !(error.ads_error().is_some() || is_absent || is_unable) {
             return None;
         }
         if self.name.starts_with("V.CYC.") {
@@ -82,14 +84,24 @@ impl NameArgs {
             let short = name.trim_end_matches(axis).trim_end_matches('.');
             return Some(format!("with --axis the name goes without the axis: {short}"));
         }
+        if let Some(axes) = self.axes(target, model) {
+            return Some(axes);
+        }
         // The axis would make the name one part longer.
         let lacks_axis =
             name.starts_with("V.A.") && name.split('.').count() == 3 && self.axis.is_none();
-        if is_variable
+        // Numbers of parameters are near to each other, whatever is meant.
+        if (is_variable || is_absent)
             && !lacks_axis
-            && let Some(found) = self.look_for(target, model)
+            && let Some(found) = self.look_for(target, model, is_absent)
         {
             return Some(found);
+        }
+        if is_absent && !is_variable {
+            return Some(format!(
+                "ads-cnc browse{device} --filter \"{name}\" looks for names like it in every \
+                 channel, and with --variables for variables"
+            ));
         }
         let browse = format!("{browse} shows what there is");
         Some(match error {
@@ -110,6 +122,9 @@ impl NameArgs {
     }
 }
 
+/// Maximum number of axes of a channel that are asked for a variable.
+const AXES_MAX: u32 = 32;
+
 /// How long the names of a CNC are compared with one that it does not have.
 const COMPARING_MAX: Duration = Duration::from_secs(5);
 
@@ -118,8 +133,26 @@ fn is_like_variable(name: &str) -> bool {
 }
 
 impl NameArgs {
+    /// The axes that have the variable, if another was asked.
+    fn axes(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
+        if self.axis.is_none() || target.capture().is_some() {
+            return None;
+        }
+        let session = model.open(target).ok()?;
+        let mut session = session.with_deadline(Deadline::after(COMPARING_MAX));
+        let mut axes = Vec::new();
+        for axis in (1..=AXES_MAX).filter_map(|place| ChannelAxis::new(place).ok()) {
+            let lookup = Lookup { axis: Some(axis), ..self.question() };
+            let object = by_name_alone(&lookup).ok()??;
+            axes.extend(session.read(&object.address).is_ok().then(|| axis.index().to_string()));
+        }
+        let number = self.channel.channel.number();
+        let axes = (!axes.is_empty()).then(|| axes.join(", "))?;
+        Some(format!("places of axes of channel {number} with {}: {axes}", self.name))
+    }
+
     /// The channels if this one is not there, or the nearest names.
-    fn look_for(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
+    fn look_for(&self, target: &TargetArgs, model: &ModelArgs, objects: bool) -> Option<String> {
         // A second session would overwrite the capture of the first one.
         if target.capture().is_some() {
             return None;
@@ -133,10 +166,14 @@ impl NameArgs {
             let number = channel.number();
             return Some(format!("there is no channel {number}; channels: {}", there.join(", ")));
         }
-        let options = Options { channels: vec![channel], variables: true, ..Options::default() };
-        let found = walk(&mut session, &options, &mut |_| {}).ok()?;
-        let names: Vec<String> =
-            found.objects.iter().map(|object| object.name.to_string()).collect();
+        let mut names: Vec<String> = Vec::new();
+        for variables in [true, false] {
+            if variables || objects {
+                let options = Options { channels: vec![channel], variables, ..Options::default() };
+                let found = walk(&mut session, &options, &mut |_| {}).ok()?;
+                names.extend(found.objects.iter().map(|object| object.name.to_string()));
+            }
+        }
         if names.contains(&self.name) {
             return None;
         }
@@ -144,7 +181,10 @@ impl NameArgs {
             Some((base, rest)) => (base, format!("[{rest}")),
             None => (self.name.as_str(), String::new()),
         };
-        let whole = nearest(&self.name, names.iter().map(String::as_str));
+        let mut whole = nearest(&self.name, names.iter().map(String::as_str));
+        if whole.first().is_some_and(|first| first.eq_ignore_ascii_case(&self.name)) {
+            whole.truncate(1);
+        }
         let near = if whole.is_empty() {
             let near = nearest(base, names.iter().map(String::as_str));
             near.into_iter().map(|name| format!("{name}{indices}")).collect()
@@ -174,6 +214,10 @@ pub(super) fn headline(object: &Object) -> String {
     parts.retain(|part| !part.is_empty());
     let name = crate::values::printable(&object.name.to_string());
     format!("{name}  {}", crate::values::printable(&parts.join(", ")))
+}
+
+fn given_name(text: &str) -> Result<String, String> {
+    if text.is_empty() { Err("the name is empty".to_owned()) } else { Ok(text.to_owned()) }
 }
 
 fn axis(text: &str) -> Result<ChannelAxis, String> {

@@ -24,7 +24,7 @@ use super::report_output::{Reports, show, write};
 use super::run_client::ClientArgs;
 use super::run_testee;
 use super::serve::find_defect;
-use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
+use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN};
 use crate::edition::Edition;
 use crate::faults::Seed;
 use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, Waivers, any_seed};
@@ -136,7 +136,7 @@ Examples:
   ads-cnc run
   ads-cnc run --target 192.0.2.10 --net-id 192.0.2.10.1.1 --source-net-id 192.0.2.20.1.1 \
       --html report.html
-  ads-cnc run --testee 'python3 conformance/adapters/python/testee.py'
+  ads-cnc run --testee \"python3 conformance/adapters/python/testee.py\"
   ads-cnc run --client \"./my-client --suite\"
   ads-cnc run --only VAR --defect variable-description.size.flip";
 
@@ -145,6 +145,8 @@ fn after_long_help() -> String {
         "{EXAMPLES}
 
 {REACHING_A_DEVICE}
+
+{WHAT_MAY_BE_WRITTEN}
 
 Known failures, a file for --waivers:
   [[waiver]]

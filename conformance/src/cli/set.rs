@@ -15,7 +15,9 @@ use clap::Args;
 use super::message::print_error;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
-use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, simulator_gate};
+use super::target::{
+    DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, simulator_gate,
+};
 use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
 use crate::objects::{Object, ReportedAccess, ValueAddress};
@@ -31,7 +33,7 @@ use crate::values::{Type, parse, plain};
 /// Without --target the simulated CNC is written to, without a file. It ends with this command and
 /// keeps nothing: that shows what would happen, no more.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct Set {
     #[command(flatten)]
     name: NameArgs,
@@ -52,15 +54,16 @@ pub(super) struct Set {
 
 const EXAMPLES: &str = "\
 Examples:
-  ads-cnc set 'V.E.test[4]' 123
+  ads-cnc set \"V.E.test[4]\" 123
   ads-cnc set V.E.test 1,2,3,4,0xFF
-  ads-cnc set V.E.text 'a text'
+  ads-cnc set V.E.text \"a text\"
   ads-cnc set V.A.WCS 123.456 --axis 2
   ads-cnc set V.CYC.count 7 --type UNS32
   ads-cnc set V.E.test 1,2,3,4,5 --target 192.0.2.10 --net-id 192.0.2.10.1.1 --allow-write FILE
   ads-cnc set V.E.vartest 7 --type UNS16 --dry-run --target 192.0.2.10 --net-id 192.0.2.10.1.1
 
-Of an array with more dimensions the last index runs fastest (assumed). Of several texts one with a
+Of an array with more dimensions the last index runs fastest (assumed); [[1,2,3],[4,5,6]], as get
+--json prints it, is the same as 1,2,3,4,5,6. Of several texts one with a
 comma is in double quotes.
 
 Exit codes: 0 written, and read back the same; 1 the CNC refuses, says that it is read only, or

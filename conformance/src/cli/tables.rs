@@ -42,8 +42,9 @@ pub(super) struct WiresharkArguments {}
 const WIRESHARK_EXAMPLES: &str = "\
 Examples:
   ads-cnc wireshark > ~/.local/lib/wireshark/plugins/ads_cnc.lua
+  ads-cnc wireshark > \"%APPDATA%\\Wireshark\\plugins\\ads_cnc.lua\"
   ads-cnc wireshark > ads_cnc.lua
-  tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y 'ads_cnc.effect == \"Write\"'
+  tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y \"ads_cnc.effect == \\\"Write\\\"\"
 
 Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 

@@ -32,8 +32,10 @@ Reaching a device:
   one with the AMS NetId you ask as (--source-net-id), the IP address of this machine and TCP/IP.
   Without a route it takes the connection and closes it at once, or stays silent. --net-id is the
   device's own AMS NetId, as its router shows it. Ports 551 (GEO), 552 (SDA) and 553 (COM) are
-  asked, and nothing is written without --allow-write.
+  asked, and nothing is written without --allow-write.";
 
+/// The end of the help of a tool that may write.
+pub(super) const WHAT_MAY_BE_WRITTEN: &str = "\
 What may be written, a file for --allow-write:
   target = \"192.0.2.7.1.1\"             # AMS NetId of the device; 127.0.0.1.1.1 on loopback only
   address = \"192.0.2.7\"                # IP address of the device [default: any]
@@ -246,7 +248,16 @@ impl TargetArgs {
     /// The session, captured if the option says so.
     pub(super) fn recorded(&self, session: Session) -> Result<Session, ToolError> {
         let Some(file) = &self.capture else { return Ok(session) };
-        let failed = |error| ToolError::Internal(format!("{}: {error}", file.display()));
+        let failed = |error: io::Error| {
+            let why = format!("{}: {error}", file.display());
+            match error.kind() {
+                io::ErrorKind::NotFound
+                | io::ErrorKind::NotADirectory
+                | io::ErrorKind::IsADirectory
+                | io::ErrorKind::PermissionDenied => ToolError::Usage(why),
+                _ => ToolError::Internal(why),
+            }
+        };
         let (lost, name) = (Arc::clone(&self.lost), file.display().to_string());
         let capture = Capture::create(file).map_err(failed)?.or_tell(move |error| {
             print_error(format_args!("{name}: {error}: the capture is not whole"));

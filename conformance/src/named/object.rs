@@ -44,7 +44,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
             let all: Vec<&Object> = others.iter().chain([&last]).collect();
             Err(ToolError::Usage(several(name, &all)))
         }
-        (None, _) => Err(ToolError::Unable(absent(lookup))),
+        (None, _) => Err(ToolError::Absent(absent(lookup))),
     }
 }
 
@@ -59,7 +59,7 @@ fn several(name: &str, all: &[&Object]) -> String {
     }
     let more = all.len().saturating_sub(SHOWN);
     if more > 0 {
-        why.push_str(&format!("\n  and {more} more: ads-cnc browse --filter \"{name}\""));
+        why.push_str(&format!("\n  and {more} more, which browse --filter \"{name}\" shows"));
     }
     why
 }
@@ -71,9 +71,5 @@ fn absent(lookup: &Lookup) -> String {
         (None, None) => format!("of channel {number}, the platform, its axes and spindles"),
         _ => "there".to_owned(),
     };
-    format!(
-        "no object or element {place} is called {name}; upper and lower case count. \
-         ads-cnc browse --filter \"{name}\" looks for names like it in every channel, and with \
-         --variables for variables"
-    )
+    format!("no object or element {place} is called {name}; upper and lower case count")
 }

@@ -55,10 +55,14 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
         (Some(kind), None) => Ok(Object::of_parameter(*channel, kind, text)),
         _ => {
             let path = VariablePath::new(name).map_err(|error| {
-                ToolError::Usage(format!(
-                    "{name} is not the name of a variable: {}",
-                    told(name, &error)
-                ))
+                let indices = name.replace(',', "][");
+                let hint = if indices != *name && VariablePath::new(&indices).is_ok() {
+                    format!("; did you mean {indices}?")
+                } else {
+                    String::new()
+                };
+                let told = told(name, &error);
+                ToolError::Usage(format!("{name} is not the name of a variable: {told}{hint}"))
             })?;
             let kind = path.kind().text().to_string();
             if axis.is_some() && kind != "V.A" {

@@ -20,6 +20,8 @@ pub enum ToolError {
     Usage(String),
     /// The CNC does not have the requested value or function.
     Unable(String),
+    /// No list of the CNC has an object or element of this name.
+    Absent(String),
     /// An error of the system that is not to be expected.
     Internal(String),
     /// The gate rejected the request.
@@ -67,7 +69,8 @@ impl ToolError {
             | Self::Device { .. }
             | Self::Reply(_)
             | Self::Frame(_)
-            | Self::Unable(_) => Exit::Failure,
+            | Self::Unable(_)
+            | Self::Absent(_) => Exit::Failure,
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
             Self::NoAnswer(_) | Self::Ams { .. } | Self::Enough(_) => Exit::Nothing,
             Self::Refused(_) | Self::Unsafe(_) => Exit::Refused,
@@ -172,6 +175,7 @@ impl fmt::Display for ToolError {
             Self::Usage(why)
             | Self::Unsafe(why)
             | Self::Unable(why)
+            | Self::Absent(why)
             | Self::Internal(why)
             | Self::Enough(why)
             | Self::NoAnswer(why) => f.write_str(why),

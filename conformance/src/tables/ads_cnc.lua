@@ -4,7 +4,7 @@
 -- Printed by `ads-cnc wireshark`, version @VERSION@, from the tables of its codec. Copy it into the folder that
 -- Wireshark names under Help > About > Folders > Personal Lua Plugins, or:
 --
---   tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y 'ads_cnc.effect == "Write"'
+--   tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y "ads_cnc.effect == \"Write\""
 --
 -- For another TCP port than 48898: Analyze > Decode As > ADS_CNC, or `tshark -d tcp.port==PORT,ads_cnc`.
 

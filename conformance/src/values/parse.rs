@@ -128,7 +128,9 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
     if needed == count {
         Ok(ty.dimensions.clone())
     } else if needed == 1 {
-        Err(InvalidValue(format!("{ty} is one element, {count} are given")))
+        let is_real = matches!(ty.data_type, Some(DataType::Real32 | DataType::Real64));
+        let hint = if is_real && count == 2 { "; the decimal separator is a point" } else { "" };
+        Err(InvalidValue(format!("{ty} is one element, {count} are given{hint}")))
     } else {
         Err(InvalidValue(format!("{ty} has {needed} elements, {count} given")))
     }
@@ -141,6 +143,8 @@ fn items<T: Scalar>(
 ) -> Result<Vec<u8>, InvalidValue> {
     // As people type arrays: in brackets, and with blanks alone between the elements.
     let text = text.trim();
+    let flat = flat(ty, text)?;
+    let text = flat.as_deref().unwrap_or(text);
     let inner = text.strip_prefix('[').and_then(|text| text.strip_suffix(']')).unwrap_or(text);
     let items: Vec<&str> = if inner.contains(',') {
         inner.split(',').map(str::trim).collect()
@@ -151,6 +155,34 @@ fn items<T: Scalar>(
     let items: Vec<T> = items.into_iter().map(one).collect::<Result<_, _>>()?;
     counted(ty, items.len())?;
     items.as_slice().value_to_vec().map_err(|error| InvalidValue(error.to_string()))
+}
+
+/// The elements of an array in brackets for each dimension, as JSON has them, without the brackets;
+/// `None` for any other text. The brackets have to match the dimensions.
+fn flat(ty: &Type, text: &str) -> Result<Option<String>, InvalidValue> {
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+    if !text.starts_with("[[") {
+        return Ok(None);
+    }
+    // Elements of a row, of a plane, …: each begins and ends with a bracket.
+    let rows = ty.dimensions.iter().rev().scan(1_usize, |size, &len| {
+        *size = size.saturating_mul(usize::try_from(len).unwrap_or(usize::MAX));
+        Some(*size)
+    });
+    let rows: Vec<usize> = rows.collect();
+    let brackets =
+        |at: usize| rows.iter().filter(|&&row| at.checked_rem(row).unwrap_or(at) == 0).count();
+    let mut items = Vec::new();
+    for (at, item) in text.split(',').enumerate() {
+        let value = item.trim_matches(['[', ']']);
+        let opened = item.chars().take_while(|c| *c == '[').count();
+        let closed = item.chars().rev().take_while(|c| *c == ']').count();
+        if value.is_empty() || opened != brackets(at) || closed != brackets(at.saturating_add(1)) {
+            return Err(InvalidValue(format!("the brackets do not match the dimensions of {ty}")));
+        }
+        items.push(value.to_owned());
+    }
+    Ok(Some(items.join(",")))
 }
 
 fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
@@ -244,6 +276,25 @@ mod tests {
         for (ty, text, bytes) in cases {
             assert_eq!(parse(&single(ty), text).unwrap(), bytes, "{text}");
         }
+    }
+
+    /// As JSON has them; another nesting would write elements elsewhere.
+    #[test]
+    fn nested_brackets_match_the_dimensions() {
+        let cube = Type::known(DataType::Uns08, vec![2, 2, 2]);
+        let parsed = |text: &str| parse(&cube, text);
+        assert_eq!(parsed("[[[1,2],[3, 4]],[[5,6], [7,8]]]").unwrap(), [1, 2, 3, 4, 5, 6, 7, 8]);
+        for text in [
+            "[[1,2],[3,4],[5,6],[7,8]]",
+            "[[[1,2,3],[4]],[[5,6],[7,8]]]",
+            "[[[1,2],[3,4]],[[5,6],[7,8]]",
+            "[[[1,2],[3,4]]]",
+            "[[]]",
+            "[[",
+        ] {
+            assert!(parsed(text).is_err(), "{text}");
+        }
+        assert!(parse(&single(DataType::Uns08), "[[1]]").is_err());
     }
 
     #[test]

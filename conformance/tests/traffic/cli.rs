@@ -120,6 +120,15 @@ fn exchanges_have_names_and_values() {
     assert!(shown("V.E.none").contains(refused));
 }
 
+/// A file that cannot be made is a wrong argument, not an error inside the tool.
+#[test]
+fn a_capture_goes_to_a_folder_that_exists() {
+    let folder = Folder::new("nowhere");
+    let file = folder.file("none/x.pcapng");
+    let said = ads_cnc(&["get", "V.E.Testvar", "--capture", &file]);
+    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+}
+
 /// The suite itself, which sends what no client should: the CNC passes, the client does not.
 #[test]
 fn the_suite_is_no_model_of_a_client() {

@@ -20,7 +20,7 @@ use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
 use super::message::print_error;
-use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
+use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
 use crate::process::interrupt::Interrupt;
@@ -38,7 +38,7 @@ const FAILED_WRITES_MAX: u32 = 5;
 /// The command gets the request on stdin; what it writes to stdout is the response, and its exit
 /// code the response state.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct ServiceArguments {
     /// UUID of the service; several, with commas between them, share the command
     #[arg(long, value_name = "UUID", required = true, value_delimiter = ',', value_parser = uuid)]

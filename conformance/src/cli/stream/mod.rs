@@ -22,7 +22,7 @@ use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
 use super::message::print_error;
-use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
+use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
 use crate::process::interrupt::Interrupt;
@@ -39,7 +39,7 @@ const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 /// The whole text is checked first; then it is sent in packets of whole lines while the CNC runs
 /// what it has. A packet that the CNC cannot take for now is sent again.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct StreamArguments {
     /// The NC program; - reads it from stdin
     #[arg(value_name = "FILE.nc")]
