@@ -126,7 +126,7 @@ fn a_stream_ends_when_its_file_expires() {
     let ended = against(&addr.to_string(), &args);
     let said = text(&ended.stderr);
     assert_eq!(ended.status.code(), Some(4), "{said}");
-    assert!(said.contains("the file of --allow-write expires at "), "{said}");
+    assert!(said.contains("the file of --allow-write expired at "), "{said}");
     let packets = *packets.lock().unwrap();
     assert!((2..10).contains(&packets), "{packets}");
     let shown = text(&ended.stdout);
@@ -150,6 +150,13 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let rest = ["--allow-write", file.path(), "--json", json.path()];
     let ended = against(&addr.to_string(), &[&run[..], &rest].concat());
     assert_eq!(ended.status.code(), Some(4), "{}", text(&ended.stdout));
+    // The reason of the exit code is the line above the last one.
+    let shown = text(&ended.stdout);
+    let above = shown.lines().rev().nth(1).unwrap();
+    assert!(
+        above.starts_with("REJECTED  write-by-name: restoring a value may take 128 s"),
+        "{shown}"
+    );
     let report = std::fs::read_to_string(&json.0).unwrap();
     assert!(report.contains("restoring a value may take 128 s, and the file"), "{report}");
     assert!(!report.contains("\"fail\""), "{report}");

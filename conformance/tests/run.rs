@@ -391,7 +391,7 @@ fn a_dry_run_lists_what_would_be_asked() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Whoever believes that writes were tried is told that none were.
+/// Whoever believes that writes were tried is told that none were, and not by success.
 #[test]
 fn a_file_that_lets_nothing_be_written_is_said() {
     let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));
@@ -404,16 +404,33 @@ fn a_file_that_lets_nothing_be_written_is_said() {
         std::fs::write(&file, format!("{head}{entry}")).unwrap();
         let args = ["run", "--only", "write-by-name", "--target", &serve.addr, "--net-id"];
         let file = ["--allow-write", file.to_str().unwrap()];
-        text(&ads_cnc(&[&args[..], &[&serve.net_id], &file].concat()).stderr)
+        let output = ads_cnc(&[&args[..], &[&serve.net_id], &file].concat());
+        (text(&output.stderr), text(&output.stdout), output.status.code())
+    };
+    let rejected = |shown: &str, why: &str| {
+        let above = shown.lines().rev().nth(1).unwrap();
+        assert!(above.starts_with("REJECTED  allow-write: ") && above.contains(why), "{shown}");
     };
     let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
-    let found = said(own, "2020-01-01T00:00:00Z", "V.E.Testvar");
-    assert!(found.contains("nothing is written: the file of --allow-write expires at"), "{found}");
-    let found = said("192.0.2.77.1.1", later, "V.E.Testvar");
+    let (found, shown, code) = said(own, "2020-01-01T00:00:00Z", "V.E.vartest");
+    assert!(found.contains("nothing is written: the file of --allow-write expired at"), "{found}");
+    rejected(&shown, "nothing is written: the file of --allow-write expired at 2020-01-01");
+    assert_eq!(code, Some(4), "{shown}");
+    let (found, shown, code) = said("192.0.2.77.1.1", later, "V.E.vartest");
     assert!(found.contains("is for 192.0.2.77.1.1, not for 127.0.0.1.1.1"), "{found}");
-    let found = said(own, later, "V.E.nothere");
-    assert!(found.contains("nothing was written: "), "{found}");
-    let found = said(own, later, "V.E.Testvar");
+    rejected(&shown, "is for 192.0.2.77.1.1, not for 127.0.0.1.1.1");
+    assert_eq!(code, Some(4), "{shown}");
+    for (name, what) in
+        [("V.E.nothere", "variable"), ("V.E.*", "variable"), ("V.E.test[99]", "element")]
+    {
+        let (found, shown, code) = said(own, later, name);
+        assert!(found.contains("nothing was written: "), "{found}");
+        rejected(&shown, &format!("{name} in channel 1: the device has no such {what}"));
+        assert_eq!(code, Some(4), "{shown}");
+    }
+    let (found, shown, code) = said(own, later, "V.E.vartest");
     assert!(found.contains("\nads-cnc: found ") && !found.contains("nothing "), "{found}");
+    assert!(shown.contains("\nwrote     V.E.vartest (restored)\n"), "{shown}");
+    assert_eq!(code, Some(0), "{shown}");
     std::fs::remove_dir_all(&folder).unwrap();
 }

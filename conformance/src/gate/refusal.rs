@@ -240,7 +240,9 @@ impl fmt::Display for Refusal {
                 write!(f, "no file permits malformed requests to {target}")
             }
             Reason::Expired(moment) => {
-                write!(f, "the file of --allow-write expires at {moment}")
+                // A write may be rejected before, if it could not be restored in time.
+                let verb = if Moment::now() >= *moment { "expired" } else { "expires" };
+                write!(f, "the file of --allow-write {verb} at {moment}")
             }
         }
     }

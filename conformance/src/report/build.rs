@@ -1,9 +1,12 @@
 //! Builds the report from the outcomes of a run.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
+use super::display::NAMES_MAX;
+use super::failures::list;
 use super::model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals,
@@ -13,8 +16,8 @@ use super::{BytesReport, FoundReport};
 use crate::edition::Edition;
 use crate::explain;
 use crate::judge::{
-    Body, CLIENT, CaseOutcome, CaseSubject, Evidence, Judgement, LeftChanged, LeftOut, TESTEE,
-    Verdict, VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
+    Body, CLIENT, CaseOutcome, CaseSubject, Evidence, Exit, Judgement, LeftChanged, LeftOut,
+    TESTEE, Verdict, VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
 };
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
@@ -93,6 +96,8 @@ impl Report {
         Self {
             format: FORMAT,
             left_changed,
+            rejected: rejected(outcomes),
+            written: Vec::new(),
             suite: env!("CARGO_PKG_VERSION").to_owned(),
             vectors: ads_cnc_vectors::VERSION.to_owned(),
             time: time.to_string(),
@@ -115,6 +120,33 @@ impl Report {
         }
         .escaped()
     }
+
+    /// Adds what of the file of `--allow-write` was rejected, and what was written. Whoever asks for
+    /// writes that are not tried must not take the exit code for that of tried ones.
+    #[must_use]
+    pub fn with_writes(mut self, rejected: Vec<String>, written: Vec<String>) -> Self {
+        let decided = [Exit::Internal, Exit::LeftChanged, Exit::Usage].contains(&self.exit());
+        if !rejected.is_empty() && !decided {
+            self.exit_code = Exit::Refused.code();
+        }
+        self.rejected.splice(0..0, rejected);
+        self.written = written;
+        self.escaped()
+    }
+}
+
+/// The requests that the gate rejected: each reason once, with its cases.
+fn rejected(outcomes: &[CaseOutcome]) -> Vec<String> {
+    let mut cases: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for outcome in outcomes.iter().filter(|outcome| outcome.refused) {
+        let why = outcome.note.as_deref().unwrap_or_default();
+        cases.entry(why).or_default().push(&outcome.case.id);
+    }
+    let line = |(why, mut cases): (&str, Vec<&str>)| {
+        cases.sort_unstable();
+        format!("{}: {why}", list(cases, NAMES_MAX))
+    };
+    cases.into_iter().map(line).collect()
 }
 
 impl From<&Profile> for ProfileReport {

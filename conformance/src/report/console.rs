@@ -284,12 +284,21 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
     let cases = report.cases.len();
     let left_out = if *left_out > 0 { format!(", {left_out} not selected") } else { String::new() };
     explain(report, out)?;
-    let code = report.exit_code;
-    writeln!(out, "{cases} cases{left_out}, {checks} checks, {frames} frames; exit code {code}")?;
+    let written = list(report.written.iter().map(String::as_str), NAMES_MAX);
+    if !written.is_empty() {
+        let is_left = !report.left_changed.is_empty();
+        let end = if is_left { "restored, unless LEFT CHANGED names it" } else { "restored" };
+        writeln!(out, "wrote     {written} ({end})")?;
+    }
+    let (cases, code) = (plural(cases, "case"), report.exit_code);
+    writeln!(out, "{cases}{left_out}, {checks} checks, {frames} frames; exit code {code}")?;
     last_line(report, display, out)
 }
 
+/// The last line, below the reasons of an exit code that no verdict explains.
 fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    let rejected = display.paint(AnsiColor::Red, "REJECTED");
+    report.rejected.iter().try_for_each(|why| writeln!(out, "{rejected}  {why}"))?;
     let (color, verdict) = match report.exit() {
         Exit::Success => (AnsiColor::Green, "PASSED"),
         _ => (AnsiColor::Red, "NOT PASSED"),

@@ -33,12 +33,15 @@ impl Report {
             checks: _,
             frames: _,
             left_changed,
+            rejected,
+            written,
             left_out: _,
             subjects,
             cases,
         } = &mut self;
         all([suite, vectors, time]);
         all(editions.iter_mut().chain(only).chain(traffic).chain(again));
+        all(rejected.iter_mut().chain(written));
         escape_target(target);
         if let Some(ProfileReport { name, claims }) = profile {
             all([name]);

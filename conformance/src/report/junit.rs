@@ -15,7 +15,8 @@ use crate::judge::{Verdict, WaiverReport};
 /// Writes the report as JUnit XML.
 ///
 /// A fail or a vacuous verdict is a failure; an inconclusive one, an interrupted case or a harness
-/// error is an error. A value that was not restored is a failure in a suite `left-changed`. A case
+/// error is an error. A value that was not restored is a failure in a suite `left-changed`, what
+/// was rejected for safety one in a suite `rejected`. A case
 /// that was not run, not judged or is waived is skipped. Warnings and differences pass, with their
 /// text in `system-out`. A stale waiver is a failure in a suite `waivers`. Times are in seconds, as far
 /// as they were measured.
@@ -29,8 +30,8 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let failed = |tests: Tests, number: usize| {
         (0..number).fold(tests, |tests, _| tests.plus(JunitKind::Failure))
     };
-    let left = &report.left_changed;
-    let all = failed(failed(all, stale.len()), left.len());
+    let (left, rejected) = (&report.left_changed, &report.rejected);
+    let all = failed(failed(failed(all, stale.len()), left.len()), rejected.len());
     let milliseconds = report.subjects.iter().map(|one| one.milliseconds).sum();
     let all = Tests { milliseconds, ..all };
     let mut root = BytesStart::new("testsuites");
@@ -41,6 +42,13 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         begin_suite(&mut xml, report, "left-changed", failed(Tests::default(), left.len()))?;
         for one in left {
             failure(&mut xml, (&one.name, "left-changed"), (&one.to_string(), "left-changed"))?;
+        }
+        end(&mut xml, "testsuite")?;
+    }
+    if !rejected.is_empty() {
+        begin_suite(&mut xml, report, "rejected", failed(Tests::default(), rejected.len()))?;
+        for why in rejected {
+            failure(&mut xml, (why, "rejected"), (why, "rejected"))?;
         }
         end(&mut xml, "testsuite")?;
     }

@@ -18,6 +18,9 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     for left in &report.left_changed {
         writeln!(out, "**{}**\n", plain(&left.to_string()))?;
     }
+    for why in &report.rejected {
+        writeln!(out, "**Rejected for safety: {}**\n", plain(why))?;
+    }
     writeln!(out, "## ads-cnc: {} {verdict}\n", plain(&target.name))?;
     writeln!(out, "| | |\n|---|---|")?;
     let profile = profile.as_ref().map(|profile| profile.name.clone());
@@ -30,6 +33,7 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         ("found", found.as_ref().map(FoundReport::summary)),
         ("sampled", found.as_ref().and_then(FoundReport::sampled)),
         ("only", Some(only.join(", "))),
+        ("wrote", Some(report.written.join(", "))),
         ("run", Some(format!("{time}, seed {seed}, exit code {}", report.exit_code))),
     ] {
         if let Some(value) = value.filter(|value| !value.is_empty()) {

@@ -24,6 +24,12 @@ pub struct Report {
     /// Values that were changed and not restored.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_changed: Vec<LeftChanged>,
+    /// What was asked for and rejected for safety, each with the reason.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rejected: Vec<String>,
+    /// Names of the values that were changed, and restored unless `left_changed` has them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub written: Vec<String>,
     pub suite: String,
     pub vectors: String,
     /// When the run began, in UTC.

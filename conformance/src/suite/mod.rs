@@ -2,6 +2,7 @@
 
 mod address;
 mod ads_services;
+mod allowed;
 mod arrays;
 mod attributes;
 mod axis;
@@ -42,6 +43,7 @@ mod write_refused;
 mod write_sizes;
 mod write_texts;
 
+pub use allowed::{Unwritable, unwritable};
 pub use discovery::{ClaimsBy, Discovery, discover};
 pub use kit::{Changes, Probe, Sample, TargetState};
 pub use run::run;

@@ -18,7 +18,7 @@ use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState};
+use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState, Unwritable};
 use crate::text::Moment;
 
 impl Run {
@@ -123,8 +123,10 @@ impl Run {
     ) -> Result<Report, Stopped> {
         let (client, allow) = (&session.client, self.target.has_file());
         let usable = client.gate().check_target(client.target().net_id, Moment::now());
+        let mut rejected = Vec::new();
         if let Err(why) = &usable {
             print_error(format_args!("nothing is written: {why}"));
+            rejected.push(format!("allow-write: nothing is written: {why}"));
         }
         let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
             plan.cases.iter().cloned().partition(|case| case.needs == Needs::Codec);
@@ -141,6 +143,14 @@ impl Run {
                 times.push((subject, begin.elapsed()));
             }
         }
+        if usable.is_ok() {
+            let Unwritable { absent, read_only } = suite::unwritable(&mut session);
+            rejected.extend(absent);
+            if !read_only.is_empty() {
+                let names = read_only.join(", ");
+                print_error(format_args!("read-only, so that a write is only refused: {names}"));
+            }
+        }
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
         let is_whole = outcomes.iter().all(|one| one.verdict() != Verdict::Interrupted);
         if allow && usable.is_ok() && is_whole && !outcomes.iter().any(has_written) {
@@ -149,10 +159,11 @@ impl Run {
             );
         }
         let (outcomes, left_out) = plan.finish(outcomes);
-        let left_changed = session.changes().left();
+        let (left_changed, written) = (session.changes().left(), session.changes().written());
+        let written = if allow { written } else { Vec::new() };
         let (frames, profile) = (session.frames, Some(session.profile));
         let about = About { frames, profile, times, left_changed, ..about };
-        Ok(Report::new(about, &outcomes, &left_out))
+        Ok(Report::new(about, &outcomes, &left_out).with_writes(rejected, written))
     }
 
     fn lost_capture(&self, error: &std::io::Error) -> ToolError {

@@ -7,6 +7,7 @@
     deny(clippy::unwrap_used)
 )]
 
+use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ads_cnc::CncString;
@@ -19,7 +20,11 @@ use crate::text::escape;
 /// Changed values that have not been restored yet or cannot be. Clones share the list: an interrupt
 /// handler reads it too.
 #[derive(Clone, Debug, Default)]
-pub struct Changes(Arc<Mutex<Vec<Change>>>);
+pub struct Changes {
+    all: Arc<Mutex<Vec<Change>>>,
+    /// Names of everything that was changed so far.
+    written: Arc<Mutex<BTreeSet<String>>>,
+}
 
 /// A value that was changed.
 #[derive(Clone, Debug)]
@@ -53,6 +58,12 @@ impl Changes {
         left.collect()
     }
 
+    /// The names of all values that were changed so far.
+    pub fn written(&self) -> Vec<String> {
+        let written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        written.iter().cloned().collect()
+    }
+
     /// Whether a changed value is still to be restored.
     pub(crate) fn any_pending(&self) -> bool {
         self.last().is_some()
@@ -75,6 +86,8 @@ impl Changes {
 
     /// From now on the value may differ from the original one.
     pub(super) fn begin(&self, change: Change) {
+        let mut written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        written.insert(change.what.clone());
         self.all().push(change);
     }
 
@@ -92,6 +105,6 @@ impl Changes {
 
     pub(super) fn all(&self) -> MutexGuard<'_, Vec<Change>> {
         // A panic leaves the list valid.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,0 +1,141 @@
+//! Compares the names in the file of `--allow-write` with what the target has, after the cases: a
+//! misspelt name would otherwise be a write that nobody misses.
+
+use ads_cnc::address::{Addressing, Attribute, Channel, ClassGroup, ElementAddress, Group};
+use ads_cnc::operation::ReadElementWriteFlag;
+use ads_cnc::sda::ElementWriteFlag;
+use ads_cnc::{CncString, VariableAccess};
+
+use super::kit::{Probe, TargetState};
+use crate::gate::{AllowedList, Entry};
+use crate::judge::{IfPresent as _, Step};
+use crate::objects::{List, ReportedAccess, ValueAddress};
+
+/// What the file names and cannot be written.
+#[derive(Clone, Debug, Default)]
+pub struct Unwritable {
+    /// What the target does not have.
+    pub absent: Vec<String>,
+    /// What is read-only: only that a write of it is rejected can be tried.
+    pub read_only: Vec<String>,
+}
+
+/// What an entry names.
+enum Named {
+    Writable,
+    ReadOnly,
+    Absent(&'static str),
+}
+
+/// Looks up the entries of the file. Nothing is found where the target no longer answers.
+pub fn unwritable(target: &mut TargetState) -> Unwritable {
+    let allowed = target.client.gate().allowed();
+    let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
+    let mut found = Unwritable::default();
+    let deadline = target.deadline;
+    let mut probe = Probe::new(target).with_deadline(deadline);
+    for entry in entries {
+        // Who has stopped answering says nothing of the other names either.
+        let Ok(named) = look_up(&mut probe, &entry) else { break };
+        if probe.target.gone.is_some() {
+            break;
+        }
+        match named {
+            Named::Writable => {}
+            Named::ReadOnly => found.read_only.push(place(&entry)),
+            Named::Absent(what) => {
+                let place = place(&entry);
+                found.absent.push(format!("allow-write: {place}: the device has no such {what}"));
+            }
+        }
+    }
+    found
+}
+
+fn look_up(probe: &mut Probe<'_>, entry: &Entry) -> Step<Named> {
+    Ok(match entry {
+        Entry::Variable { channel, axis: None, name } => variable(probe, *channel, name)?,
+        Entry::Variable { channel, axis: Some(axis), name } => {
+            let (channel, axis, name) = (*channel, *axis, name.clone());
+            match probe.value_at(&ValueAddress::Axis { channel, axis, name }).if_applicable()? {
+                Some(None) => Named::Absent("axis variable"),
+                _ => Named::Writable,
+            }
+        }
+        Entry::Object { list, name } => {
+            let list = match list {
+                AllowedList::Platform => List::Platform,
+                AllowedList::Axis(axis) => List::from(ads_cnc::operation::ObjectList::from(*axis)),
+                AllowedList::Channel(channel) => List::Channel(numbered(probe, *channel).number()),
+            };
+            let objects = probe.objects().if_applicable()?.unwrap_or_default();
+            match objects.iter().find(|one| one.list == list && one.name == *name) {
+                None => Named::Absent("object"),
+                Some(object) if object.access == ReportedAccess::Read => Named::ReadOnly,
+                Some(_) => Named::Writable,
+            }
+        }
+        Entry::Content { group, offset } => match group.parts() {
+            Some(Group::Class(class @ ClassGroup { attribute: Attribute::Content, .. })) => {
+                let flag = ReadElementWriteFlag::new(ElementAddress::new(class, *offset));
+                match probe.try_read::<ElementWriteFlag>(flag).if_applicable()? {
+                    Some(None) => Named::Absent("element"),
+                    Some(Some(flag)) if !flag.is_writable() => Named::ReadOnly,
+                    _ => Named::Writable,
+                }
+            }
+            // An object by its address need not be in a list.
+            _ => Named::Writable,
+        },
+        Entry::Stream(_) | Entry::Service(_) => Named::Writable,
+    })
+}
+
+fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<Named> {
+    let text = name.to_string();
+    let whole = text.split('[').next().unwrap_or_default();
+    let listed = probe.variables(numbered(probe, channel)).if_applicable()?.unwrap_or_default();
+    let listed = listed.iter().find(|one| one.name.text.to_string() == whole);
+    if listed.is_some_and(|one| one.access == VariableAccess::READ_ONLY) {
+        return Ok(Named::ReadOnly);
+    }
+    if listed.is_some() && whole == text {
+        return Ok(Named::Writable);
+    }
+    // An element, or a variable by name only.
+    let value = probe.value_at(&ValueAddress::Name { channel, name: name.clone() });
+    Ok(match value.if_applicable()? {
+        Some(None) if listed.is_some() => Named::Absent("element"),
+        Some(None) => Named::Absent("variable"),
+        _ => Named::Writable,
+    })
+}
+
+/// The channel by its number, which the lists have.
+fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
+    let by_rank = channel.addressing() == Addressing::Index;
+    let rank = usize::from(channel.number()).checked_sub(1).filter(|_| by_rank);
+    let number = rank.and_then(|rank| probe.target.profile.channels.get(rank).copied());
+    number.and_then(|number| Channel::new(number).ok()).unwrap_or(channel)
+}
+
+/// The name of an entry and where it is.
+fn place(entry: &Entry) -> String {
+    let of = |channel: &Channel| match channel.addressing() {
+        Addressing::Logical => format!("channel {}", channel.number()),
+        Addressing::Index => format!("rank {}", channel.number()),
+    };
+    match entry {
+        Entry::Variable { channel, axis: None, name } => format!("{name} in {}", of(channel)),
+        Entry::Variable { channel, axis: Some(axis), name } => {
+            format!("{name} at axis {} of {}", axis.index(), of(channel))
+        }
+        Entry::Content { group, offset } => format!("group {group}, offset {offset}"),
+        Entry::Object { list, name } => match list {
+            AllowedList::Platform => format!("{name} in channel 0"),
+            AllowedList::Channel(channel) => format!("{name} in {}", of(channel)),
+            AllowedList::Axis(axis) => format!("{name} at axis {}", axis.index()),
+        },
+        Entry::Stream(channel) | Entry::Service(channel) => of(channel),
+    }
+}
