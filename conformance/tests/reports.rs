@@ -433,7 +433,41 @@ fn statements_and_comparisons_are_made_of_reports() {
     let (code, shown) = against(&before, &now);
     assert!(code == Some(0) && shown.contains("\nmended            VAR-8    codec  "), "{shown}");
     let (code, shown) = against(&now, &now);
-    assert!(code == Some(0) && shown.contains("\n0 newly failing, 0 mended, "), "{shown}");
+    assert!(
+        code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 mended, "),
+        "{shown}"
+    );
+}
+
+/// An interrupted run is one line of a comparison and no success; whoever compares two kinds of runs is
+/// warned.
+#[test]
+fn a_comparison_is_no_success_if_less_is_judged() {
+    let folder = Folder::new("less");
+    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    let mut document = run(&["--only", "VAR-11", "--seed", "7"]);
+    fs::write(&before, document.to_string()).unwrap();
+    for case in document["cases"].as_array_mut().unwrap() {
+        for one in case["requirements"].as_array_mut().unwrap() {
+            one["verdict"] = json!("interrupted");
+        }
+    }
+    document["only"] = json!(["VAR"]);
+    document["target"]["net_id"] = json!("192.0.2.10.1.1");
+    document["profile"]["claims"]["platform_axes"] = json!(9);
+    fs::write(&now, document.to_string()).unwrap();
+    let output = ads_cnc(&["report", &now, "--against", &before]);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{shown}");
+    assert_eq!(shown.matches("no longer judged  ").count(), 1, "{shown}");
+    for part in [
+        " verdicts: the run was interrupted\n",
+        "\nwarning  not the same target: ",
+        "\nwarning  not the same claims of the profile: platform_axes\n",
+        "\nwarning  not the same selection: VAR-11 before, VAR now\n",
+    ] {
+        assert!(shown.contains(part), "{part:?}: {shown}");
+    }
 }
 
 /// A row that takes much of a page may be parted, or the page before it stays empty.

@@ -17,8 +17,8 @@ use crate::text::utf8;
     ads-cnc run --json - | ads-cnc report - --markdown -\n  \
     ads-cnc report report.json --statement statement.html\n  \
     ads-cnc report report.json --against yesterday.json\n\n\
-    Exit codes: 0 written, whatever the report says; 1 something fails newly (--against); 2 wrong usage \
-    or no report; 70 internal error")]
+    Exit codes: 0 written, whatever the report says; 1 something fails newly, 3 something is no \
+    longer judged (--against); 2 wrong usage or no report; 70 internal error")]
 pub(super) struct ReportArgs {
     /// The report; - is stdin
     file: PathBuf,
@@ -31,7 +31,8 @@ pub(super) struct ReportArgs {
     #[arg(long, value_name = "FILE")]
     statement: Option<PathBuf>,
 
-    /// Compare with an earlier report: what fails newly, what is mended, what is judged newly
+    /// Compare with an earlier report: what fails or deviates newly, what is mended, what
+    /// is judged newly or no longer
     #[arg(long, value_name = "EARLIER")]
     against: Option<PathBuf>,
 
@@ -52,7 +53,7 @@ impl ReportArgs {
                 return Exit::Usage;
             }
         };
-        let mut fails_newly = false;
+        let mut exit = Exit::Success;
         let statement = self.statement.as_deref().map_or(Ok(()), |file| {
             let is_html = file.extension().is_some_and(|extension| extension == "html");
             let make = if is_html { report::to_statement_html } else { report::to_statement };
@@ -60,7 +61,7 @@ impl ReportArgs {
         });
         let compared = before.as_ref().map_or(Ok(()), |before| {
             show(|out| {
-                fails_newly = report::compare(&report, before, out)?;
+                exit = report::compare(&report, before, out)?;
                 Ok(())
             })
         });
@@ -72,7 +73,6 @@ impl ReportArgs {
         } else {
             self.forms.write(&report)
         };
-        let exit = if fails_newly { Exit::Failure } else { Exit::Success };
         statement.and(compared).and(written).map_or_else(lost, |()| exit)
     }
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use super::failures::list;
 use super::model::{Report, RequirementReport};
-use crate::judge::{CaseSubject, Verdict};
+use crate::judge::{CaseSubject, Exit, Verdict};
 use crate::text::plural;
 
 /// Maximum number of cases that a line names.
@@ -17,6 +17,7 @@ enum Change {
     NoLongerJudged,
     NewlyJudged,
     Mended,
+    NewlyDeviating,
     NewlyFailing,
 }
 
@@ -26,6 +27,7 @@ impl Change {
             Self::NoLongerJudged => "no longer judged",
             Self::NewlyJudged => "newly judged",
             Self::Mended => "mended",
+            Self::NewlyDeviating => "newly deviating",
             Self::NewlyFailing => "newly failing",
         }
     }
@@ -35,10 +37,14 @@ impl Change {
         let fails = |one: Option<&RequirementReport>| one.is_some_and(is_failing);
         let judged =
             |one: Option<&RequirementReport>| one.is_some_and(|one| one.verdict.is_judged());
+        let is =
+            |one: Option<&RequirementReport>, wanted| one.map(|one| one.verdict) == Some(wanted);
+        let deviates = is(now, Verdict::Warning) || is(now, Verdict::Differs);
         match (fails(before), fails(now)) {
             (false, true) => Some(Self::NewlyFailing),
             (true, false) if judged(now) => Some(Self::Mended),
             (true, true) => None,
+            (false, false) if is(before, Verdict::Pass) && deviates => Some(Self::NewlyDeviating),
             _ if !judged(before) && judged(now) => Some(Self::NewlyJudged),
             _ if judged(before) && !judged(now) => Some(Self::NoLongerJudged),
             _ => None,
@@ -60,13 +66,57 @@ fn judged(report: &Report) -> Judged<'_> {
     of_case.collect()
 }
 
-/// Writes what has changed since an earlier report, what fails newly last; returns whether there is any.
-pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result<bool> {
+/// What makes two reports comparable, where they differ: target, profile and selection.
+fn differences(now: &Report, before: &Report) -> Vec<String> {
+    let differ = |what: &str, before: String, now: String| {
+        (before != now).then(|| format!("not the same {what}: {before} before, {now} now"))
+    };
+    let target = |report: &Report| {
+        let net_id = report.target.net_id.as_deref();
+        let net_id = net_id.map_or_else(String::new, |net_id| format!(", AMS NetId {net_id}"));
+        format!("{}{net_id}", report.target.name)
+    };
+    let name = |report: &Report| match &report.profile {
+        Some(profile) => profile.name.clone(),
+        None => "none".to_owned(),
+    };
+    let only = |report: &Report| match report.only.as_slice() {
+        [] => "all".to_owned(),
+        only => only.join(", "),
+    };
+    let claims = [before, now].map(|report| report.profile.as_ref().map(|one| &one.claims));
+    let claims = match claims {
+        [Some(old), Some(new)] if name(before) == name(now) => {
+            let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+            let names = names.filter(|name| old.get(*name) != new.get(*name));
+            Some(list(names.map(String::as_str), usize::MAX)).filter(|names| !names.is_empty())
+        }
+        _ => None,
+    };
+    let all = [
+        differ("target", target(before), target(now)),
+        differ("profile", name(before), name(now)),
+        claims.map(|names| format!("not the same claims of the profile: {names}")),
+        differ("selection", only(before), only(now)),
+    ];
+    all.into_iter().flatten().collect()
+}
+
+/// Writes what has changed since an earlier report, what fails newly last. Returns the exit code: what
+/// fails newly decides, then what is no longer judged.
+pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result<Exit> {
+    let warnings = differences(now, before);
     let (new, old) = (judged(now), judged(before));
     let mut changes: BTreeMap<(Change, &str, CaseSubject), Vec<String>> = BTreeMap::new();
+    let mut interrupted = 0_usize;
     for key in new.keys().chain(old.keys().filter(|key| !new.contains_key(*key))) {
         let (before, now) = (old.get(key).copied(), new.get(key).copied());
         let Some(change) = Change::of(before, now) else { continue };
+        let is_cut = now.is_some_and(|one| one.verdict == Verdict::Interrupted);
+        if change == Change::NoLongerJudged && is_cut {
+            interrupted += 1;
+            continue;
+        }
         let (subject, requirement, case) = *key;
         let [was, is] = [before, now].map(|one| one.map_or("not there", |one| one.verdict.name()));
         let cases = changes.entry((change, requirement, subject)).or_default();
@@ -74,6 +124,11 @@ pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result
     }
     writeln!(out, "before   {}, {}, seed {}", before.time, before.target.name, before.seed)?;
     writeln!(out, "now      {}, {}, seed {}", now.time, now.target.name, now.seed)?;
+    warnings.iter().try_for_each(|warning| writeln!(out, "warning  {warning}"))?;
+    if interrupted > 0 {
+        let (change, verdicts) = (Change::NoLongerJudged.name(), plural(interrupted, "verdict"));
+        writeln!(out, "{change:<16}  {verdicts}: the run was interrupted")?;
+    }
     for ((change, requirement, subject), cases) in &changes {
         let (change, cases) = (change.name(), list(cases.iter().map(String::as_str), CASES_MAX));
         writeln!(out, "{change:<16}  {requirement:<7}  {subject}  {cases}")?;
@@ -83,15 +138,21 @@ pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result
         all.map(|(_, cases)| cases.len()).sum::<usize>()
     };
     let failing = number(Change::NewlyFailing);
+    let unjudged = number(Change::NoLongerJudged) + interrupted;
     writeln!(
         out,
-        "{failing} newly failing, {} mended, {} newly judged, {} no longer judged, of {}",
+        "{failing} newly failing, {} newly deviating, {} mended, {} newly judged, {unjudged} no \
+         longer judged, of {}",
+        number(Change::NewlyDeviating),
         number(Change::Mended),
         number(Change::NewlyJudged),
-        number(Change::NoLongerJudged),
         plural(new.len(), "verdict")
     )?;
-    Ok(failing > 0)
+    Ok(match (failing, unjudged) {
+        (0, 0) => Exit::Success,
+        (0, _) => Exit::Nothing,
+        _ => Exit::Failure,
+    })
 }
 
 #[cfg(test)]
@@ -113,7 +174,11 @@ mod tests {
         assert_eq!(change(Fail, NotRun), Some(Change::NoLongerJudged));
         assert_eq!(change(NotRun, Pass), Some(Change::NewlyJudged));
         assert_eq!(change(Fail, Vacuous), None);
-        assert_eq!(change(Pass, Warning), None);
+        assert_eq!(change(Pass, Warning), Some(Change::NewlyDeviating));
+        assert_eq!(change(Pass, Differs), Some(Change::NewlyDeviating));
+        assert_eq!(change(Differs, Warning), None);
+        assert_eq!(change(Fail, Warning), Some(Change::Mended));
+        assert_eq!(change(Pass, Interrupted), Some(Change::NoLongerJudged));
         assert_eq!(Change::of(None, Some(&one(Fail, true))), Some(Change::NewlyJudged));
         assert_eq!(Change::of(None, Some(&one(Fail, false))), Some(Change::NewlyFailing));
         assert_eq!(Change::of(Some(&one(Pass, false)), None), Some(Change::NoLongerJudged));
