@@ -126,7 +126,7 @@ fn a_run_without_a_profile_judges_what_it_finds() {
     let channels = serde_json::json!([1, 2, 6]);
     assert_eq!(report["profile"]["claims"]["channels"], channels);
     assert_eq!(report["found"]["ports"], serde_json::json!([551, 552, 553]));
-    let found = "channel 1 with 3 axes, 2 with 3 axes, 6 with 3 axes";
+    let found = "channel 1 with 3 places, 2 with 3 places, 6 with 3 places";
     assert!(
         told.contains(found) && told.contains("about ") && told.contains(" requests"),
         "{told}"
@@ -138,7 +138,7 @@ fn a_run_without_a_profile_judges_what_it_finds() {
     std::fs::remove_file(&profile).unwrap();
     assert_eq!(report["profile"]["claims"]["channels"], serde_json::json!([6]));
     assert_eq!(report["found"]["ports"], serde_json::json!([]));
-    assert!(told.contains("channel 6 with 3 axes;"), "{told}");
+    assert!(told.contains("channel 6 with 3 places;"), "{told}");
 }
 
 /// A long list is sampled, and read whole with `--all`.
@@ -376,7 +376,10 @@ fn a_dry_run_lists_what_would_be_asked() {
     let dry = |more: &[&str]| ads_cnc(&[&["run", "--dry-run"], &target[..], more].concat());
     let listed = text(&dry(&[]).stdout);
     for part in [
+        "(no --profile: it first asks by the same functions which ports, channels",
         "  Read       port 553  number of objects (COM-1)\n",
+        "  ReadWrite  port 551  object address (SDA-",
+        "  and a few times ReadDeviceInfo and ReadState at the ports 551, 552, 553\n",
         "  ReadWrite  port 552  read variable value by name (VAR-14)\n",
         "It writes nothing without a file for --allow-write.\n",
     ] {

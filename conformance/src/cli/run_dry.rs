@@ -10,14 +10,17 @@
 
 use std::io::{self, Write};
 
+use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{Effect, Function};
 
 use crate::gate::Allowed;
 use crate::profile::{Claim, Profile};
 
 /// Lists the functions that a run requests from a device with this profile, and what it may write.
+/// Without a file for the profile the run asks first what there is.
 pub(super) fn list(
     profile: &Profile,
+    has_file: bool,
     allowed: Option<&Allowed>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
@@ -26,13 +29,27 @@ pub(super) fn list(
         out,
         "The suite asks what the profile claims, as often as there is something to ask for:"
     )?;
+    if !has_file {
+        writeln!(
+            out,
+            "(no --profile: it first asks by the same functions which ports, channels 1 to 255, axes \
+             and\nspindles there are, and then what it found)"
+        )?;
+    }
     let claimed = || Function::ALL.iter().copied().filter(|one| profile.claims(*one) != Claim::No);
     let queries = claimed().filter(|function| function.spec().effect == Effect::Query);
     for spec in queries.map(Function::spec) {
         let (service, port) = (spec.service.to_string(), spec.task.port().0);
         writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;
+        // GEO has to answer too, and serves the queries of the classes.
+        if spec.name == Function::FindInstance.spec().name && profile.has_port(AmsPort::GEO) {
+            let port = AmsPort::GEO.0;
+            writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;
+        }
     }
-    writeln!(out, "  and once at each of these ports ReadDeviceInfo and ReadState")?;
+    let ports: Vec<String> = profile.ports.iter().map(ToString::to_string).collect();
+    let ports = ports.join(", ");
+    writeln!(out, "  and a few times ReadDeviceInfo and ReadState at the ports {ports}")?;
     match allowed {
         None => writeln!(out, "It writes nothing without a file for --allow-write.")?,
         Some(allowed) => {

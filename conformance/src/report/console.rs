@@ -35,7 +35,13 @@ pub fn print(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
     }
     parts(report, out)?;
     waivers(&report.waivers, out)?;
+    for number in report.found.iter().flat_map(|found| &found.silent_channels) {
+        writeln!(out, "profile: channel {number} is claimed, but nothing answers there")?;
+    }
     blocks(report, display, out)?;
+    if verbose || !report.waivers.is_empty() {
+        waivable(report, out)?;
+    }
     report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
     tail(report, display, out)
 }

@@ -55,6 +55,9 @@ impl Report {
             channels: _,
             platform_axes: _,
             spindles: _,
+            claimed_axes: _,
+            claimed_spindles: _,
+            silent_channels: _,
             lists,
             stopped,
         }) = found

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::text::plural;
+
 /// What the queries before the cases found.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -15,10 +17,19 @@ pub struct FoundReport {
     pub ports: Vec<u16>,
     /// The channels that are judged.
     pub channels: Vec<FoundChannel>,
-    /// Number of axes of the platform.
+    /// Number of axes of the platform; 0 if unknown.
     pub platform_axes: u32,
     /// Number of spindles.
     pub spindles: u32,
+    /// Number of axes of the platform that the file of `--profile` claims, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub claimed_axes: Option<u32>,
+    /// Number of spindles that it claims, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub claimed_spindles: Option<u32>,
+    /// Channels that it claims, and where nothing answers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub silent_channels: Vec<u32>,
     /// The lists that have a number of items.
     pub lists: Vec<FoundList>,
     /// Why the queries ended early.
@@ -53,7 +64,27 @@ fn joined(texts: impl Iterator<Item = String>) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
+/// A number that was found, with the claimed one if it is another.
+fn claimed(found: u32, claimed: Option<u32>, one: &str, several: &str) -> Option<String> {
+    let noun = |number: u32| if number == 1 { one } else { several };
+    Some(match claimed.filter(|claimed| *claimed != found) {
+        // Nothing found may be nothing asked.
+        Some(claimed) if found == 0 => format!("claimed {claimed} {}", noun(claimed)),
+        Some(claimed) => format!("claimed {claimed} {}, found {found}", noun(claimed)),
+        None => format!("{found} {}", noun(found)),
+    })
+}
+
+fn to_usize(number: u32) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}
+
 impl FoundReport {
+    /// Whether the answers made the claims, without a file for `--profile`.
+    pub fn is_by_queries(&self) -> bool {
+        !self.ports.is_empty()
+    }
+
     /// What was found, in one line.
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
@@ -62,13 +93,18 @@ impl FoundReport {
         }
         if !self.channels.is_empty() {
             let channels = self.channels.iter();
-            let channels = channels.map(|one| format!("{} with {} axes", one.number, one.axes));
+            let channels = channels
+                .map(|one| format!("{} with {}", one.number, plural(to_usize(one.axes), "place")));
             parts.push(format!("channel {}", joined(channels)));
         }
-        let (axes, spindles) = (self.platform_axes, self.spindles);
-        parts.push(format!("{axes} axes of the platform, {spindles} spindles"));
+        let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis", "platform axes");
+        // 0 may be a number that is not known.
+        let axes = axes.filter(|_| self.platform_axes > 0 || self.claimed_axes.is_some());
+        let spindles = claimed(self.spindles, self.claimed_spindles, "spindle", "spindles");
+        parts.extend(axes.into_iter().chain(spindles));
         let items: u64 = self.lists.iter().map(|list| u64::from(list.items)).sum();
-        parts.push(format!("{items} items in {} lists", self.lists.len()));
+        let lists = plural(self.lists.len(), "list");
+        parts.push(format!("{items} item{} in {lists}", if items == 1 { "" } else { "s" }));
         let stopped = self.stopped.as_ref();
         let stopped = stopped.map_or_else(String::new, |why| format!("; no more, because {why}"));
         format!("{}, by {} requests{stopped}", parts.join("; "), self.requests)

@@ -8,7 +8,7 @@ use ads_cnc::ads::DeviceInfoReply;
 use ads_cnc::operation::{CountObjects, CountVariables, ObjectList, Request, Task};
 
 use super::kit::{
-    Counted, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
+    Counted, Instance, ItemKind, OF_PLACES, PLACES_MAX, Probe, RawCall, SampleSizes, TargetState,
     VARIABLES_MAX, ask_if_claimed, has_dynamic_variables,
 };
 use crate::client::InquiryReply;
@@ -97,10 +97,29 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     }
     let spindles = instances.iter().filter(|one| one.class == Class::Spindle).count();
     found.spindles = u32::try_from(spindles).unwrap_or(u32::MAX);
-    found.platform_axes = probe.target.profile.platform_axes;
+    let profile = &probe.target.profile;
+    found.platform_axes = match by {
+        ClaimsBy::Queries => profile.platform_axes,
+        // The claim is no finding; more requests would not make it one that other cases need.
+        ClaimsBy::Profile => controlled_axes(&instances),
+    };
+    if by == ClaimsBy::Profile {
+        found.claimed_axes = Some(profile.platform_axes).filter(|axes| *axes > 0);
+        found.claimed_spindles = profile.spindles;
+    }
     let channels = u64::try_from(found.channels.len()).unwrap_or_default();
     found.expected = channels.saturating_mul(PER_CHANNEL);
     let lists = Counted::all(probe)?;
+    if by == ClaimsBy::Profile {
+        let answers = |number: u32| {
+            let listed = |(list, _): &(Counted, u32)| list.channel() == Some(number);
+            // The channel of a spindle is its index.
+            let mut placed = instances.iter().filter(|one| one.class != Class::Spindle);
+            lists.iter().any(listed) || placed.any(|one| one.channel == number)
+        };
+        let numbers = found.channels.iter().map(|channel| channel.number);
+        found.silent_channels = numbers.filter(|number| !answers(*number)).collect();
+    }
     let kinds = lists.iter().filter_map(|(list, items)| Some((list.kind()?, *items)));
     probe.target.sample_sizes = SampleSizes::new(&kinds.collect::<Vec<_>>());
     probe.choose_elements();
@@ -209,6 +228,12 @@ fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: boo
     Ok(if has_objects { has_decoder && has_variables } else { has_decoder || has_variables })
 }
 
+/// The number of axes that the position controller has.
+fn controlled_axes(instances: &[Instance]) -> u32 {
+    let all = instances.iter().filter(|one| one.class == Class::PositionController);
+    all.map(|one| one.axis).max().unwrap_or_default()
+}
+
 /// Claims the axes of the platform that COM or the position controller has, and the spindles.
 fn claim_axes(probe: &mut Probe<'_>) -> Step {
     let mut listed = 0_u32;
@@ -220,15 +245,15 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     }
     let instances = probe.instances().if_applicable()?.unwrap_or_default();
     let of = |class| instances.iter().filter(move |one| one.class == class);
-    let controlled = of(Class::PositionController).map(|one| one.axis).max().unwrap_or_default();
+    let controlled = controlled_axes(&instances);
     let spindles = u32::try_from(of(Class::Spindle).count()).ok().filter(|count| *count > 0);
     probe.target.profile.platform_axes = listed.max(controlled);
     probe.target.profile.spindles = spindles;
     Ok(())
 }
 
-/// The places for axes of all channels but the first. Without a profile a run writes nothing to them: which
-/// of them have no axis is in no list, and a place without one keeps no value.
+/// The places for axes of all channels but the first. Without a profile a run writes nothing to them: no list
+/// says which of them have no axis, and a value written to such a place is lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

@@ -40,7 +40,8 @@ impl Run {
             Ok(()) => {}
             Err(ToolError::NotSent) => {
                 let (client, _) = session.into_parts();
-                let listed = show(|out| run_dry::list(&profile, client.gate().allowed(), out));
+                let (has_file, allowed) = (self.profile.is_some(), client.gate().allowed());
+                let listed = show(|out| run_dry::list(&profile, has_file, allowed, out));
                 listed.map_err(|error| ToolError::Internal(error.to_string()))?;
                 return Err(ToolError::NotSent.into());
             }
@@ -48,6 +49,9 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
+        // What was found is no claim of anybody.
+        let name = self.profile.is_none().then_some("none (judged by what was found)".into());
+        let profile = Profile { name: name.unwrap_or(profile.name), ..profile };
         let session = TargetState::new(client, profile);
         let sample =
             if self.all || self.target.has_file() { Sample::All } else { Sample::BySeed(seed) };
