@@ -1,7 +1,6 @@
 //! The file of `--profile`.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,6 +13,7 @@ use ads_cnc::operation::{Function, Task};
 use ads_cnc::{CncString, VariablePath};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
+use toml::Spanned;
 
 use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
@@ -71,7 +71,17 @@ impl Profile {
             // `Display` quotes the line; `message` has no line number.
             ProfileFileError { file: None, why: error.to_string().trim_end().to_owned() }
         })?;
-        Ok(file.into())
+        let absent = file.absent_channel.as_ref().map(|absent| (*absent.get_ref(), absent.span()));
+        let profile = Self::from(file);
+        match absent {
+            Some((number, place)) if profile.channels.contains(&number) => {
+                let before = text.as_bytes().iter().take(place.start);
+                let line = before.filter(|byte| **byte == b'\n').count().saturating_add(1);
+                let why = format!("line {line}: channel {number} is in `channels` too");
+                Err(ProfileFileError { file: None, why })
+            }
+            _ => Ok(profile),
+        }
     }
 }
 
@@ -114,7 +124,7 @@ struct ProfileFile {
     #[serde(default, deserialize_with = "channels")]
     channels: Option<Vec<u32>>,
     #[serde(default, deserialize_with = "channel")]
-    absent_channel: Option<u32>,
+    absent_channel: Option<Spanned<u32>>,
     #[serde(default, deserialize_with = "axes")]
     platform_axes: Option<u32>,
     #[serde(default, deserialize_with = "spindles")]
@@ -145,7 +155,7 @@ impl From<ProfileFile> for Profile {
             cnc_version: file.cnc_version,
             ports: file.ports.map_or(device.ports, Cow::Owned),
             channels: file.channels.map_or(device.channels, Cow::Owned),
-            absent_channel: file.absent_channel,
+            absent_channel: file.absent_channel.map(Spanned::into_inner),
             platform_axes: file.platform_axes.unwrap_or(device.platform_axes),
             spindles: file.spindles,
             empty_places: file.empty_places.map_or(device.empty_places, Cow::Owned),
@@ -172,6 +182,25 @@ where
     check(T::deserialize(value)?).map(Some).map_err(D::Error::custom)
 }
 
+/// Like [`checked`] for a list that is not empty. `shape` says what is needed instead of another type.
+fn checked_list<'de, D, T>(
+    value: D,
+    noun: &str,
+    shape: &str,
+    check: impl Fn(&T) -> Result<(), String>,
+) -> Result<Option<Vec<T>>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de> + PartialEq + fmt::Debug,
+{
+    let list = toml::Value::deserialize(value)?;
+    let list = list.try_into::<Vec<T>>().map_err(|_| D::Error::custom(shape))?;
+    if list.is_empty() {
+        return Err(D::Error::custom(format!("at least one {noun} is needed")));
+    }
+    each(list, noun, check).map(Some).map_err(D::Error::custom)
+}
+
 fn edition<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Edition>, D::Error> {
     checked(value, |name: String| Edition::by_name(&name))
 }
@@ -183,12 +212,15 @@ fn version<'de, D: Deserializer<'de>>(value: D) -> Result<Option<CncVersion>, D:
 }
 
 fn ports<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u16>>, D::Error> {
-    checked(value, |ports: Vec<u16>| {
-        each(ports, |&port| match Task::from_port(AmsPort(port)) {
+    checked_list(
+        value,
+        "port",
+        "a list of ports, as [551, 552, 553]",
+        |&port| match Task::from_port(AmsPort(port)) {
             Some(_) => Ok(()),
             None => Err(format!("{port} is not a port of a CNC; ports: 551, 552 and 553")),
-        })
-    })
+        },
+    )
 }
 
 fn is_channel(number: u32) -> Result<(), String> {
@@ -197,11 +229,12 @@ fn is_channel(number: u32) -> Result<(), String> {
 }
 
 fn channels<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u32>>, D::Error> {
-    checked(value, |numbers: Vec<u32>| each(numbers, |&number| is_channel(number)))
+    let shape = "a list of channel numbers, as [1, 2]";
+    checked_list(value, "channel", shape, |&number| is_channel(number))
 }
 
-fn channel<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
-    checked(value, |number| is_channel(number).map(|()| number))
+fn channel<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Spanned<u32>>, D::Error> {
+    checked(value, |number: Spanned<u32>| is_channel(*number.get_ref()).map(|()| number))
 }
 
 fn axes<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
@@ -222,7 +255,7 @@ fn spindles<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error
 
 fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>, D::Error> {
     checked(value, |places: Vec<(u32, u32)>| {
-        each(places, |&(channel, place)| {
+        each(places, "place", |&(channel, place)| {
             is_channel(channel)?;
             let odd = |_| format!("{place} is not a place of an axis; places are counted from 1");
             ChannelAxis::new(place).map(drop).map_err(odd)
@@ -232,7 +265,7 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
 
 fn kinds<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
     checked(value, |kinds: Vec<String>| {
-        each(kinds, |kind| {
+        each(kinds, "kind", |kind| {
             if LISTED.iter().any(|known| known == kind) {
                 Ok(())
             } else {
@@ -244,7 +277,7 @@ fn kinds<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::
 
 fn names<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
     checked(value, |names: Vec<String>| {
-        each(names, |name| match VariablePath::new(name) {
+        each(names, "name", |name| match VariablePath::new(name) {
             Ok(_) if name.chars().count() < TEXT_MAX => Ok(()),
             Ok(_) => Err(format!("a name has at most {} characters", TEXT_MAX - 1)),
             Err(error) => Err(format!("{name:?}: {error}")),
@@ -254,7 +287,7 @@ fn names<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::
 
 fn texts<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
     checked(value, |names: Vec<String>| {
-        each(names, |name| {
+        each(names, "name", |name| {
             name.parse::<CncString>().map(drop).map_err(|error| format!("{name:?}: {error}"))
         })
     })
@@ -262,7 +295,7 @@ fn texts<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::
 
 fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
     checked(value, |names: Vec<String>| {
-        each(names, |name| {
+        each(names, "function", |name| {
             let all = || Function::ALL.iter().map(|function| function.spec().name);
             if all().any(|known| known == name) {
                 Ok(())
@@ -282,10 +315,18 @@ fn timeout<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Duration>, D::E
 }
 
 /// Checks every item of a list, and that none occurs twice.
-fn each<T: Ord>(list: Vec<T>, check: impl Fn(&T) -> Result<(), String>) -> Result<Vec<T>, String> {
+fn each<T: PartialEq + fmt::Debug>(
+    list: Vec<T>,
+    noun: &str,
+    check: impl Fn(&T) -> Result<(), String>,
+) -> Result<Vec<T>, String> {
     list.iter().try_for_each(check)?;
-    let different = list.iter().collect::<BTreeSet<&T>>().len();
-    if different == list.len() { Ok(list) } else { Err("something is there twice".to_owned()) }
+    let mut items = list.iter().enumerate();
+    let twice = items.find(|(place, item)| list.iter().take(*place).any(|one| one == *item));
+    match twice {
+        Some((_, item)) => Err(format!("{noun} {item:?} is there twice")),
+        None => Ok(list),
+    }
 }
 
 #[cfg(test)]
@@ -318,7 +359,12 @@ mod tests {
             ("edition = \"fr-1.0\"", "en-1.05 and de-1.051"),
             ("cnc-version = \"4\"", "V4.29.0"),
             ("ports = [552, 851]", "551, 552 and 553"),
-            ("ports = [552, 552]", "twice"),
+            ("ports = [552, 552]", "port 552 is there twice"),
+            ("ports = []", "at least one port is needed"),
+            ("channels = []", "at least one channel is needed"),
+            ("channels = \"1\"", "a list of channel numbers, as [1, 2]"),
+            ("channels = [1, 1]", "channel 1 is there twice"),
+            ("absent-channel = 1", "line 2: channel 1 is in `channels` too"),
             ("channels = [0]", "channel"),
             ("channels = [1, 256]", "channel"),
             ("absent-channel = 0", "channel"),
