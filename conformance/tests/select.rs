@@ -234,10 +234,10 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
         ("other", good.replace("fail", "warning"), &[], 1, "stale: the verdict is another one"),
         (
             "unmatched",
-            format!("{good}{}", waiver("var-gone", "VAR-8", "fail", "9999-01-01")),
+            format!("{good}{}", waiver("com-count", "VAR-8", "fail", "9999-01-01")),
             &[],
             5,
-            "stale: nothing that ran is called that: var-gone",
+            "stale: nothing that ran is called that: com-count",
         ),
         (
             "passes",
@@ -264,6 +264,9 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
         let out = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}: {out}");
         assert!(out.contains(shown), "{name}: {out}");
+        // What fails nevertheless can be pasted into the file.
+        let entry = "[[waiver]]\ntest = \"var-descriptions\"\nrequirement = \"VAR-8\"\nverdict = \"fail\"\n";
+        assert_eq!(out.contains(entry), !out.contains("FAIL, WAIVED"), "{name}: {out}");
         assert_eq!(
             out.contains("FAIL, WAIVED"),
             name != "expired" && name != "over" && name != "other"
@@ -275,6 +278,7 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
 fn a_bad_file_of_waivers_is_refused_with_its_line() {
     let good = waiver("a", "VAR-8", "fail", "2030-01-01");
     let cases = [
+        ("gone", good.replace("\"a\"", "\"var-description\""), "did you mean var-descriptions"),
         ("broken", "[[waiver]\n".to_owned(), "line 1"),
         ("unknown-key", format!("{good}owner = \"me\"\n"), "line 7"),
         ("no-requirement", good.replace("VAR-8", "VAR-99"), "no such requirement: VAR-99"),

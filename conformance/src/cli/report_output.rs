@@ -7,9 +7,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::message::print_error;
+use crate::clients::{self, Scenario};
 use crate::judge::{Exit, Waivers};
 use crate::report::{self, Report};
-use crate::text::utf8;
+use crate::rules::captured_cases;
+use crate::suite;
+use crate::text::{did_you_mean, utf8};
 
 /// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
@@ -177,5 +180,15 @@ pub(super) fn lost(error: io::Error) -> Exit {
 fn waivers(file: &Path) -> Result<Waivers, String> {
     let bytes = fs::read(file).map_err(|error| error.to_string());
     let text = bytes.and_then(utf8).map_err(|why| format!("{}: {why}", file.display()))?;
-    Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())
+    let waivers = Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())?;
+    let scenarios = clients::scenarios();
+    let of_clients = scenarios.iter().map(Scenario::case);
+    let of_clients = of_clients.chain([clients::requests_case()]);
+    let cases = suite::cases().into_iter().chain(of_clients).chain(captured_cases());
+    let known: Vec<String> = cases.map(|case| case.id).collect();
+    if let Some(id) = waivers.cases().find(|id| known.iter().all(|known| known != id)) {
+        let near = did_you_mean(id, known.iter().map(String::as_str));
+        return Err(format!("{}: no case is called {id}{near}", file.display()));
+    }
+    Ok(waivers)
 }

@@ -156,7 +156,8 @@ Known failures, a file for --waivers:
   reason = \"sizes are rounded up to 4 until firmware 2.1\"
   expires = 2027-01-31        # the first day on which it holds no longer
   One that does not hold - its day is over, nothing that ran is called that, or the verdict is
-  another one - makes the run end with 5 unless something fails.
+  another one - makes the run end with 5 unless something fails. An unknown case is wrong usage. With
+  --waivers or -v such an entry is printed for each failure.
 
 Signals:
   On SIGINT (Ctrl-C), SIGTERM and SIGHUP the value under test is restored and read back, a testee or

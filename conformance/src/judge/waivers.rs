@@ -147,6 +147,11 @@ impl Waivers {
         Ok(Self(file.waiver.into_iter().map(Spanned::into_inner).collect()))
     }
 
+    /// The IDs of their cases.
+    pub fn cases(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|waiver| waiver.test.as_str())
+    }
+
     pub fn len(&self) -> usize {
         self.0.len()
     }

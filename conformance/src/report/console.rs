@@ -3,11 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
+use ads_cnc_vectors::requirement;
 use anstyle::AnsiColor;
 
 use super::display::{Detail, Display, NAMES_MAX, RESULT_MAX, worded};
 use super::failures::{blocks, list};
-use super::model::{CaseReport, FailureReport, Report, SubjectReport, TargetReport, Totals};
+use super::model::{
+    CaseReport, FailureReport, Report, RequirementReport, SubjectReport, TargetReport, Totals,
+};
 use crate::judge::{CLIENT, CaseSubject, Exit, HELLO, TESTEE, Verdict, WaiverReport};
 use crate::text::{plural, shorten};
 
@@ -283,6 +286,51 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "    until {expires}: {reason}")?;
     }
     writeln!(out)
+}
+
+/// Maximum number of waivers that are printed.
+const WAIVABLE_MAX: usize = 20;
+
+/// A waiver to paste for each failure; if nothing fails, for what is inconclusive.
+fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let sorted = report.sorted();
+    let with = |wanted: &[Verdict]| -> Vec<(&str, &RequirementReport)> {
+        let all = sorted
+            .iter()
+            .flat_map(|case| case.requirements.iter().map(|one| (case.id.as_str(), one)));
+        let known = |one: &RequirementReport| requirement(&one.requirement).is_some();
+        all.filter(|(_, one)| !one.waived && wanted.contains(&one.verdict) && known(one)).collect()
+    };
+    let mut open = with(&[Verdict::Fail, Verdict::Vacuous]);
+    if open.is_empty() {
+        open = with(&[Verdict::Inconclusive]);
+    }
+    if open.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "To put up with what is left, add to the file of --waivers:\n")?;
+    let expires = next_year(&report.time);
+    for (case, RequirementReport { requirement, verdict, .. }) in open.iter().take(WAIVABLE_MAX) {
+        writeln!(
+            out,
+            "[[waiver]]\ntest = \"{case}\"\nrequirement = \"{requirement}\"\nverdict = \"{verdict}\"\n\
+             reason = \"?\"\nexpires = {expires}\n"
+        )?;
+    }
+    match open.len().saturating_sub(WAIVABLE_MAX) {
+        0 => Ok(()),
+        more => writeln!(out, "and {}\n", plural(more, "other waiver")),
+    }
+}
+
+/// The same day of the next year, as a report has its time.
+fn next_year(time: &str) -> String {
+    let day = time.split('T').next().unwrap_or_default();
+    let (year, rest) = day.split_once('-').unwrap_or((day, "01-01"));
+    let year = year.parse::<u32>().unwrap_or_default().saturating_add(1);
+    // Not every year has the 29th.
+    let rest = if rest == "02-29" { "02-28" } else { rest };
+    format!("{year}-{rest}")
 }
 
 fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {

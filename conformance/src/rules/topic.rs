@@ -119,6 +119,11 @@ impl Topic {
     }
 }
 
+/// The cases of captured traffic.
+pub(crate) fn captured_cases() -> impl Iterator<Item = Case> {
+    Topic::ALL.iter().map(|topic| topic.case())
+}
+
 /// The cases that judge every reply to a run's own requests. The case of all frames judges their
 /// headers.
 pub(crate) fn reply_cases() -> impl Iterator<Item = Case> {
