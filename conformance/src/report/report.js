@@ -85,6 +85,12 @@
     }
     target.scrollIntoView();
   };
+  // On paper nobody can open the profile.
+  window.addEventListener("beforeprint", () => {
+    for (const details of document.querySelectorAll("header .facts details")) {
+      details.open = true;
+    }
+  });
   const changed = () => {
     filter();
     remember();

@@ -1,5 +1,6 @@
 //! The conformance statement: for each clause whether it is claimed and verified.
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use minijinja::value::Serde;
@@ -7,10 +8,11 @@ use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
 use super::console::describe;
+use super::failures::list;
 use super::html::claims;
 use super::markdown::plain;
 use super::model::{AreaReport, Report, RequirementReport, SubjectReport};
-use crate::judge::{Verdict, about};
+use crate::judge::{Exit, Verdict, about};
 
 const TEMPLATE: &str = include_str!("statement.html");
 
@@ -49,6 +51,7 @@ struct ClauseStatement {
 impl Statement {
     fn new(report: &Report) -> Self {
         let mut facts = vec![
+            ("Result".to_owned(), result(report)),
             ("Subject".to_owned(), describe(&report.target)),
             ("Suite".to_owned(), format!("ads-cnc {}, vectors {}", report.suite, report.vectors)),
             ("Editions".to_owned(), report.editions.join(", ")),
@@ -70,6 +73,31 @@ impl Statement {
     }
 }
 
+/// The result in one line: what is not met, and what nobody has verified.
+fn result(report: &Report) -> String {
+    let all = report.subjects.iter().flat_map(|subject| &subject.areas);
+    let all: Vec<&RequirementReport> = all.flat_map(|area| &area.requirements).collect();
+    let named = |wanted: &[Verdict], most: usize| {
+        let named = all.iter().filter(|one| wanted.contains(&one.verdict));
+        let ids: BTreeSet<&str> = named.map(|one| one.requirement.as_str()).collect();
+        list(ids, most)
+    };
+    let open =
+        [Verdict::Inconclusive, Verdict::Interrupted, Verdict::NotRun, Verdict::HarnessError];
+    let parts = [
+        ("not met", named(&[Verdict::Fail, Verdict::Vacuous], usize::MAX)),
+        ("deviates", named(&[Verdict::Warning, Verdict::Differs], usize::MAX)),
+        ("not verified", named(&open, NOT_VERIFIED_MAX)),
+    ];
+    let parts = parts.iter().filter(|(_, ids)| !ids.is_empty());
+    let parts: Vec<String> = parts.map(|(what, ids)| format!("{what}: {ids}")).collect();
+    let passed = if report.exit() == Exit::Success { "passed" } else { "not passed" };
+    if parts.is_empty() { passed.to_owned() } else { format!("{passed}; {}", parts.join("; ")) }
+}
+
+/// Maximum number of clauses that were not verified in the line of the result; the tables have all.
+const NOT_VERIFIED_MAX: usize = 12;
+
 fn subject(report: &Report, subject: &SubjectReport) -> SubjectStatement {
     let areas = subject.areas.iter().map(|AreaReport { area, requirements, .. }| AreaStatement {
         area: area.clone(),
@@ -90,17 +118,22 @@ fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> 
         all.find_map(|case| case.note.as_ref()).map_or_else(String::new, |why| format!(": {why}"))
     };
     let has_case = judging.clone().next().is_some();
+    // Without a profile nobody has claimed anything.
+    let yes = match &report.found {
+        Some(found) if found.is_by_queries() => "found",
+        _ => "yes",
+    };
     let (claimed, result) = match verdict {
-        Verdict::Pass => ("yes", "verified".to_owned()),
-        Verdict::Fail | Verdict::Vacuous if *waived => ("yes", "not met, waived".to_owned()),
-        Verdict::Fail | Verdict::Vacuous => ("yes", "not met".to_owned()),
-        Verdict::Warning => ("yes", "deviates from the online help".to_owned()),
-        Verdict::Differs => ("yes", "undocumented, and not as assumed".to_owned()),
+        Verdict::Pass => (yes, "verified".to_owned()),
+        Verdict::Fail | Verdict::Vacuous if *waived => (yes, "not met, waived".to_owned()),
+        Verdict::Fail | Verdict::Vacuous => (yes, "not met".to_owned()),
+        Verdict::Warning => (yes, "deviates from the online help".to_owned()),
+        Verdict::Differs => (yes, "undocumented, and not as assumed".to_owned()),
         Verdict::NotApplicable => ("no", format!("not claimed{}", note(*verdict))),
         Verdict::NotObserved if !has_case => ("-", "not verifiable from outside".to_owned()),
-        Verdict::NotObserved => ("yes", "not verified: nothing exercised it".to_owned()),
-        Verdict::NotRun => ("yes", format!("not verified{}", note(*verdict))),
-        verdict => ("yes", format!("not verified, {verdict}{}", note(*verdict))),
+        Verdict::NotObserved => (yes, "not verified: nothing exercised it".to_owned()),
+        Verdict::NotRun => (yes, format!("not verified{}", note(*verdict))),
+        verdict => (yes, format!("not verified, {verdict}{}", note(*verdict))),
     };
     ClauseStatement {
         id: id.clone(),

@@ -63,6 +63,9 @@ struct GroupView {
     counts: Vec<Chip>,
     /// Whether it is collapsed at first.
     folded: bool,
+    /// The gravity of its gravest verdict that is not waived.
+    #[serde(skip)]
+    gravity: u8,
     /// The cases that did not pass, or all of a group of which all passed.
     cases: Vec<CaseView>,
     /// The others.
@@ -128,8 +131,10 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
         areas: listed,
         groups: {
             let groups = groups.into_iter().map(|((_, title), cases)| group(title, cases));
-            let (folded, open): (Vec<_>, Vec<_>) = groups.partition(|group| group.folded);
-            open.into_iter().chain(folded).collect()
+            let mut groups: Vec<GroupView> = groups.collect();
+            // The gravest first; the sort keeps the order of the others.
+            groups.sort_by_key(|group| (group.folded, std::cmp::Reverse(group.gravity)));
+            groups
         },
     }
 }
@@ -149,8 +154,10 @@ fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
     let fails =
         |case: &&CaseReport| folded || !case.failures.is_empty() || case.verdict.fails_run();
     let (cases, rest): (Vec<&CaseReport>, Vec<&CaseReport>) = cases.into_iter().partition(fails);
+    let open = cases.iter().filter(|case| !case.waived).map(|case| case.verdict.gravity());
+    let gravity = open.max().unwrap_or_default();
     let [cases, rest] = [cases, rest].map(|cases| cases.into_iter().map(case).collect());
-    GroupView { title, counts, folded, cases, rest }
+    GroupView { title, counts, folded, gravity, cases, rest }
 }
 
 /// CSS class and text of a count.
