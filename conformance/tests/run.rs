@@ -354,6 +354,29 @@ fn exit_codes() {
     }
 }
 
+/// The report of an earlier run does not stay where this one has none; a dry run leaves it.
+#[test]
+fn the_report_of_an_earlier_run_does_not_stay() {
+    let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
+    let file = TestFile::new(".json", b"yesterday");
+    let target = ["--target", &nobody, "--net-id", "10.0.0.1.1.1", "--json", file.path()];
+    let dry = ads_cnc(&[&["run", "--dry-run"], &target[..]].concat());
+    assert_eq!((dry.status.code(), file.0.exists()), (Some(0), true), "{dry:?}");
+    let lost = ads_cnc(&[&["run"], &target[..]].concat());
+    assert_eq!((lost.status.code(), file.0.exists()), (Some(3), false), "{lost:?}");
+}
+
+/// With -q a run that passes says its last line and nothing else.
+#[test]
+fn quiet_is_the_last_line() {
+    let serve = Serve::start(&[]);
+    let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+    let output = ads_cnc(&[&["run", "-q", "--only", "com-count"], &target[..]].concat());
+    let shown = text(&output.stdout);
+    assert!(shown.starts_with("PASSED  ") && shown.lines().count() == 1, "{shown}");
+    assert_eq!(text(&output.stderr), "");
+}
+
 /// A report that nobody could write is refused before anybody is asked.
 #[test]
 fn a_place_for_each_report_is_looked_for_first() {

@@ -109,6 +109,18 @@ impl Reports {
         Ok(waivers.unwrap_or_default())
     }
 
+    /// Removes the files of an earlier run, because this one has no report.
+    pub(super) fn remove(&self) {
+        let files = self.json().into_iter().chain(self.forms.files());
+        // A device, a pipe or a link to them stays.
+        let is_file = |file: &&Path| fs::symlink_metadata(file).is_ok_and(|it| it.is_file());
+        for file in files.filter(is_file) {
+            if let Err(error) = fs::remove_file(file) {
+                print_error(format_args!("{}: of an earlier run: {error}", file.display()));
+            }
+        }
+    }
+
     /// Writes the reports; `print` shows the result on stdout, unless a report goes there.
     pub(super) fn write(
         &self,

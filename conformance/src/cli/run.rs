@@ -306,6 +306,10 @@ impl Run {
             }
             Err(Stopped::Target(error)) => {
                 print_error(&error);
+                // Nobody takes the report of an earlier run for that of this one.
+                if !matches!(error, ToolError::NotSent) {
+                    self.reports.remove();
+                }
                 error.exit()
             }
             Err(Stopped::Unmatched(why)) => {
