@@ -208,6 +208,10 @@ fn malformed_requests_need_a_file_that_permits_them() {
 /// A file is read whether there is a target that something of it may be written to or not.
 #[test]
 fn a_file_is_read_without_a_target() {
+    let file = TestFile::allowing("");
+    let unused = ads_cnc(&["run", "--allow-write", file.path()]);
+    assert_eq!(unused.status.code(), Some(2), "{}", text(&unused.stderr));
+    assert!(text(&unused.stderr).contains("--allow-write needs --target"), "{unused:?}");
     for rest in [&["--only", "vec-handle"][..], &["--list"]] {
         let lost = ads_cnc(&[&["run", "--allow-write", "/no/such/file.toml"], rest].concat());
         assert_eq!(lost.status.code(), Some(2), "{}", text(&lost.stderr));

@@ -224,6 +224,13 @@ impl Run {
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
             // An invalid file is an error even without a target.
             self.target.allowed().map_err(|error| error.to_string())?;
+            if self.target.has_file() && !self.target.is_device() {
+                return Err(
+                    "--allow-write needs --target: the cases write to the simulated CNC of \
+                            this process without a file"
+                        .to_owned(),
+                );
+            }
             Ok((defect, self.reports.waivers()?, self.profile()?))
         });
         let (defect, waivers, profile) = match checked {
@@ -314,7 +321,7 @@ impl Run {
             }
             Err(Stopped::Unmatched(why)) => {
                 print_error(why);
-                Exit::Nothing
+                Exit::Usage
             }
         }
     }
@@ -380,7 +387,7 @@ impl Run {
             Ok(plan) => plan,
             Err(why) => {
                 print_error(why);
-                return Exit::Nothing;
+                return Exit::Usage;
             }
         };
         // The simulated CNC of this process may be written without limits.
