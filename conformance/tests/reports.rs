@@ -48,7 +48,7 @@ fn run(args: &[&str]) -> Value {
 
 const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
 const DEFECT: &str = "variable-description.size.flip";
-const VERBOSE: Display = Display { detail: Detail::Verbose, color: false };
+const VERBOSE: Display = Display { detail: Detail::Verbose, color: false, found_shown: false };
 
 /// A report with all that one can have: failures with bytes, waivers, a selection.
 fn everything(folder: &Folder) -> Value {

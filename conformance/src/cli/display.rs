@@ -35,7 +35,7 @@ pub(super) struct DisplayArgs {
     #[arg(long, short)]
     verbose: bool,
 
-    /// Show the last line only
+    /// Show the last line only, and above it what was rejected
     #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
 
@@ -45,12 +45,17 @@ pub(super) struct DisplayArgs {
 }
 
 impl DisplayArgs {
+    /// Whether nothing but the last line is shown.
+    pub(super) const fn is_quiet(self) -> bool {
+        self.quiet
+    }
+
     pub(super) fn display(self) -> Display {
         let detail = match (self.quiet, self.verbose) {
             (true, _) => Detail::Quiet,
             (_, true) => Detail::Verbose,
             _ => Detail::Normal,
         };
-        Display { detail, color: self.color.is_on() }
+        Display { detail, color: self.color.is_on(), found_shown: false }
     }
 }

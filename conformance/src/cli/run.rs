@@ -9,7 +9,7 @@
 
 use std::borrow::Cow;
 use std::ffi::OsString;
-use std::io::{self, Write as _};
+use std::io::{self, IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -30,7 +30,7 @@ use crate::faults::Seed;
 use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, Waivers, any_seed};
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
-use crate::report::{self, About, Report, TargetReport};
+use crate::report::{self, About, Display, Report, TargetReport};
 use crate::session::ToolError;
 use crate::simulator::Model;
 use crate::suite::{self, Changes};
@@ -293,7 +293,7 @@ impl Run {
         };
         // With a client that connects by itself, the address is printed before.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
-        if asks && !self.client.waits() {
+        if asks && !self.client.waits() && !self.display.is_quiet() {
             print_error(self.deadline);
         }
         let report = match &self.testee {
@@ -452,6 +452,9 @@ impl Run {
     }
 
     fn write(&self, report: &Report) -> Exit {
-        self.reports.write(report, |out| report::print(report, self.display.display(), out))
+        // A device is described on stderr before its cases: on a terminal it is there already.
+        let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
+        let display = Display { found_shown, ..self.display.display() };
+        self.reports.write(report, |out| report::print(report, display, out))
     }
 }

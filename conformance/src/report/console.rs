@@ -23,7 +23,7 @@ pub fn print(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
         Detail::Quiet => return last_line(report, display, out),
         detail => detail == Detail::Verbose,
     };
-    head(report, out)?;
+    head(report, display, out)?;
     if let Some(failure) = unanswered(report) {
         unstarted(report, failure, display, out)?;
         return last_line(report, display, out);
@@ -97,7 +97,7 @@ fn unstarted(
 }
 
 /// The head of a report: what was asked.
-fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+fn head(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
     // A capture has its own order.
@@ -117,7 +117,7 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?
         }
     }
-    if let Some(found) = found {
+    if let Some(found) = found.as_ref().filter(|_| !display.found_shown) {
         writeln!(out, "found    {}", found.summary())?;
         found.sampled().iter().try_for_each(|sampled| writeln!(out, "sampled  {sampled}"))?;
     }

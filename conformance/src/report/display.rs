@@ -21,6 +21,8 @@ pub enum Detail {
 pub struct Display {
     pub detail: Detail,
     pub color: bool,
+    /// Whether the terminal shows already what was found before the cases.
+    pub found_shown: bool,
 }
 
 /// Width of wrapped text.

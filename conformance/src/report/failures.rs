@@ -153,7 +153,7 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
     writeln!(out, "  found     {}", failure.found)?;
     // The clause that it follows from has the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
-        let display = Display { detail: Detail::Verbose, color: false };
+        let display = Display { detail: Detail::Verbose, ..Display::default() };
         bytes(evidence, display, out)?;
     }
     if failure.more > 0 {

@@ -59,7 +59,9 @@ impl Run {
         let mut session = session.with_sample(sample);
         let by = if self.profile.is_some() { ClaimsBy::Profile } else { ClaimsBy::Queries };
         let discovery = suite::discover(&mut session, by);
-        print_forecast(&discovery, &plan);
+        if !self.display.is_quiet() {
+            print_forecast(&discovery, &plan);
+        }
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
