@@ -135,6 +135,9 @@ fn what_would_be_run_is_listed() {
     let text = String::from_utf8(text.stdout).unwrap();
     assert!(text.contains("target   val-whole-by-handle  [VAR-8 VAR-11 VAR-14]\n"), "{text}");
     assert!(text.ends_with(&format!("{} cases\n", listed.len())), "{text}");
+    // Without a seed the order is always the same.
+    let unordered = || ads_cnc(&["run", "--list", "--only", "VAR-11"]).stdout;
+    assert_eq!(unordered(), unordered());
     // To a device nothing is sent to list what would be.
     let device = ["run", "--list", "--target", "192.0.2.1", "--net-id", "1.2.3.4.1.1"];
     let text = String::from_utf8(ads_cnc(&device).stdout).unwrap();

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::judge::{Case, CaseSubject, Needs, Plan};
-use crate::text::json;
+use crate::text::{json, plural};
 
 #[derive(Debug, Serialize)]
 pub(super) struct Listed {
@@ -37,6 +37,11 @@ pub(super) fn of_plan(plan: &Plan, unmet: impl Fn(Needs) -> Option<String>) -> V
     run.chain(foreign).collect()
 }
 
+/// An order that no seed changes.
+pub(super) fn sort(listed: &mut [Listed]) {
+    listed.sort_by(|one, other| (one.subject, &one.id).cmp(&(other.subject, &other.id)));
+}
+
 pub(super) fn to_text(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> {
     for Listed { id, title, subject, requirements, not_run } in listed {
         writeln!(out, "{subject:<7}  {id}  [{}]", requirements.join(" "))?;
@@ -46,7 +51,7 @@ pub(super) fn to_text(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> 
         }
     }
     let run = listed.iter().filter(|one| one.not_run.is_none()).count();
-    writeln!(out, "{run} cases")
+    writeln!(out, "{}", plural(run, "case"))
 }
 
 pub(super) fn to_json(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> {

@@ -107,7 +107,7 @@ pub(super) struct Run {
         conflicts_with_all = ["testee", "client", "client_listen"])]
     all: bool,
 
-    /// List what would be run and run nothing; with --json as data
+    /// List what would be run and run nothing, with --seed in its order; with --json as data
     #[arg(long, help_heading = SELECTION)]
     list: bool,
 
@@ -406,7 +406,11 @@ impl Run {
             let unmet = needs.unmet(gate.as_ref()?, profile);
             unmet.map(|(_, why)| why.to_owned())
         };
-        let listed = list::of_plan(&plan, unmet);
+        let mut listed = list::of_plan(&plan, unmet);
+        // Whoever gives no seed asks for no order.
+        if self.seed.is_none() {
+            list::sort(&mut listed);
+        }
         let written = match self.reports.json() {
             Some(file) => write(file, |out| list::to_json(&listed, out)),
             None => show(|out| list::to_text(&listed, out)),

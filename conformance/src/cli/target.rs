@@ -97,7 +97,7 @@ pub(super) struct TargetArgs {
 pub(super) struct DeadlineArgs {
     /// How long to go on asking in all, in seconds; what was not asked by then is reported so
     #[arg(long, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
-        value_parser = clap::value_parser!(u64).range(1..))]
+        value_parser = seconds)]
     deadline: u64,
 }
 
@@ -340,6 +340,11 @@ pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
         };
         format!("six numbers from 0 to 255 with dots are needed, as 192.0.2.10.1.1{hint}")
     })
+}
+
+fn seconds(text: &str) -> Result<u64, String> {
+    let seconds = text.parse().ok().filter(|seconds| *seconds > 0);
+    seconds.ok_or_else(|| "a whole number of seconds over 0 is needed".to_owned())
 }
 
 /// Parses requests per second; returns the time between two.

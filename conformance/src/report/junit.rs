@@ -9,7 +9,7 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use super::FoundReport;
 use super::console::describe;
 use super::failures::finding;
-use super::model::{CaseReport, Report};
+use super::model::{CaseReport, FailureReport, Report};
 use crate::judge::{Verdict, WaiverReport};
 
 /// Writes the report as JUnit XML.
@@ -186,7 +186,8 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     let findings = text(case)?;
     let message = match (&case.note, case.failures.first()) {
         (_, Some(first)) => {
-            format!("{}: expected {}, found {}", case.title, first.expected, first.found)
+            let FailureReport { requirement, expected, found, .. } = first;
+            format!("{requirement}: {}: expected {expected}, found {found}", case.title)
         }
         (Some(note), None) => format!("{}: {note}", case.title),
         (None, None) => case.title.clone(),

@@ -95,7 +95,7 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
     let text = name.to_string();
     let whole = text.split('[').next().unwrap_or_default();
     let listed = probe.variables(numbered(probe, channel)).if_applicable()?.unwrap_or_default();
-    let listed = listed.iter().find(|one| one.name.text.to_string() == whole);
+    let listed = listed.iter().find(|one| one.name.text == *whole);
     if listed.is_some_and(|one| one.access == VariableAccess::READ_ONLY) {
         return Ok(Named::ReadOnly);
     }
