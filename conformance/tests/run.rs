@@ -106,7 +106,7 @@ fn a_device_is_only_read() {
     let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", "127.0.0.1.1.1"]);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{shown}");
-    assert!(shown.contains("not sent to a device"), "{shown}");
+    assert!(shown.contains("are sent only with --malformed"), "{shown}");
 }
 
 /// Without a profile all channels are judged. What they will take is said before, and what was found is
@@ -186,7 +186,7 @@ fn malformed_requests_need_a_file_that_permits_them() {
     };
     let shown = run(&serve.addr, "malformed = true");
     assert_eq!(shown.status.code(), Some(0), "{}", text(&shown.stdout));
-    assert!(!text(&shown.stdout).contains("not sent to a device"));
+    assert!(!text(&shown.stdout).contains("are sent only with --malformed"));
 
     let away = run("192.0.2.1:48898", "address = \"192.0.2.1\"\nmalformed = true");
     assert_eq!(away.status.code(), Some(4), "{}", text(&away.stderr));

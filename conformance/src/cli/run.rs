@@ -52,7 +52,7 @@ const SELECTION: &str = "Selection";
 #[derive(Args, Debug)]
 #[command(
     after_help = "Exit codes: 0 passed, 1 failed, 2 wrong usage, 3 nothing judged, inconclusive or \
-        interrupted, 4 refused for safety, 5 a waiver no longer holds, 6 a value was left changed, \
+        interrupted, 4 rejected for safety, 5 a waiver no longer holds, 6 a value was left changed, \
         70 internal error",
     after_long_help = after_long_help()
 )]
@@ -165,7 +165,7 @@ Signals:
   interrupted. A second signal ends the run at once and prints which value is left changed.
 
 Exit codes, the first that holds:
-  70 internal error, 6 a value was changed and could not be restored, 2 wrong usage, 4 refused for
+  70 internal error, 6 a value was changed and could not be restored, 2 wrong usage, 4 rejected for
   safety, 1 a fail or a vacuous verdict, 5 a waiver that does not hold, 3 nothing judged, something
   inconclusive or interrupted, 0. Warnings and differences leave 0."
     )

@@ -27,7 +27,7 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         Exit::Failure => ("failed", "red"),
         Exit::Stale => ("stale waiver", "orange"),
         Exit::Nothing => ("inconclusive", "lightgrey"),
-        Exit::Refused => ("refused for safety", "orange"),
+        Exit::Refused => ("rejected for safety", "orange"),
         Exit::LeftChanged => ("left changed", "red"),
         Exit::Usage | Exit::Internal => ("error", "red"),
     };

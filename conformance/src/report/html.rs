@@ -61,7 +61,7 @@ fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
             "Nothing was judged, the replies do not decide it, or the run was interrupted."
         }
         Exit::LeftChanged => "A value was changed and could not be restored.",
-        Exit::Refused => "Something was refused for safety, so the target was not judged whole.",
+        Exit::Refused => "Something was rejected for safety, so the target was not judged whole.",
         Exit::Stale => "Nothing fails, but a waiver no longer holds.",
         Exit::Internal => "The suite itself failed.",
     };

@@ -10,7 +10,7 @@ impl Needs {
         let not_run = |why| Some((Verdict::NotRun, why));
         match self {
             Self::Malformed if !gate.lets_malformed_pass() => {
-                not_run("sends what no client should: not sent to a device")
+                not_run("malformed requests are sent only with --malformed")
             }
             Self::Writes if !gate.may_let_writes_pass() => {
                 not_run("writes: only what a file for --allow-write names")

@@ -30,7 +30,7 @@ pub(super) fn cases() -> Vec<Case> {
 pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     if reply.id == CONTRADICTED {
         return Err(Stop::not_applicable(
-            "contradicted by the example of the whole array (E-27), which is answered",
+            "The manual has two contradicting examples (E-27); this CNC answers the other one.",
         ));
     }
     let lacks = |what: &str| Stop::Harness(format!("{} has no {what}", reply.id));
