@@ -1,12 +1,12 @@
 //! The conformance statement: for each clause whether it is claimed and verified.
 
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
+use super::FoundReport;
 use super::console::describe;
 use super::failures::list;
 use super::html::claims;
@@ -63,9 +63,11 @@ impl Statement {
             ("Selection", Some(report.only.join(", ")).filter(|only| !only.is_empty())),
         ];
         facts.extend(more.into_iter().filter_map(|(name, fact)| Some((name.to_owned(), fact?))));
+        // Without a profile nobody has claimed anything.
+        let word = if is_found(report) { "Judged" } else { "Claims" };
         for (name, claim) in report.profile.iter().flat_map(claims) {
             if !claim.is_empty() {
-                facts.push((format!("Claims, {name}"), claim));
+                facts.push((format!("{word}, {name}"), claim));
             }
         }
         let subjects = report.subjects.iter().map(|one| subject(report, one)).collect();
@@ -73,21 +75,37 @@ impl Statement {
     }
 }
 
+/// Whether the answers of the device say what is judged, and no profile.
+fn is_found(report: &Report) -> bool {
+    report.found.as_ref().is_some_and(FoundReport::is_by_queries)
+}
+
 /// The result in one line: what is not met, and what nobody has verified.
 fn result(report: &Report) -> String {
     let all = report.subjects.iter().flat_map(|subject| &subject.areas);
     let all: Vec<&RequirementReport> = all.flat_map(|area| &area.requirements).collect();
-    let named = |wanted: &[Verdict], most: usize| {
-        let named = all.iter().filter(|one| wanted.contains(&one.verdict));
-        let ids: BTreeSet<&str> = named.map(|one| one.requirement.as_str()).collect();
+    let named = |wanted: &[Verdict], waived: bool, most: usize| {
+        let mut ids: Vec<&str> = Vec::new();
+        // Of several subjects the same clause.
+        for one in all.iter().filter(|one| wanted.contains(&one.verdict) && one.waived == waived) {
+            if !ids.contains(&one.requirement.as_str()) {
+                ids.push(&one.requirement);
+            }
+        }
         list(ids, most)
     };
-    let open =
-        [Verdict::Inconclusive, Verdict::Interrupted, Verdict::NotRun, Verdict::HarnessError];
+    let mut open = vec![Verdict::Inconclusive, Verdict::Interrupted, Verdict::HarnessError];
+    // The selection says what was not to be run.
+    if report.only.is_empty() {
+        open.push(Verdict::NotRun);
+    }
+    let failed = [Verdict::Fail, Verdict::Vacuous];
+    let deviating = [Verdict::Warning, Verdict::Differs];
     let parts = [
-        ("not met", named(&[Verdict::Fail, Verdict::Vacuous], usize::MAX)),
-        ("deviates", named(&[Verdict::Warning, Verdict::Differs], usize::MAX)),
-        ("not verified", named(&open, NOT_VERIFIED_MAX)),
+        ("not met", named(&failed, false, usize::MAX)),
+        ("not met, waived", named(&failed, true, usize::MAX)),
+        ("deviates", named(&deviating, false, usize::MAX)),
+        ("not verified", named(&open, false, NOT_VERIFIED_MAX)),
     ];
     let parts = parts.iter().filter(|(_, ids)| !ids.is_empty());
     let parts: Vec<String> = parts.map(|(what, ids)| format!("{what}: {ids}")).collect();
@@ -118,11 +136,7 @@ fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> 
         all.find_map(|case| case.note.as_ref()).map_or_else(String::new, |why| format!(": {why}"))
     };
     let has_case = judging.clone().next().is_some();
-    // Without a profile nobody has claimed anything.
-    let yes = match &report.found {
-        Some(found) if found.is_by_queries() => "found",
-        _ => "yes",
-    };
+    let yes = if is_found(report) { "found" } else { "yes" };
     let (claimed, result) = match verdict {
         Verdict::Pass => (yes, "verified".to_owned()),
         Verdict::Fail | Verdict::Vacuous if *waived => (yes, "not met, waived".to_owned()),
