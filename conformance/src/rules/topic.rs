@@ -132,11 +132,6 @@ pub(crate) fn reply_cases() -> impl Iterator<Item = Case> {
     replies.map(|case| Case { id: reply_case_id(&case.id), subject: CaseSubject::Target, ..case })
 }
 
-/// The cases of captured traffic.
-pub(crate) fn captured_cases() -> impl Iterator<Item = Case> {
-    Topic::ALL.iter().map(|topic| topic.case())
-}
-
 /// The ID of the case for a run that corresponds to a case of captured replies.
 fn reply_case_id(captured: &str) -> String {
     captured.replacen("cap-cnc", "replies", 1)
