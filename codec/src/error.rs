@@ -3,7 +3,9 @@
 use core::fmt;
 
 use crate::address::range;
-use crate::layout::{Field, Subject, typed_value, variable_path};
+use crate::com::ObjectCount;
+use crate::layout::{Field, Size, Subject, index_offset, typed_value, variable_path};
+use crate::operation::ReadDescriptors;
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
@@ -145,13 +147,54 @@ impl fmt::Display for ErrorKind {
     }
 }
 
-/// A number of bytes.
-struct Bytes(u32);
+/// A number with its unit, in the singular and in the plural.
+struct Quantity(u32, [&'static str; 2]);
 
-impl fmt::Display for Bytes {
+const BYTES: [&str; 2] = ["byte", "bytes"];
+
+impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} byte{}", self.0, if self.0 == 1 { "" } else { "s" })
+        let Self(number, [one, more]) = self;
+        write!(f, "{number} {}", if *number == 1 { one } else { more })
     }
+}
+
+/// A character by its code point.
+struct Character(u32);
+
+impl fmt::Display for Character {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match char::from_u32(self.0) {
+            Some(character) if character.is_ascii_graphic() => write!(f, "'{character}'"),
+            _ => write!(f, "U+{:04X}", self.0),
+        }
+    }
+}
+
+/// The name and the range of the argument of a constructor.
+fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
+    const COUNT: Field = Field::of::<ObjectCount>("count");
+    match field {
+        COUNT => Some(("count of descriptors", 1, ReadDescriptors::COUNT_MAX)),
+        index_offset::OBJECT => Some(("first object", 1, u32::MAX)),
+        _ => range(field),
+    }
+}
+
+/// The name and the unit of a number that has to equal another.
+fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
+    match field {
+        typed_value::COUNT => Some(("value", ["element", "elements"])),
+        typed_value::INDEX_COUNT => Some(("value", ["index", "indices"])),
+        typed_value::SIZE => Some(("size", BYTES)),
+        _ => None,
+    }
+}
+
+/// Whether the bytes after a count are its limit, and not the maximum of its list.
+fn is_cut(count: Field, limit: u32) -> bool {
+    let mut rows = count.stream().into_iter().flat_map(|stream| stream.layout().fields);
+    rows.any(|row| matches!(row.size, Size::Items { max, .. } if max != limit))
 }
 
 /// Whether the numbers of an error are index groups.
@@ -160,46 +203,93 @@ fn is_group(field: Field) -> bool {
         || field == const { Field::of::<ObjectAddress>("index_group") }
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+/// The name of a type by its number in an error.
+fn type_name(number: u32) -> &'static str {
+    DataType::by_number(number).map_or("", DataType::name)
+}
+
+impl Error {
+    /// Writes an error that is about an argument or a value, and not about bytes at an offset.
+    fn fmt_words(&self, f: &mut fmt::Formatter<'_>) -> Option<fmt::Result> {
+        const NAME: Field = Field::whole_subject(Subject::VariablePath);
         let Self { kind, field, offset, expected, found } = *self;
-        match (kind, range(field)) {
-            (ErrorKind::OutOfRange, Some((what, least, most))) => {
-                return write!(f, "{what} {found} is out of range {least}..={most}");
+        let (argument, counted) = (argument(field), counted(field));
+        Some(match (kind, field) {
+            (ErrorKind::OutOfRange | ErrorKind::TooMany, _) if argument.is_some() => {
+                let (what, least, most) = argument?;
+                write!(f, "{what} {found} is out of range {least}..={most}")
+            }
+            (ErrorKind::Mismatch, _) if counted.is_some() => {
+                let (what, unit) = counted?;
+                write!(f, "{what}: expected {}, found {found}", Quantity(expected, unit))
             }
             (ErrorKind::Mismatch, _) if is_group(field) => {
-                return write!(f, "index group: expected {expected:#x}, found {found:#x}");
+                write!(f, "index group: expected one such as {expected:#x}, found {found:#x}")
             }
-            (ErrorKind::Truncated, _) if field == variable_path::INDEX => {
-                return write!(f, "{field} at offset {offset}: no \"]\"");
+            (ErrorKind::Mismatch, typed_value::TYPE) => {
+                write!(f, "expected {}, found {}", type_name(expected), type_name(found))
             }
-            (ErrorKind::Mismatch, _) if field == typed_value::TYPE => {
-                let name = |number| DataType::by_number(number).map_or("", DataType::name);
-                let [expected, found] = [expected, found].map(name);
-                return write!(f, "expected {expected}, found {found}");
+            (ErrorKind::OutOfRange, typed_value::INDEX) => {
+                let range = format_args!("out of range 0..={expected}");
+                match offset {
+                    0 => write!(f, "index {found} is {range}"),
+                    _ => write!(f, "index {found} in dimension {offset} (from 0) is {range}"),
+                }
             }
-            _ => write!(f, "{field} at offset {offset}: ")?,
+            (ErrorKind::TooLong, NAME) => {
+                let subject = field.subject().name();
+                write!(
+                    f,
+                    "{subject}: {kind}, expected at most {expected} characters, found {found}"
+                )
+            }
+            _ => return None,
+        })
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(written) = self.fmt_words(f) {
+            return written;
         }
-        let wanted = Bytes(expected);
+        let Self { kind, field, offset, expected, found } = *self;
+        match field.subject() {
+            // Its only part has its name.
+            Subject::Text => f.write_str(field.name())?,
+            _ => write!(f, "{field}")?,
+        }
+        write!(f, " at offset {offset}: ")?;
+        let wanted = Quantity(expected, BYTES);
         match kind {
+            ErrorKind::Truncated if field.subject() == Subject::VariablePath => {
+                f.write_str(match field {
+                    variable_path::INDEX => "no \"]\"",
+                    variable_path::KIND => "the name ends, expected a kind such as V.E",
+                    _ => "the name ends, expected another part",
+                })
+            }
             ErrorKind::Truncated | ErrorKind::Trailing | ErrorKind::BufferTooSmall => {
                 write!(f, "{kind}, expected {wanted}, found {found}")
             }
             ErrorKind::TooLong => write!(f, "{kind}, expected at most {wanted}, found {found}"),
-            ErrorKind::TooMany => write!(f, "{kind}, expected at most {expected}, found {found}"),
+            ErrorKind::TooMany => {
+                let rest = if is_cut(field, expected) { " in the bytes that follow" } else { "" };
+                write!(f, "{kind}, expected at most {expected}{rest}, found {found}")
+            }
             ErrorKind::MissingNul => {
                 write!(f, "{kind}, expected one within {wanted}, found {found} without")
             }
-            ErrorKind::InnerNul => write!(f, "{kind}, at its byte {found}"),
-            ErrorKind::NotCp1252 | ErrorKind::NotDecimal => write!(f, "U+{found:04X} is {kind}"),
+            // The offset in a text is already that of the NUL.
+            ErrorKind::InnerNul if field.subject() != Subject::Text => {
+                write!(f, "{kind}, at its byte {found}")
+            }
+            ErrorKind::InnerNul | ErrorKind::Missing => write!(f, "{kind}"),
+            ErrorKind::NotCp1252 | ErrorKind::NotDecimal => {
+                write!(f, "{} is {kind}", Character(found))
+            }
             ErrorKind::Digits => write!(f, "expected 1 to {expected} digits, found {found}"),
-            ErrorKind::Unexpected => match char::from_u32(found) {
-                Some(character) if character.is_ascii_graphic() => {
-                    write!(f, "unexpected '{character}'")
-                }
-                _ => write!(f, "unexpected U+{found:04X}"),
-            },
-            ErrorKind::Missing => write!(f, "{kind}"),
+            ErrorKind::Unexpected => write!(f, "unexpected {}", Character(found)),
             ErrorKind::OutOfRange => {
                 let bound = if found < expected { "least" } else { "most" };
                 write!(f, "{kind}, expected at {bound} {expected}, found {found}")

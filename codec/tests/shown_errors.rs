@@ -64,18 +64,15 @@ fn errors_say_what_is_wrong() {
         ),
         (
             error(CncStr::new("a\0b")),
-            (ErrorKind::InnerNul, "text: text at offset 1: NUL inside the text, at its byte 1"),
+            (ErrorKind::InnerNul, "text at offset 1: NUL inside the text"),
         ),
         (
             error(CncStr::new("ä☃")),
-            (ErrorKind::NotCp1252, "text: text at offset 1: U+2603 is not in CP1252"),
+            (ErrorKind::NotCp1252, "text at offset 1: U+2603 is not in CP1252"),
         ),
         (
             error("1.2.3.4.5.x".parse::<AmsNetId>()),
-            (
-                ErrorKind::NotDecimal,
-                "ams-net-id: number at offset 10: U+0078 is not a decimal digit",
-            ),
+            (ErrorKind::NotDecimal, "ams-net-id: number at offset 10: 'x' is not a decimal digit"),
         ),
         (
             error("1.2.3.4.5.0006".parse::<AmsNetId>()),
@@ -132,11 +129,23 @@ fn errors_of_arguments_name_the_argument() {
 
     let object = ReadObject::new(IndexGroup::new(0xF005), IndexOffset::new(1), 4);
     let object = object.map_err(text).unwrap_err();
-    assert_eq!(object, "index group: expected 0x120100, found 0xf005");
+    assert_eq!(object, "index group: expected one such as 0x120100, found 0xf005");
     let path = VariablePath::new("V.E.matrix[1").map_err(text).unwrap_err();
     assert_eq!(path, "variable-path: index at offset 12: no \"]\"");
-    let empty = VariablePath::new("V.E").map_err(text).unwrap_err();
-    assert_eq!(empty, "variable-path: part at offset 3: truncated, expected 1 byte, found 0");
+    let cut = |name| VariablePath::new(name).map_err(text).unwrap_err();
+    let kind = "the name ends, expected a kind such as V.E";
+    assert_eq!(cut(""), format!("variable-path: kind at offset 0: {kind}"));
+    let part = "the name ends, expected another part";
+    assert_eq!(cut("V.E"), format!("variable-path: part at offset 3: {part}"));
+    assert_eq!(cut("V.E."), format!("variable-path: part at offset 4: {part}"));
+    let long = "variable-path: too long, expected at most 255 characters, found 256";
+    assert_eq!(cut(&format!("V.E.{}", "n".repeat(252))), long);
+
+    let read = |first, count| ReadDescriptors::new(ObjectList::PLATFORM, first, count);
+    let read = |first, count| read(first, count).map_err(text).unwrap_err();
+    assert_eq!(read(0, 1), "first object 0 is out of range 1..=4294967295");
+    assert_eq!(read(1, 0), "count of descriptors 0 is out of range 1..=49932");
+    assert_eq!(read(1, 49933), "count of descriptors 49933 is out of range 1..=49932");
 
     let shape = Shape::new(DataType::Sgn32, U32List::EMPTY, 4).unwrap();
     let written = shape.encode(&1.5_f64, &mut [0; 8]).map_err(text).unwrap_err();
@@ -144,6 +153,42 @@ fn errors_of_arguments_name_the_argument() {
     let read = shape.elements(&[0; 4]).unwrap().copy_to(&mut [0.0_f32]);
     let read = read.map_err(text).unwrap_err();
     assert_eq!(read, "expected REAL32, found SGN32");
+}
+
+/// Elements, indices and numbers are not bytes at an offset.
+#[test]
+fn errors_of_values_count_what_they_are_about() {
+    let text = |error: Error| error.to_string();
+    let dimensions = [2, 3];
+    let bytes = [0; 24];
+    let elements = Elements::new(DataType::Sgn32, U32List::from(&dimensions), &bytes).unwrap();
+    assert_eq!(elements.get(6).map_err(text).unwrap_err(), "index 6 is out of range 0..=5");
+    let at = |indices: &[u32]| elements.element(U32List::from(indices)).map_err(text).unwrap_err();
+    assert_eq!(at(&[2, 0]), "index 2 is out of range 0..=1");
+    assert_eq!(at(&[1, 3]), "index 3 in dimension 1 (from 0) is out of range 0..=2");
+    assert_eq!(at(&[1]), "value: expected 2 indices, found 1");
+    let copied = elements.copy_to(&mut [0_i32; 5]).map_err(text).unwrap_err();
+    assert_eq!(copied, "value: expected 6 elements, found 5");
+    let one = Shape::new(DataType::Sgn32, U32List::EMPTY, 4).unwrap();
+    let written = one.encode(&[1, 2], &mut [0; 8]).map_err(text).unwrap_err();
+    assert_eq!(written, "value: expected 1 element, found 2");
+    let shape = Shape::new(DataType::Sgn32, U32List::from(&dimensions), 20).map_err(text);
+    assert_eq!(shape.unwrap_err(), "size: expected 24 bytes, found 20");
+}
+
+/// A count may be wrong although a longer stream may have as many items.
+#[test]
+fn errors_of_counts_name_their_limit() {
+    let cut = DescriptionRef::decode(&[&[0; 16][..], &[1, 0, 0, 0]].concat()).unwrap_err();
+    let wanted = "variable-description: dimension_count at offset 16: too many, expected at most 0 in \
+                  the bytes that follow, found 1";
+    assert_eq!(cut.to_string(), wanted);
+    let error = value::content_error(ErrorKind::TooMany, 0, 0, 1);
+    let wanted = "content: content at offset 0: too many, expected at most 0, found 1";
+    assert_eq!(error.to_string(), wanted);
+    let error = value::content_error(ErrorKind::InnerNul, 2, 0, 1);
+    let wanted = "content: content at offset 2: NUL inside the text, at its byte 1";
+    assert_eq!(error.to_string(), wanted);
 }
 
 /// Each class of errors has words of its own.

@@ -82,6 +82,7 @@ subjects! {
         AXIS "axis",
         CHANNEL_AXIS "axis",
         ELEMENT "element",
+        OBJECT "element",
     }
     /// The text of an AMS NetId.
     AmsNetId "ams-net-id", ams_net_id {

@@ -19,7 +19,7 @@ use crate::com::{DescriptorRef, DescriptorsRef, ObjectCount};
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_group::INSTANCE;
-use crate::layout::index_offset::ELEMENT;
+use crate::layout::index_offset::{ELEMENT, OBJECT};
 use crate::layout::{Field, Stream};
 use crate::limits::{ADS_DATA, DESCRIPTOR_LEN};
 use crate::sda::ObjectAddressQuery;
@@ -39,13 +39,15 @@ impl ReadDescriptors {
 
     /// `count` descriptors from object `first` on; objects are counted from 1.
     ///
+    /// An empty list has nothing to read: send no request if [`CountObjects`](super::CountObjects) gives 0.
+    ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for object 0, by the field `element` of the index offset, which is
     /// the object's number, and for a count of 0; [`ErrorKind::TooMany`] for a count over
     /// [`COUNT_MAX`](Self::COUNT_MAX), both by the field `count`.
     pub fn new(list: impl Into<ObjectList>, first: u32, count: u32) -> Result<Self, Error> {
         if first == 0 {
-            return Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, 1, first));
+            return Err(Error::new(ErrorKind::OutOfRange, OBJECT, 0, 1, first));
         }
         if count == 0 {
             return Err(Error::new(ErrorKind::OutOfRange, COUNT, 0, 1, count));

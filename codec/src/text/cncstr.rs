@@ -17,7 +17,7 @@ use crate::layout::text::TEXT;
 /// let wire = CncStr::from_bytes(b"V.E.L\xE4nge")?;
 /// assert_eq!(wire, CncStr::new("V.E.Länge")?);
 /// assert_eq!(wire.to_string(), "V.E.Länge");
-/// assert_eq!(CncStr::new("V.E.Ω").unwrap_err().to_string(), "text: text at offset 4: U+03A9 is not in CP1252");
+/// assert_eq!(CncStr::new("V.E.Ω").unwrap_err().to_string(), "text at offset 4: U+03A9 is not in CP1252");
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy)]

@@ -36,7 +36,7 @@
 //! assert_eq!(elements.element(U32List::from(&[1, 0]))?, Element::Sgn32(21));
 //! assert_eq!(
 //!     elements.element(U32List::from(&[1, 3])).unwrap_err().to_string(),
-//!     "typed-value: index at offset 1: out of range, expected at most 2, found 3"
+//!     "index 3 in dimension 1 (from 0) is out of range 0..=2"
 //! );
 //! assert_eq!(elements.items::<i32>()?.sum::<i32>(), 102);
 //! let first: f64 = elements.get(0)?.try_into()?;

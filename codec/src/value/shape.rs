@@ -24,11 +24,11 @@ use crate::variable::{U32List, VariableType};
 /// assert_eq!(shape.index_of(U32List::from(&[1, 2]))?, 5);
 /// assert_eq!(
 ///     shape.index_of(U32List::from(&[2, 0])).unwrap_err().to_string(),
-///     "typed-value: index at offset 0: out of range, expected at most 1, found 2"
+///     "index 2 is out of range 0..=1"
 /// );
 /// assert_eq!(
 ///     Shape::new(DataType::Sgn32, U32List::from(&[2, 3]), 20).unwrap_err().to_string(),
-///     "typed-value: size at offset 0: expected 24, found 20"
+///     "size: expected 24 bytes, found 20"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

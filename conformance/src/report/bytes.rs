@@ -210,7 +210,9 @@ mod tests {
         assert_eq!(shown, [(0, "handle"), (4, "index_count"), (8, "?")]);
         assert_eq!(
             report.faults,
-            ["index_count at offset 4: too many, expected at most 0, found 9"]
+            [
+                "index_count at offset 4: too many, expected at most 0 in the bytes that follow, found 9"
+            ]
         );
     }
 }

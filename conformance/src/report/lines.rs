@@ -80,7 +80,7 @@ mod tests {
                 "     0  01 00 00 02                                      ····              handle",
                 "     4  09 00 00 00                                      ····              index_count",
                 "     8  04                                               ·                 ?",
-                "      ! index_count at offset 4: too many, expected at most 0, found 9",
+                "      ! index_count at offset 4: too many, expected at most 0 in the bytes that follow, found 9",
             ]
         );
     }
