@@ -67,7 +67,8 @@ pub enum ErrorKind {
     Unexpected,
     /// A required part is missing; both numbers are 0.
     Missing,
-    /// A value outside its range: the nearest value allowed, the value.
+    /// A value outside its range: the nearest value allowed, the value. The conversions of an
+    /// [`Element`](crate::Element) have other numbers.
     OutOfRange,
     /// A value that must equal another: the other value, this value.
     Mismatch,
@@ -228,6 +229,15 @@ impl Error {
             }
             (ErrorKind::Mismatch, typed_value::TYPE) => {
                 write!(f, "expected {}, found {}", type_name(expected), type_name(found))
+            }
+            (ErrorKind::OutOfRange, typed_value::NUMBER | typed_value::NEGATIVE) => {
+                let sign = if field == typed_value::NEGATIVE { "-" } else { "" };
+                let expected = type_name(expected);
+                match offset {
+                    0 => write!(f, "{sign}{found} does not fit {expected}"),
+                    // In decimal, more than 32 bits would need 1.2 KB of code on a microcontroller.
+                    high => write!(f, "{sign}{high:#x}{found:08x} does not fit {expected}"),
+                }
             }
             (ErrorKind::OutOfRange, typed_value::INDEX) => {
                 let range = format_args!("out of range 0..={expected}");

@@ -174,6 +174,19 @@ fn errors_of_values_count_what_they_are_about() {
     assert_eq!(written, "value: expected 1 element, found 2");
     let shape = Shape::new(DataType::Sgn32, U32List::from(&dimensions), 20).map_err(text);
     assert_eq!(shape.unwrap_err(), "size: expected 24 bytes, found 20");
+
+    let fits = |text: Result<(), Error>| text.unwrap_err().to_string();
+    let to_u8 = |element| fits(u8::try_from(element).map(drop));
+    assert_eq!(to_u8(Element::Sgn32(300)), "300 does not fit UNS08");
+    assert_eq!(to_u8(Element::Lint(i64::MIN)), "-0x8000000000000000 does not fit UNS08");
+    assert_eq!(to_u8(Element::Real64(1.0)), "expected UNS08, found REAL64");
+    assert_eq!(to_u8(Element::Lword(0x1_0000_0002)), "0x100000002 does not fit UNS08");
+    let to_u32 = fits(u32::try_from(Element::Sgn32(-3)).map(drop));
+    assert_eq!(to_u32, "-3 does not fit UNS32");
+    let to_f64 = fits(f64::try_from(Element::Lint(i64::MAX)).map(drop));
+    assert_eq!(to_f64, "0x7fffffffffffffff does not fit REAL64");
+    let to_i64 = fits(i64::try_from(Element::Lword(u64::MAX)).map(drop));
+    assert_eq!(to_i64, "0xffffffffffffffff does not fit LINT");
 }
 
 /// A count may be wrong although a longer stream may have as many items.

@@ -350,7 +350,11 @@ fn elements_become_numbers_that_hold_them() {
         assert_eq!(f64::try_from(Element::Lint(number)), Ok(number as f64));
     }
     let error = fault_of(u8::try_from(Element::Sgn32(-1)));
-    assert_eq!(error, fault(Mismatch, "type", 0, (3, 6)));
+    assert_eq!(error, fault(OutOfRange, "number", 0, (3, 1)));
+    let error = fault_of(i64::try_from(Element::Lword(u64::MAX)));
+    assert_eq!(error, fault(OutOfRange, "number", u32::MAX as usize, (10, u32::MAX as usize)));
+    let error = fault_of(u8::try_from(Element::Real64(1.0)));
+    assert_eq!(error, fault(Mismatch, "type", 0, (3, 8)));
 
     assert_eq!(bool::try_from(Element::Boolean(Boolean(7))), Ok(true));
     assert_eq!(fault_of(bool::try_from(Element::Uns08(1))), fault(Mismatch, "type", 0, (1, 3)));

@@ -112,6 +112,8 @@ subjects! {
         INDEX "index",
         COUNT "count",
         VALUE "value",
+        NUMBER "number",
+        NEGATIVE "number",
     }
     /// A text that is converted to CP1252.
     Text "text", text {

@@ -19,6 +19,30 @@ macro_rules! element {
     ($( $variant:ident: $number:ty; )+) => {
         /// One element of a value.
         ///
+        /// `TryFrom` converts it:
+        ///
+        /// | from | to |
+        /// |---|---|
+        /// | an integer of any type | `i8` … `u64` by its value, if it fits; `f32`, `f64` if it is exact |
+        /// | REAL32 | `f32`, `f64` |
+        /// | REAL64 | `f64` |
+        /// | BOOLEAN | `bool` |
+        /// | STRING | [`TextRef`], [`CncStr`](crate::CncStr) and, with `alloc`, `String` |
+        ///
+        /// No others: a REAL32 or REAL64 is never an integer, a REAL64 never an `f32`, a BOOLEAN never a
+        /// number, a number never a `bool`.
+        ///
+        /// ```
+        /// use ads_cnc::{Element, ErrorKind};
+        ///
+        /// assert_eq!(u8::try_from(Element::Sgn32(200))?, 200);
+        /// let error = u8::try_from(Element::Sgn32(300)).unwrap_err();
+        /// assert_eq!((error.kind(), error.to_string()), (ErrorKind::OutOfRange, "300 does not fit UNS08".into()));
+        /// let error = u8::try_from(Element::Real64(200.0)).unwrap_err();
+        /// assert_eq!(error.to_string(), "expected UNS08, found REAL64");
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2; sizes of the types: GEN-5.
         ///
         /// ```

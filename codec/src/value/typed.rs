@@ -6,7 +6,7 @@ use super::{DataType, Element, Elements, Scalar};
 use crate::bytes::to_u32;
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
-use crate::layout::typed_value::{COUNT, INDEX, TYPE, VALUE};
+use crate::layout::typed_value::{COUNT, INDEX, NEGATIVE, NUMBER, TYPE, VALUE};
 use crate::text::{CncStr, TextRef};
 use crate::variable::ValueRef;
 
@@ -44,12 +44,13 @@ pub(super) fn beyond(count: usize, index: usize) -> Error {
 }
 
 macro_rules! typed_reads {
-    ($( $(#[$meta:meta])? [$($view:lifetime)?] $type:ty, [$($own:lifetime)?], |$this:ident| $bytes:expr, $example:literal; )+) => { $(
+    ($( $(#[$meta:meta])? [$($view:lifetime)?] $type:ty, [$($own:lifetime)?], |$this:ident| $bytes:expr, $checked:literal, $example:literal; )+) => { $(
         /// Numbers and BOOLEANs, read by the type that the program asks for. A single number has
         /// index 0.
         ///
-        /// Only the number of bytes is checked. With the variable's description,
-        /// [`DescriptionRef::elements`](crate::DescriptionRef::elements) checks the type too.
+        /// Only the number of bytes is checked.
+        #[doc = $checked]
+        /// checks the type too.
         ///
         /// ```
         #[doc = $example]
@@ -113,14 +114,18 @@ macro_rules! typed_reads {
 
 typed_reads! {
     ['a] ValueRef<'a>, [], |value| value.bytes,
+        "With the variable's description, [`DescriptionRef::elements`](crate::DescriptionRef::elements)",
         "let value = ads_cnc::ValueRef { bytes: &[77, 1, 0, 0, 200, 1, 0, 0] };";
     ['a] ContentRef<'a>, [], |content| content.bytes,
+        "With the type of the object or element, [`Elements::new`]",
         "let value = ads_cnc::ContentRef { bytes: &[77, 1, 0, 0, 200, 1, 0, 0] };";
     #[cfg(feature = "alloc")]
     [] crate::Value, ['a], |value| &value.bytes,
+        "With the variable's description, [`Description::elements`](crate::Description::elements)",
         "let value = ads_cnc::Value { bytes: vec![77, 1, 0, 0, 200, 1, 0, 0] };";
     #[cfg(feature = "alloc")]
     [] crate::Content, ['a], |content| &content.bytes,
+        "With the type of the object or element, [`Elements::new`]",
         "let value = ads_cnc::Content { bytes: vec![77, 1, 0, 0, 200, 1, 0, 0] };";
 }
 
@@ -182,6 +187,17 @@ pub(super) fn mismatch(expected: DataType, found: DataType) -> Error {
     Error::new(ErrorKind::Mismatch, TYPE, 0, expected.number(), found.number())
 }
 
+/// The error for an element that is not converted: an integer does not fit, of any other the type is wrong.
+fn unfit(expected: DataType, element: Element<'_>) -> Error {
+    let Some(number) = integer(element) else {
+        return mismatch(expected, element.data_type());
+    };
+    let [a, b, c, d, e, f, g, h, ..] = number.unsigned_abs().to_le_bytes();
+    let [low, high] = [[a, b, c, d], [e, f, g, h]].map(u32::from_le_bytes);
+    let field = if number < 0 { NEGATIVE } else { NUMBER };
+    Error::new(ErrorKind::OutOfRange, field, high, expected.number(), low)
+}
+
 /// The number in an element of any integer type.
 fn integer(element: Element<'_>) -> Option<i128> {
     Some(match element {
@@ -199,18 +215,23 @@ fn integer(element: Element<'_>) -> Option<i128> {
     })
 }
 
-/// Conversions to integers from integers of any type, if the number fits.
+/// Conversions to integers from integers of any type, by value.
 macro_rules! from_integers {
     ($( $type:ty )+) => { $(
+        /// From an integer of any type, by its value.
+        ///
         /// # Errors
-        /// [`ErrorKind::Mismatch`] for another kind of element, and for a number that does not fit.
+        /// [`ErrorKind::Mismatch`] for another kind of element, also a REAL32 or REAL64;
+        /// [`ErrorKind::OutOfRange`] for a number that does not fit: [`Error::expected`] is the number of
+        /// this type, [`Error::found`] and [`Error::offset`] are the low and the high 32 bits of the
+        /// number without its sign.
         impl TryFrom<Element<'_>> for $type {
             type Error = Error;
 
             fn try_from(element: Element<'_>) -> Result<Self, Error> {
                 integer(element)
                     .and_then(|number| number.try_into().ok())
-                    .ok_or_else(|| mismatch(<$type>::TYPE, element.data_type()))
+                    .ok_or_else(|| unfit(<$type>::TYPE, element))
             }
         }
     )+ };
@@ -222,9 +243,12 @@ from_integers! { i8 u8 i16 u16 i32 u32 i64 u64 }
 /// significand represents exactly.
 macro_rules! from_numbers {
     ($( $type:ty, $digits:literal, |$element:ident| $float:expr; )+) => { $(
+        /// From a floating-point number of no greater size, and from an integer that this type represents
+        /// exactly.
+        ///
         /// # Errors
-        /// [`ErrorKind::Mismatch`] for another kind of element, and for a number that cannot be
-        /// represented exactly.
+        /// [`ErrorKind::Mismatch`] for another kind of element; [`ErrorKind::OutOfRange`] for an integer
+        /// that is not represented exactly, with the numbers of the conversions to integers.
         impl TryFrom<Element<'_>> for $type {
             type Error = Error;
 
@@ -234,7 +258,7 @@ macro_rules! from_numbers {
                 }
                 let exact = integer($element).filter(|number| digits(*number) <= $digits);
                 let Some(number) = exact else {
-                    return Err(mismatch(<$type>::TYPE, $element.data_type()));
+                    return Err(unfit(<$type>::TYPE, $element));
                 };
                 // No step rounds: no partial sum has more significant digits than the number.
                 let size = number.unsigned_abs().to_be_bytes().into_iter().fold(0.0, |size, byte| {
