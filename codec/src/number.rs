@@ -2,11 +2,11 @@
 
 /// Declares a code: a number, with names for the documented numbers. Any other number is kept.
 ///
-/// `in hex`: the number is shown in hexadecimal.
+/// `in hex`: the number is shown in hexadecimal; `in error`: also in decimal, as the number of an ADS error.
 macro_rules! code {
     (
         $(#[$doc:meta])*
-        $code:ident($number:ident) $(in $hex:ident)? {
+        $code:ident($number:ident) $(in $form:ident)? {
             $( $(#[$name_doc:meta])* $name:ident = $value:expr; )+
         }
     ) => {
@@ -31,7 +31,7 @@ macro_rules! code {
             }
         }
 
-        $crate::number::code! { @shown $code $($hex)? }
+        $crate::number::code! { @shown $code $($form)? }
         $crate::number::from_number!($number: $code);
     };
     (@shown $code:ident) => {
@@ -62,6 +62,24 @@ macro_rules! code {
             }
         }
 
+        $crate::number::code! { @hex $code }
+    };
+    (@shown $code:ident error) => {
+        /// The number in hexadecimal and decimal, and the name if it is documented. It says that it is an
+        /// ADS error, because a `Box<dyn Error>` does not.
+        impl core::fmt::Display for $code {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                write!(f, "ADS error {0:#x} ({0}", self.0)?;
+                match self.name() {
+                    Some(name) => write!(f, ", {name})"),
+                    None => f.write_str(")"),
+                }
+            }
+        }
+
+        $crate::number::code! { @hex $code }
+    };
+    (@hex $code:ident) => {
         /// The number alone.
         impl core::fmt::LowerHex for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

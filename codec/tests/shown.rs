@@ -33,9 +33,9 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     debugs(IndexGroup::new(0x12_2301), "0x122301");
     shows(IndexOffset::new(0x2_0004), "0x20004");
     debugs(IndexOffset::new(0x2_0004), "0x20004");
-    shows(AdsError::SYMBOL_NOT_FOUND, "SYMBOL_NOT_FOUND (0x710)");
+    shows(AdsError::SYMBOL_NOT_FOUND, "ADS error 0x710 (1808, SYMBOL_NOT_FOUND)");
     debugs(AdsError::SYMBOL_NOT_FOUND, "0x710 SYMBOL_NOT_FOUND");
-    shows(AdsError(0x7FF), "0x7ff");
+    shows(AdsError(0x7FF), "ADS error 0x7ff (2047)");
     debugs(AdsError(0x7FF), "0x7ff (unknown)");
     assert_eq!(format!("{:#x}", AdsError::SYMBOL_NOT_FOUND), "0x710");
     shows(AmsPort::COM, "553");

@@ -70,7 +70,8 @@ code! {
     /// let reply = WriteReply::decode(&[0x03, 0x07, 0, 0])?;
     /// assert_eq!(reply.result, AdsError::INVALID_OFFSET);
     /// let error = reply.result.into_result().unwrap_err();
-    /// assert_eq!(error.to_string(), "INVALID_OFFSET (0x703)");
+    /// assert_eq!(error.to_string(), "ADS error 0x703 (1795, INVALID_OFFSET)");
+    /// assert_eq!(format!("{error:#x}"), "0x703");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
@@ -85,9 +86,10 @@ code! {
     /// }
     ///
     /// assert!(written(&[0; 4]).is_ok());
-    /// assert_eq!(written(&[4, 7, 0, 0]).unwrap_err().to_string(), "INVALID_ACCESS (0x704)");
+    /// let error = written(&[4, 7, 0, 0]).unwrap_err();
+    /// assert_eq!(error.to_string(), "ADS error 0x704 (1796, INVALID_ACCESS)");
     /// ```
-    AdsError(u32) in hex {
+    AdsError(u32) in error {
         /// Success.
         NO_ERROR = 0;
         /// AMS: no such port on the target.
