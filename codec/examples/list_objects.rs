@@ -9,7 +9,7 @@ use std::fmt::Display;
 
 use ads_cnc::address::{Attribute, Channel, Class, ElementAddress, PlatformAxis};
 use ads_cnc::operation::*;
-use transport::{Cnc, Result};
+use transport::{Cnc, Result, unless_refused};
 
 /// The most channels, axes and spindles that are asked for.
 const MOST: u32 = 32;
@@ -28,7 +28,7 @@ fn main() -> Result<()> {
                 let mut reply = Vec::new();
                 let query = FindInstance::new(class, channel, axis);
                 // Some devices answer with an error instead.
-                let Ok(found) = cnc.call(&query, &mut reply) else { continue };
+                let Some(found) = unless_refused(cnc.call(&query, &mut reply))? else { continue };
                 if let Some(first) = found.first_element()? {
                     elements(&cnc, first)?;
                 }
@@ -41,11 +41,9 @@ fn main() -> Result<()> {
 /// The objects of one list; a channel or axis that is not there has none.
 fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     let mut reply = Vec::new();
-    let Ok(count) = cnc.call(&CountObjects::new(list), &mut reply) else { return Ok(()) };
-    if count.0 == 0 {
-        return Ok(());
-    }
-    for object in cnc.call(&ReadDescriptors::new(list, 1, count.0)?, &mut reply)? {
+    let count = unless_refused(cnc.call(&CountObjects::new(list), &mut reply))?;
+    let Some(count @ 1..) = count.map(u32::from) else { return Ok(()) };
+    for object in cnc.call(&ReadDescriptors::new(list, 1, count)?, &mut reply)? {
         let size = object.size();
         let (group, offset) = (object.index_group(), object.index_offset());
         row::<&dyn Display>([&group, &offset, &object.name(), &object.type_name(), &size, &""]);

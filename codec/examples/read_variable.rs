@@ -9,7 +9,7 @@ use std::env;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeByName, ReadByName};
 use ads_cnc::{DescriptionByName, VariablePath};
-use transport::{Cnc, Result};
+use transport::{Cnc, Result, unless_refused};
 
 fn main() -> Result<()> {
     let cnc = Cnc::from_args()?;
@@ -35,7 +35,8 @@ fn main() -> Result<()> {
 /// Requests the description by name; an older CNC has no such function, so all of the kind are compared.
 fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
     let mut reply = Vec::new();
-    if let Ok(found) = cnc.call(&DescribeByName::new(channel, path)?, &mut reply) {
+    if let Some(found) = unless_refused(cnc.call(&DescribeByName::new(channel, path)?, &mut reply))?
+    {
         return Ok(found.to_owned());
     }
     let kind = path.kind();
