@@ -6,6 +6,7 @@
 //! use ads_cnc::address::Channel;
 //! use ads_cnc::ads::AmsPort;
 //! use ads_cnc::operation::{DescribeByName, Operation, ReadByName, Service};
+//! use ads_cnc::VariablePath;
 //! use std::error::Error;
 //!
 //! /// Your transport: sends an ADS request to a port of the CNC, and returns the data of the reply.
@@ -23,10 +24,12 @@
 //!     }
 //! }
 //!
-//! /// Reads a number of any type from the first channel.
+//! /// Reads a number of any type from the first channel: a variable, or an element of an array.
 //! fn read(cnc: &mut impl Transport, name: &str) -> Result<f64, Box<dyn Error>> {
 //!     let channel = Channel::new(1)?;
-//!     let (describe, read) = (DescribeByName::new(channel, name)?, ReadByName::new(channel, name)?);
+//!     // `V.E.matrix[1][2]` is an element of `V.E.matrix`, which has the description.
+//!     let describe = DescribeByName::new(channel, VariablePath::new(name)?.variable())?;
+//!     let read = ReadByName::new(channel, name)?;
 //!     let (description, value) = (cnc.call(&describe)?, cnc.call(&read)?);
 //!     let description = describe.decode_reply(&description)?;
 //!     let number = description.element(&read.decode_reply(&value)?)?.try_into()?;
@@ -34,16 +37,24 @@
 //! }
 //! # struct Cnc;
 //! # impl Transport for Cnc {
-//! #     fn send(&mut self, port: AmsPort, _: Service, group: u32, offset: u32, _: u32, _: &[u8])
+//! #     fn send(&mut self, port: AmsPort, _: Service, group: u32, offset: u32, _: u32, data: &[u8])
 //! #         -> Result<Vec<u8>, Box<dyn Error>> {
 //! #         assert_eq!((port, group), (AmsPort::SDA, 0x12_2301));
-//! #         Ok(match offset {
-//! #             0x48 => 1234.5_f64.to_le_bytes().to_vec(),
-//! #             _ => b"\x02\0\0\x02\x08\0\0\0\x01\0\0\0\x08\0\0\0\0\0\0\0".to_vec(),
-//! #         })
+//! #         match (offset, data) {
+//! #             (0x48, b"V.E.speed\0" | b"V.E.matrix[1][2]\0") => Ok(1234.5_f64.to_le_bytes().into()),
+//! #             (0x4C, b"V.E.speed\0") =>
+//! #                 Ok(b"\x02\0\0\x02\x08\0\0\0\x01\0\0\0\x08\0\0\0\0\0\0\0".into()),
+//! #             (0x4C, b"V.E.matrix\0") => Ok(b"\x02\0\0\x02\x08\0\0\0\x01\0\0\0\x30\0\0\0\
+//! #                 \x02\0\0\0\x02\0\0\0\x03\0\0\0".into()),
+//! #             _ => Err("no such name".into()),
+//! #         }
 //! #     }
 //! # }
-//! # pub fn main() { assert_eq!(read(&mut Cnc, "V.E.speed").unwrap(), 1234.5); }
+//! # pub fn main() {
+//! #     for name in ["V.E.speed", "V.E.matrix[1][2]"] {
+//! #         assert_eq!(read(&mut Cnc, name).unwrap(), 1234.5);
+//! #     }
+//! # }
 //! # }
 //! # #[cfg(feature = "alloc")]
 //! # example::main();
@@ -79,6 +90,10 @@
 //! encode to the bytes they were read from. A stream of numbers has one type. [`sections`] says where
 //! each section of the manuals is, [`layout`] has the field table of every stream. Where the manuals
 //! contradict each other, [`errata`] has the reading that this crate implements.
+//!
+//! # IDs
+//! IDs such as ADR-1, GEN-6 or VAR-9 are requirements: the catalogue in the crate `ads-cnc-vectors` has
+//! the text of each, with its sections in both editions. IDs such as E-17 are errata: see [`errata`].
 //!
 //! # Features
 //! - `alloc` (default): the owned types, and the checks of an NC program.

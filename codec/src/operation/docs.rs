@@ -130,7 +130,10 @@ macro_rules! documented {
         $($item)+
     };
     (WriteByHandle $($item:tt)+) => {
-        /// Writes a variable by its handle.
+        /// Writes a variable by its handle. It may set the machine in motion.
+        ///
+        /// The Rust type of the value determines the bytes: see [`WriteValue`](super::WriteValue), and
+        /// [`WriteByName`](super::WriteByName) for an example that checks it.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -144,14 +147,29 @@ macro_rules! documented {
         $($item)+
     };
     (WriteByName $($item:tt)+) => {
-        /// Writes a variable by its name; with an index in the name, one element of an array.
+        /// Writes a variable by its name; with an index in the name, one element of an array. It may set
+        /// the machine in motion.
+        ///
+        /// The Rust type of the value determines the bytes, which the CNC cannot check: see
+        /// [`WriteValue`](super::WriteValue). The description of the variable checks it:
         ///
         /// ```
         /// use ads_cnc::address::Channel;
-        /// use ads_cnc::operation::{Operation, WriteByName};
+        /// use ads_cnc::operation::{DescribeByName, Operation, WriteByName};
         ///
-        /// let op = WriteByName::new(Channel::new(1)?, "V.E.test[4]", 123)?;
+        /// let channel = Channel::new(1)?;
+        /// // The reply to this: V.E.test is SGN32[5].
+        /// let describe = DescribeByName::new(channel, "V.E.test")?;
+        /// let reply = b"\x02\0\0\x02\x06\0\0\0\x02\0\0\0\x14\0\0\0\x01\0\0\0\x05\0\0\0";
+        /// let description = describe.decode_reply(reply)?;
+        /// let element = description.shape()?.element_shape();
+        ///
+        /// let mut buf = [0; 4];
+        /// let op = WriteByName::new(channel, "V.E.test[4]", element.encode(&123, &mut buf)?)?;
         /// assert_eq!(op.encode(&mut [0; 16])?, b"V.E.test[4]\0\x7b\0\0\0");
+        ///
+        /// let error = element.encode(&7_f32, &mut buf).unwrap_err();
+        /// assert_eq!(error.to_string(), "expected SGN32, found REAL32");
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         $($item)+
@@ -175,7 +193,9 @@ macro_rules! documented {
         $($item)+
     };
     (DescribeByName $($item:tt)+) => {
-        /// Reads the description of a variable by its name.
+        /// Reads the description of a variable by its name, without indices at its end:
+        /// `V.E.test[4]` is an element of `V.E.test`, which has the description.
+        /// [`VariablePath::variable`](crate::VariablePath::variable) removes the indices.
         ///
         /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
         /// `ads-de` 1.051 reserve the offset in section 4.2.1.
@@ -220,7 +240,9 @@ macro_rules! documented {
         $($item)+
     };
     (AxisWriteByName $($item:tt)+) => {
-        /// Writes an axis variable; the name does not contain the axis.
+        /// Writes an axis variable; the name does not contain the axis. It may set the machine in motion.
+        ///
+        /// The Rust type of the value determines the bytes: see [`WriteValue`](super::WriteValue).
         ///
         /// ```
         /// use ads_cnc::address::{Channel, ChannelAxis};
