@@ -1,23 +1,44 @@
 //! ADS Read, Write, ReadWrite, ReadDeviceInfo and ReadState, the AMS headers, and frames on a TCP stream
 //! (ADS-1 … ADS-9).
 //!
-//! ```
-//! use ads_cnc::Encode;
-//! use ads_cnc::address::{IndexGroup, IndexOffset};
-//! use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadRequest};
+//! A client without an ADS library sends an operation in a frame:
 //!
-//! let cnc = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: AmsPort::COM };
-//! let client = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
-//! let (index_group, index_offset) = (IndexGroup::new(0x13_0101), IndexOffset::new(0));
-//! let mut data = [0; 12];
-//! let read = ReadRequest { index_group, index_offset, length: 4 }.encode(&mut data)?;
-//!
-//! let header = AmsHeader::request(cnc, client, Command::READ, 1);
-//! let mut buf = [0; 64];
-//! let frame = FrameRef::new(header, read)?.encode(&mut buf)?;
-//! assert_eq!(frame.len(), FrameRef::HEADERS_LEN + 12);
-//! # Ok::<(), ads_cnc::Error>(())
 //! ```
+//! use ads_cnc::address::Channel;
+//! use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadWriteReplyRef};
+//! use ads_cnc::operation::{CountVariables, Operation};
+//! use ads_cnc::{Decode, Encode, Kind};
+//!
+//! let op = CountVariables::new(Channel::new(1)?, Kind::V_E);
+//!
+//! // The operation, the request of its ADS service, the frame.
+//! let (mut data, mut service, mut frame) = ([0; 256], [0; 512], [0; 512]);
+//! let call = op.call(&mut data)?;
+//! let target = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: call.port };
+//! let source = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
+//! let header = AmsHeader::request(target, source, call.service.command(), 1);
+//! let frame = FrameRef::new(header, call.encode(&mut service)?)?.encode(&mut frame)?;
+//!
+//! // Send `frame` to TCP port 48898 of the target, and receive until `split` returns a frame.
+//! # let reply = ReadWriteReplyRef { result: 0.into(), data: Some(&[123, 0, 0, 0]) };
+//! # let (mut data, mut received) = ([0; 12], [0; 64]);
+//! # let header = AmsHeader { state_flags: ads_cnc::ads::StateFlags::RESPONSE, ..header };
+//! # let received = FrameRef::new(header, reply.encode(&mut data)?)?.encode(&mut received)?;
+//! let (reply, _) = FrameRef::split(received, 4096)?.ok_or("more bytes follow")?;
+//! assert_eq!(reply.header().invoke_id, 1);
+//! reply.header().error.into_result()?;
+//!
+//! // The reply of the service, which may be an ADS error, and that of the operation.
+//! let reply = ReadWriteReplyRef::decode(reply.data())?;
+//! reply.result.into_result()?;
+//! assert_eq!(op.decode_reply(reply.data.unwrap_or_default())?.0, 123);
+//! # assert_eq!(frame.len(), FrameRef::HEADERS_LEN + 20);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A Read is answered by a [`ReadReplyRef`], a Write by a [`WriteReply`]. The NetId of `source` is any to which
+//! the target has a route, its port any that is free there, for example above 0x8000. The target sends replies
+//! to both; a program that reads several at once finds the request of each by its `invoke_id`.
 //!
 //! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The
 //! source of everything else is the vendors' public help pages.
