@@ -38,9 +38,9 @@ pub const VARIABLE_MAX: usize = length::<ValueRef<'_>>();
 pub const HANDLE_VALUE_MAX: usize = most::<HandleWriteRef<'_>>("value");
 /// Bytes of a value that is written by name (VAR-13).
 pub const NAME_VALUE_MAX: usize = most::<NameWriteRef<'_>>("value");
-/// Dimensions of a description with an empty name (VAR-24).
+/// Dimensions of a description by index, beside which an empty name has room (VAR-24).
 pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
-/// Dimensions of a description without a name (VAR-24, VAR-28).
+/// Dimensions of a description by name, which has no field for the name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");
 /// Indices of a handle header (VAR-24).
 pub const INDICES_MAX: usize = most::<HandleReadRef<'_>>("indices");

@@ -48,6 +48,11 @@ impl ElementAddress {
 
     /// An element of a channel itself.
     ///
+    /// Only for the classes that a channel has. With [`Class::Spindle`] the number of the channel is the
+    /// index of a spindle, from 0: use [`for_spindle`](Self::for_spindle). [`Class::PositionController`] has
+    /// the platform's axes and no channels: [`FindInstance`](crate::operation::FindInstance) reads their
+    /// addresses.
+    ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
     pub fn for_channel(channel: Channel, class: Class, element: u32) -> Result<Self, Error> {

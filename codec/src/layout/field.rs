@@ -6,7 +6,7 @@ use super::spec::FieldSpec;
 use super::{Stream, Subject};
 use crate::declare::Declared;
 
-/// A field of a stream, or a part of another [`Subject`]; or the whole of it.
+/// A field of a stream, a part of another [`Subject`], or a whole stream or subject.
 ///
 /// ```
 /// use ads_cnc::layout::{Field, Stream};

@@ -1,11 +1,8 @@
 //! The field table of every stream, and a walk over a stream's bytes by its table.
 //!
-//! From the same table come the fields that an [`Error`](crate::Error) names, the byte tables of the
-//! documentation, the annotation of bytes in tools, and generated field defects.
-//!
-//! IDs such as VAR-9 are requirements: the catalogue in the crate `ads-cnc-vectors` has the text of
-//! each, with its sections in both editions. IDs such as E-17 are errata: see
-//! [`errata`](crate::errata).
+//! An [`Error`](crate::Error) names the fields of these tables, and the documentation of each stream shows
+//! its table. A tool can explain the bytes of any stream by its table, as the example does. IDs such as VAR-9
+//! are explained on the [front page](crate#ids).
 //!
 //! ```
 //! use ads_cnc::layout::Stream;

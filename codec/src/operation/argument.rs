@@ -19,6 +19,8 @@ use crate::variable::{ValueRef, VariablePath};
 /// `&String`; [`CncStr`], [`TextRef`], [`VariablePath`] and, with `alloc`, `&CncString` and `&Text`.
 /// Nothing is copied.
 ///
+/// The syntax is not checked: any CP1252 text is a name. [`VariablePath::new`] checks it.
+///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
 ///
 /// ```
@@ -81,9 +83,15 @@ impl<'a> IntoName<'a> for &'a Text {
 
 /// A value to write: a number, a `bool`, or the bytes of a value.
 ///
+/// **The Rust type determines the bytes.** Neither this crate nor the CNC can tell whether they are of the
+/// type of the variable: `7_f32` for an SGN32 writes 1 088 421 888. [`Shape::encode`] of the variable's
+/// description rejects a value of another type or size.
+///
 /// An array or a text is first encoded into a buffer of the caller, by
 /// [`EncodeValue`](crate::value::EncodeValue). Bytes are a slice or a vector, not an array: `&[1, 2]` would be
 /// two bytes, whatever the type of the variable, and does not compile.
+///
+/// [`Shape::encode`]: crate::value::Shape::encode
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
 ///

@@ -162,8 +162,8 @@ pub trait Operation: sealed::Sealed {
 /// constructor's argument, the conversion of the argument to the field and of the field to the stream,
 /// and the documentation. The first lines document the errors of the constructors.
 macro_rules! field {
-    (errors Name)    => { "Those of [`IntoName::into_name`]." };
-    (errors CStringPrefix) => { "Those of [`IntoName::into_name`]." };
+    (errors Name)    => { "Those of [`IntoName::into_name`]. [`encode`](Operation::encode) checks the length of the name." };
+    (errors CStringPrefix) => { field!(errors Name) };
     (errors NonZero) => { "[`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for the index 0." };
     (errors $kind:ident) => { "" };
     ($q:ident Channel $($i:ident)?)    => { field!(@$q [Channel] [Channel] [$($i)?] [$($i)?] "The channel.") };
@@ -260,7 +260,7 @@ macro_rules! operation {
     ) => {
         documented! { $function
             ///
-            /// | ADS service | task | index groups | index offsets | section in `ads-en` 1.05 and `ads-de` 1.051 | requirement |
+            /// | ADS service | task | index groups: [`GroupRule`] | index offsets: [`OffsetRule`] | section in `ads-en` 1.05 and `ads-de` 1.051 | requirement |
             /// |---|---|---|---|---|---|
             #[doc = concat!(
                 "| ", stringify!($service), " | ", stringify!($task), " | `", stringify!($group), "` | `",

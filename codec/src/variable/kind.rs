@@ -54,6 +54,9 @@ impl<'a> Kind<'a> {
 
     /// The kind of this name.
     ///
+    /// The syntax is not checked; [`VariablePath::new`](crate::VariablePath::new) checks that of the kind in a
+    /// whole name.
+    ///
     /// # Errors
     /// Those of [`CncStr::new`].
     pub fn new(text: &'a str) -> Result<Self, Error> {
