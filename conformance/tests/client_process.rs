@@ -51,7 +51,11 @@ fn one_that_does_not_begin_is_told_shortly() {
     let hello = r#"{"protocol":1,"client":{"name":"x"},"actions":["read-by-nam"]}"#;
     for (option, command, parts) in [
         ("--client", format!("echo '{hello}'"), ["\"read-by-nam\"", "did you mean read-by-name"]),
-        ("--client", "echo gone >&2; exit 7".to_owned(), ["exit status: 7", "its stderr ends with: \"gone\""]),
+        (
+            "--client",
+            "echo gone >&2; exit 7".to_owned(),
+            ["exit status: 7", "its stderr ends with: \"gone\""],
+        ),
         ("--testee", "echo gone >&2; exit 7".to_owned(), ["exit status: 7", "--check-protocol"]),
     ] {
         let output = ads_cnc(&["run", option, &command]);
