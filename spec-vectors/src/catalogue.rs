@@ -224,7 +224,8 @@ pub struct Assumption {
 pub enum About {
     /// How texts end: whether a NUL ends them, and what follows it. Characters do not rest on it.
     End,
-    /// Whether the bytes are accepted at all. The value of bytes that are accepted does not rest on it.
+    /// Whether the bytes are accepted, and how many are written for a value: a number may have another width.
+    /// The value of bytes that are accepted does not rest on it.
     Acceptance,
 }
 

@@ -385,7 +385,16 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
         }
         (None, None) => false,
     };
-    if is_about(None) || is_about(Some(About::End)) && has_other_end() {
+    // A number of another width has other bytes in another number.
+    let has_other_length = || {
+        let same =
+            |bytes: &Vec<u8>| forms(vector, accept).iter().any(|one| one.len() == bytes.len());
+        output.hex.as_ref().is_some_and(|bytes| !same(bytes))
+    };
+    if is_about(None)
+        || is_about(Some(About::End)) && has_other_end()
+        || is_about(Some(About::Acceptance)) && has_other_length()
+    {
         Level::Info
     } else if is_about(Some(About::Acceptance)) || is_about(Some(About::End)) {
         vector.stated_level()
