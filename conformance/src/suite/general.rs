@@ -113,9 +113,9 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
         probe.check(GEN_6, none, "no decoder of a channel 0", found);
     }
     if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
-        // `None`: elements are not claimed.
-        if let Some(zero) = find(probe, Class::Spindle, 0)? {
-            let there = zero != ObjectAddress::NONE;
+        // Not applicable if elements are not claimed.
+        if let Some(zero) = probe.address_of(Class::Spindle, 0, 0).if_applicable()? {
+            let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
             let found = || format!("{zero:?}");
             probe.check([GEN_6, ADR_2], there, "a first spindle with the index 0", found);
         }
