@@ -12,10 +12,10 @@ use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
 use ads_cnc_conformance::net;
-#[cfg(unix)]
 use ads_cnc_conformance::simulator::program::service::{
     CallStep, ServiceCall, ServiceInterface, SysServiceWait,
 };
+#[cfg(unix)]
 use ads_cnc_conformance::simulator::program::{Script, ScriptConfig};
 use ads_cnc_conformance::simulator::{Cnc, Server};
 use common::file::TestFile;
