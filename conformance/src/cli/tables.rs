@@ -54,7 +54,7 @@ impl TablesArguments {
         let tables = Tables::new();
         let shown = show(|out| match (self.json, self.ksy) {
             (true, _) => crate::text::json::write(&tables, out),
-            (false, true) => out.write_all(tables::description(&tables).as_bytes()),
+            (false, true) => out.write_all(tables::kaitai_struct(&tables).as_bytes()),
             (false, false) => print(&tables, out),
         });
         shown.map_or_else(lost, |()| Exit::Success)

@@ -22,7 +22,7 @@ doc: |
 ///
 /// Each type checks its maximum length and that no bytes follow. Kaitai Struct does not express which
 /// values belong together, such as the size of a variable with its dimensions.
-pub fn description(tables: &Tables) -> String {
+pub fn kaitai_struct(tables: &Tables) -> String {
     let mut out = HEAD.replace("@VERSION@", tables.version);
     // Writing to a string does not fail.
     let _written = write(tables, &mut out);

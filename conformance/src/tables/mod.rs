@@ -22,7 +22,7 @@ use ads_cnc::layout::{FieldSpec, Layout, Size, Stream};
 use ads_cnc::operation::{Effect, Function, GroupRule, OffsetRule};
 use serde::Serialize;
 
-pub use kaitai::description;
+pub use kaitai::kaitai_struct;
 pub use wireshark::dissector;
 
 /// All tables.
