@@ -24,7 +24,7 @@ use ads_cnc_vectors::{Given, Requirement, errata, requirements, sequences, vecto
 use serde::Serialize;
 
 use crate::clients;
-use crate::judge::Needs;
+use crate::judge::{Case, Needs};
 use crate::rules::captured_cases;
 use crate::suite;
 use crate::text::wrap;
@@ -88,15 +88,21 @@ pub struct RulingRow {
     pub ruling: String,
 }
 
-/// All requirements in the catalogue's order.
-pub fn matrix() -> Vec<RequirementRow> {
+/// The cases of the suite, of clients' scenarios and of captured traffic.
+pub(crate) fn cases() -> Vec<Case> {
     let mut cases = suite::cases();
     cases.extend(clients::scenarios().iter().map(clients::Scenario::case));
     cases.extend(captured_cases());
+    cases
+}
+
+/// All requirements in the catalogue's order.
+pub fn matrix() -> Vec<RequirementRow> {
+    let cases = cases();
     requirements().iter().map(|requirement| row(requirement, &cases)).collect()
 }
 
-fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> RequirementRow {
+fn row(requirement: &Requirement, cases: &[Case]) -> RequirementRow {
     let id = requirement.id.as_str();
     let (mut accepted, mut rejected) = (Vec::new(), Vec::new());
     let (mut streams, mut names) = (BTreeSet::new(), BTreeSet::new());

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use ads_cnc::ads::AmsNetId;
 
-use super::ethercat::AmsFrame;
 use super::frames::{Span, is_reply};
+use super::link::AmsFrame;
 use super::table::{CONNECTIONS_MAX, ConnectionEvent, Ending, SegmentDirection};
 use super::tcp::Mark;
 

@@ -124,7 +124,7 @@ pub(super) fn packets(
 
 /// A reader that fills the whole buffer unless the file ends, because the parser takes a short read
 /// for the end.
-struct FullReader<R>(R);
+pub(super) struct FullReader<R>(pub(super) R);
 
 impl<R: Read> Read for FullReader<R> {
     fn read(&mut self, buf: &mut [u8]) -> std::io::Result<usize> {

@@ -2,12 +2,19 @@
 
 use std::net::{IpAddr, SocketAddr};
 
+use ads_cnc::Decode as _;
+use ads_cnc::ads::AmsHeader;
+use ads_cnc::limits::AMS_HEADER_LEN;
 use etherparse::{EtherType, LaxNetSlice, LaxSlicedPacket, TransportSlice};
 use pcap_parser::Linktype;
 
 use super::endpoint::Endpoint;
-use super::ethercat::{self, AmsFrame, EtherCatContent};
 use super::file::Packet;
+
+/// The EtherType of EtherCAT, and the type of EtherCAT frames with AMS frames, in the upper four bits of
+/// their header.
+const ETHERCAT: u16 = 0x88A4;
+const AMS_TYPE: u16 = 2;
 
 /// A TCP segment.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +29,17 @@ pub(super) struct TcpSegment<'p> {
     pub(super) payload: &'p [u8],
     /// Bytes of the payload that were not captured.
     pub(super) missing: usize,
+}
+
+/// An AMS frame in an EtherCAT frame, the form in which Beckhoff's ADS Monitor records what the AMS router
+/// of a PC passes on: one to a packet, in the order in which the router saw them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AmsFrame<'p> {
+    pub(super) header: AmsHeader,
+    /// The header and the data, as far as they were captured.
+    pub(super) bytes: &'p [u8],
+    /// Whether the frame ends before the end that its header gives.
+    pub(super) is_cut: bool,
 }
 
 /// The content of a packet.
@@ -62,15 +80,26 @@ pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     };
     let Some(read) = read else { return PacketContent::Unreadable };
     match read.ether_payload() {
-        Some(payload) if payload.ether_type.0 == ethercat::ETHER_TYPE => {
-            match EtherCatContent::of(payload.payload) {
-                EtherCatContent::Ams(frame) => PacketContent::Ams(frame),
-                EtherCatContent::Other => PacketContent::Other,
-                EtherCatContent::Unreadable => PacketContent::Unreadable,
-            }
-        }
+        Some(payload) if payload.ether_type.0 == ETHERCAT => of_ethercat(payload.payload),
         _ => of_ip(&read, packet.missing),
     }
+}
+
+/// The length in the AMS header decides: that of the EtherCAT header has only 11 bits, and short Ethernet
+/// frames are padded.
+fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
+    let Some((kind, bytes)) = payload.split_first_chunk() else {
+        return PacketContent::Unreadable;
+    };
+    // Process data, or another type.
+    if u16::from_le_bytes(*kind) >> 12 != AMS_TYPE {
+        return PacketContent::Other;
+    }
+    let header = bytes.get(..AMS_HEADER_LEN).map(AmsHeader::decode);
+    let Some(Ok(header)) = header else { return PacketContent::Unreadable };
+    let length = usize::try_from(header.data_length).unwrap_or(usize::MAX);
+    let whole = bytes.get(..length.saturating_add(AMS_HEADER_LEN));
+    PacketContent::Ams(AmsFrame { header, bytes: whole.unwrap_or(bytes), is_cut: whole.is_none() })
 }
 
 fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {

@@ -3,7 +3,7 @@
 //! | step | where |
 //! |---|---|
 //! | packets out of pcap and pcapng, or NetMon 2.x | `file`, `netmon` |
-//! | TCP segments, or AMS frames in EtherCAT frames, out of packets | `link`, `ethercat` |
+//! | TCP segments, or AMS frames in EtherCAT frames, out of packets | `link` |
 //! | TCP reassembly | `tcp`, `table` |
 //! | AMS frames | `frames`, `ams_clients` |
 //! | requests paired with their replies and judged | `judge` |
@@ -24,7 +24,6 @@
 
 mod ams_clients;
 mod endpoint;
-mod ethercat;
 mod file;
 mod frame;
 mod frames;

@@ -23,12 +23,11 @@
 //! The frame table has the offset of each packet. Packets are read in the order of the file, since
 //! the input need not be seekable, and compared with the frame table at the end.
 
-use std::io::{ErrorKind, Read};
-use std::time::Duration;
+use std::io::Read;
 
 use pcap_parser::Linktype;
 
-use super::file::{FileEnd, FileError, Packet, RECORD_MAX};
+use super::file::{FileEnd, FileError, FullReader, Packet, RECORD_MAX};
 use super::time::Time;
 use crate::text::Moment;
 
@@ -48,6 +47,9 @@ const TABLES_END: usize = 72;
 /// Added to the numbers of link types that are not read.
 const NETMON_LINKS: i32 = 0x1_0000;
 
+/// Units of time in a second.
+const MICROSECONDS: u64 = 1_000_000;
+
 /// Bytes of the frame table that are read at once.
 const TABLE_CHUNK: usize = 4096;
 
@@ -56,7 +58,7 @@ pub(super) fn packets(
     input: impl Read,
     mut each: impl FnMut(Packet<'_>),
 ) -> Result<FileEnd, FileError> {
-    let mut input = Input { input, offset: 4 };
+    let mut input = Input { input: FullReader(input), offset: 4 };
     let Some(header) = input.header()? else {
         return Ok(FileEnd::Cut("it ends in the header of the file".to_owned()));
     };
@@ -111,27 +113,17 @@ struct Header {
 }
 
 struct Input<R> {
-    input: R,
+    input: FullReader<R>,
     /// Number of bytes read.
     offset: u64,
 }
 
 impl<R: Read> Input<R> {
     /// Reads until the buffer is full or the file ends; returns whether it is full.
-    fn fill(&mut self, mut buf: &mut [u8]) -> std::io::Result<bool> {
-        while !buf.is_empty() {
-            match self.input.read(buf) {
-                Ok(0) => return Ok(false),
-                Ok(read) => {
-                    self.offset =
-                        self.offset.saturating_add(u64::try_from(read).unwrap_or(u64::MAX));
-                    buf = buf.get_mut(read..).unwrap_or_default();
-                }
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
-            }
-        }
-        Ok(true)
+    fn fill(&mut self, buf: &mut [u8]) -> std::io::Result<bool> {
+        let read = self.input.read(buf)?;
+        self.offset = self.offset.saturating_add(u64::try_from(read).unwrap_or(u64::MAX));
+        Ok(read == buf.len())
     }
 
     /// The header of the file; `None` if the file ends in it.
@@ -189,10 +181,8 @@ impl<R: Read> Input<R> {
         cut(self.fill(trailer))?;
         let link = if trailer.is_empty() { header.link } else { word(trailer, 0) };
         let micros = u64::from(long(&about, 0)) | u64::from(long(&about, 4)) << 32;
-        let time = header.begin.and_then(|begin| begin.seconds()).map(|begin| {
-            let begin = Duration::from_secs(begin);
-            Time::of_duration(begin.saturating_add(Duration::from_micros(micros)))
-        });
+        let begin = header.begin.map(Moment::seconds);
+        let time = begin.map(|begin| Time::of_units(micros, MICROSECONDS, begin));
         let original = usize::try_from(long(&about, 8)).unwrap_or(usize::MAX);
         Ok((time, link_type(link), original))
     }

@@ -181,25 +181,26 @@ const FIELD_MAX: usize = 64;
 fn asked(exchange: &Exchange) -> String {
     let call = exchange.call();
     let (function, fault) = match call.dispatch() {
-        Ok(request) => (Some(request.function()), None),
+        Ok(request) => (request.function(), String::new()),
         Err(refusal) => {
             let function = function_at(&call);
-            (function, function.and_then(|function| mistake(function, &call, &refusal)))
+            let fault = function.and_then(|function| mistake(function, &call, &refusal));
+            let Some((function, fault)) = function.zip(fault) else {
+                return format!("not documented: {exchange}");
+            };
+            (function, format!(", {fault}"))
         }
     };
-    let Some(spec) = function.filter(|_| fault.is_some() || call.dispatch().is_ok()) else {
-        return format!("not documented: {exchange}");
-    };
-    let spec = spec.spec();
+    let spec = function.spec();
     let mut fields = Vec::new();
     if let Some(stream) = spec.request {
-        // A fault is told by `mistake`.
+        // `mistake` has named a fault.
         let _fault = stream.walk(call.data, |segment| {
             if fields.len() < FIELDS_MAX {
                 fields.extend(shown(segment.field.name(), segment.bytes));
             }
         });
-        // A name without its NUL is a name to a reader.
+        // `walk` stops at a name without its NUL, which is shown all the same.
         let first = stream.layout().fields.first().map_or("", |field| field.name);
         if fields.is_empty() && first == "name" {
             fields.extend(shown(first, call.data));
@@ -209,12 +210,11 @@ fn asked(exchange: &Exchange) -> String {
         let Exchange { index_group, index_offset, .. } = exchange;
         fields.push(format!("{index_group}, {index_offset}"));
     }
-    let fault = fault.map_or_else(String::new, |fault| format!(", {fault}"));
     let title = spec.name.trim_end_matches(" by index");
     format!("{title} {}{fault}", fields.join(", "))
 }
 
-/// A field of a request that tells what it is about; `None` for others.
+/// A field that identifies the object of a request; `None` for other fields.
 fn shown(field: &str, bytes: &[u8]) -> Option<String> {
     match (field, <[u8; 4]>::try_from(bytes)) {
         ("name" | "kind", _) => {
@@ -229,7 +229,7 @@ fn shown(field: &str, bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// What is wrong with the call of a function; `None` if the function is not meant.
+/// What is wrong with the call of a function; `None` if the call may not be of this function.
 fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Option<String> {
     let spec = function.spec();
     let is_com = |port: AmsPort| port == AmsPort::COM;

@@ -21,10 +21,6 @@ impl Time {
         Self(Duration::from_secs(seconds).saturating_add(part(rest, resolution)))
     }
 
-    pub(super) const fn of_duration(since_1970: Duration) -> Self {
-        Self(since_1970)
-    }
-
     pub(super) const fn since_1970(self) -> Duration {
         self.0
     }

@@ -168,8 +168,7 @@ impl Browse {
     fn other_channels(&self, session: &mut Session, found: &WalkResult) -> Option<String> {
         // The channel of something that was found is there.
         let is_found = |channel: &Channel| {
-            let list = format!(" channel {} ", channel.number());
-            found.objects.iter().any(|object| format!("{} ", object.list).contains(&list))
+            found.objects.iter().any(|object| object.list.channel() == Some(channel.number()))
         };
         if self.channel.is_empty() || session.is_dry() || self.channel.iter().any(is_found) {
             return None;

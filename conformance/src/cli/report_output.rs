@@ -7,11 +7,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::message::print_error;
-use crate::clients::{self, Scenario};
+use crate::clients;
 use crate::judge::{Exit, Waivers};
+use crate::matrix;
 use crate::report::{self, Report};
-use crate::rules::captured_cases;
-use crate::suite;
 use crate::text::{did_you_mean, utf8};
 
 /// The heading of these options in the help.
@@ -193,10 +192,7 @@ fn waivers(file: &Path) -> Result<Waivers, String> {
     let bytes = fs::read(file).map_err(|error| error.to_string());
     let text = bytes.and_then(utf8).map_err(|why| format!("{}: {why}", file.display()))?;
     let waivers = Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())?;
-    let scenarios = clients::scenarios();
-    let of_clients = scenarios.iter().map(Scenario::case);
-    let of_clients = of_clients.chain([clients::requests_case()]);
-    let cases = suite::cases().into_iter().chain(of_clients).chain(captured_cases());
+    let cases = matrix::cases().into_iter().chain([clients::requests_case()]);
     let known: Vec<String> = cases.map(|case| case.id).collect();
     if let Some(id) = waivers.cases().find(|id| known.iter().all(|known| known != id)) {
         let near = did_you_mean(id, known.iter().map(String::as_str));

@@ -43,6 +43,18 @@ pub enum List {
 }
 
 impl List {
+    /// The number of the channel whose list it is, or of whose axes.
+    pub(crate) fn channel(&self) -> Option<u8> {
+        match *self {
+            // The channel of a spindle is its index.
+            Self::Platform | Self::Axis(_) | Self::Class { class: Class::Spindle, .. } => None,
+            Self::Class { channel, .. } => channel,
+            Self::Channel(channel)
+            | Self::Variables { channel, .. }
+            | Self::Parameters { channel, .. } => Some(channel),
+        }
+    }
+
     /// The elements of an instance, by the channel and the axis of its request.
     pub(crate) fn of_instance(class: Class, channel: u32, axis: u32) -> Self {
         let is_of_channel = class == Class::Spindle || channel > 0;

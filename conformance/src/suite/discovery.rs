@@ -14,7 +14,7 @@ use super::kit::{
 use crate::client::InquiryReply;
 use crate::edition::Edition;
 use crate::judge::{IfPresent as _, Step, Stop};
-use crate::objects::{Walker, active_channels, decoder_of, has_variables};
+use crate::objects::{List, Walker, active_channels, decoder_of, has_variables};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// Who says which parts of the target are judged.
@@ -100,7 +100,7 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let profile = &probe.target.profile;
     found.platform_axes = match by {
         ClaimsBy::Queries => profile.platform_axes,
-        // The claim is no finding; more requests would not make it one that other cases need.
+        // A claim is not a finding, and no case needs the requests that would find the axes.
         ClaimsBy::Profile => controlled_axes(&instances),
     };
     if by == ClaimsBy::Profile {
@@ -112,10 +112,10 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let lists = Counted::all(probe)?;
     if by == ClaimsBy::Profile {
         let answers = |number: u32| {
-            let listed = |(list, _): &(Counted, u32)| list.channel() == Some(number);
-            // The channel of a spindle is its index.
-            let mut placed = instances.iter().filter(|one| one.class != Class::Spindle);
-            lists.iter().any(listed) || placed.any(|one| one.channel == number)
+            let placed =
+                instances.iter().map(|one| List::of_instance(one.class, one.channel, one.axis));
+            let mut all = placed.chain(lists.iter().map(|(list, _)| list.list()));
+            all.any(|list| list.channel().is_some_and(|channel| u32::from(channel) == number))
         };
         let numbers = found.channels.iter().map(|channel| channel.number);
         found.silent_channels = numbers.filter(|number| !answers(*number)).collect();

@@ -4,6 +4,7 @@ use ads_cnc_vectors::{Fields, Tagged, Type, Value};
 use serde_json::Value as Json;
 
 use crate::text::hex::compact;
+use crate::values::until_nul;
 
 /// A difference between values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -163,8 +164,7 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
 fn has_other_end(meant: &Tagged, given: Option<&str>) -> bool {
     let meant_text = meant.hex.as_deref().unwrap_or_default();
     let Some(Ok(given)) = given.map(compact::parse) else { return false };
-    let to_nul = |bytes: &[u8]| bytes.split(|byte| *byte == 0).next().map(<[u8]>::to_vec);
-    to_nul(&given) == to_nul(meant_text)
+    until_nul(&given) == until_nul(meant_text)
         || meant.open && meant_text.split_last().is_some_and(|(_, most)| most == given)
 }
 

@@ -15,6 +15,7 @@ use crate::codec::message::{Answer, Output, Question, TesteeHello};
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Describe, Record, Rule, Stop, Verdict};
 use crate::show::show;
 use crate::text::hex::compact;
+use crate::values::until_nul;
 
 /// The conditions of a judgement.
 #[derive(Clone, Copy, Debug)]
@@ -420,8 +421,7 @@ fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
         let Some((part, left)) = rest.split_at_checked(segment.bytes.len()) else { return };
         rest = left;
         let is_text = segment.field.spec().is_some_and(|row| row.ty == Type::String);
-        let to_nul = |bytes: &[u8]| bytes.split(|byte| *byte == 0).next().map(<[u8]>::to_vec);
-        is_same &= part == segment.bytes || is_text && to_nul(part) == to_nul(segment.bytes);
+        is_same &= part == segment.bytes || is_text && until_nul(part) == until_nul(segment.bytes);
     });
     walked.is_ok() && is_same
 }

@@ -43,9 +43,9 @@ impl Moment {
         Self::from_datetime(text.parse().ok()?)
     }
 
-    /// Whole seconds since 1970, if not before.
-    pub(crate) fn seconds(self) -> Option<u64> {
-        u64::try_from(self.0).ok()
+    /// Seconds since 1970.
+    pub(crate) const fn seconds(self) -> i64 {
+        self.0
     }
 
     /// The beginning of a day in UTC.

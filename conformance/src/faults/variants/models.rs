@@ -1,6 +1,6 @@
 //! Valid variants with other models: channels, axes, objects and variables.
 
-use super::row::unprinted;
+use super::row::{unprinted, with_names};
 use crate::faults::cnc::{CncFault, CncSeed, fault};
 
 #[rustfmt::skip]
@@ -19,7 +19,8 @@ const fn model(id: &'static str, what: &'static str, model: &'static str) -> Cnc
 
 /// A CNC of an old version with few features: no axis, no writable object, no streaming, no Service
 /// Interface.
-const BARE: &str = r#"
+const BARE: &str = with_names!(
+    r#"
 cnc-version = "V2.11.2010.0"
 
 [[channel]]
@@ -34,24 +35,14 @@ name = "LR {}"
 name = "IPO {}"
 [class.interpolator.axis]
 name = "IPO axis {}"
-[class.decoder.channel]
-name = "SDA {}"
-[class.decoder.axis]
-name = "SDA axis {}"
-[class.hld.channel]
-name = "HLD {}"
-[class.hld.axis]
-name = "HLD axis {}"
-[class.path-preparation.channel]
-name = "BV {}"
-[class.path-preparation.axis]
-name = "BV axis {}"
 [class.spindle.each]
 name = "S {}"
-"#;
+"#
+);
 
 /// A CNC whose first channel is not channel 1, which the manuals name for the objects of the platform.
-const THIRD: &str = r#"
+const THIRD: &str = with_names!(
+    r#"
 [platform]
 objects = [{ name = "cycle", type = "DWORD", offset = 0x251, value = 1000 }]
 
@@ -69,22 +60,12 @@ name = "LR {}"
 name = "IPO {}"
 [class.interpolator.axis]
 name = "IPO axis {}"
-[class.decoder.channel]
-name = "SDA {}"
-[class.decoder.axis]
-name = "SDA axis {}"
-[class.hld.channel]
-name = "HLD {}"
-[class.hld.axis]
-name = "HLD axis {}"
-[class.path-preparation.channel]
-name = "BV {}"
-[class.path-preparation.axis]
-name = "BV axis {}"
-"#;
+"#
+);
 
 /// A CNC with more of everything than usual, in another order.
-const MANY: &str = r#"
+const MANY: &str = with_names!(
+    r#"
 spindles = 3
 
 [[axis]]
@@ -157,19 +138,8 @@ name = "spindle {}"
 elements = [{ name = "speed", type = "REAL32", unit = "1/min" }]
 [class.position-controller.axis]
 name = "LR {}"
-[class.decoder.channel]
-name = "SDA {}"
-[class.decoder.axis]
-name = "SDA axis {}"
-[class.hld.channel]
-name = "HLD {}"
-[class.hld.axis]
-name = "HLD axis {}"
-[class.path-preparation.channel]
-name = "BV {}"
-[class.path-preparation.axis]
-name = "BV axis {}"
-"#;
+"#
+);
 
 /// A small CNC.
 const MODEL: &str = r#"

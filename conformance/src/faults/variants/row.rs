@@ -17,3 +17,27 @@ pub(super) const fn sent(
 ) -> CncSeed {
     fault(id, &[], what, CncFault::Frame(frame))
 }
+
+/// The text of a model, with the names of the instances of classes without elements at its end.
+macro_rules! with_names {
+    ($model:literal) => {
+        concat!(
+            $model,
+            r#"
+[class.decoder.channel]
+name = "SDA {}"
+[class.decoder.axis]
+name = "SDA axis {}"
+[class.hld.channel]
+name = "HLD {}"
+[class.hld.axis]
+name = "HLD axis {}"
+[class.path-preparation.channel]
+name = "BV {}"
+[class.path-preparation.axis]
+name = "BV axis {}"
+"#
+        )
+    };
+}
+pub(super) use with_names;

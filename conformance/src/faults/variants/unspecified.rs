@@ -3,7 +3,7 @@
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::row::{sent, unprinted};
+use super::row::{sent, unprinted, with_names};
 use crate::faults::cnc::{
     CncFault, CncSeed, NAMED, ReplyData, Upstream, after_nul, dimensions, fault, function, group,
     is, measured, offset, on, records_mut, row, set_u32, text, u32_at,
@@ -192,7 +192,8 @@ pub(super) const ROWS: &[CncSeed] = &[
 ];
 
 /// A CNC with maximum numbers.
-const NUMBERS: &str = r#"
+const NUMBERS: &str = with_names!(
+    r#"
 cnc-version = "V3.1.3100.0"
 edition = "de-1.051"
 spindles = 5
@@ -246,22 +247,11 @@ name = "IPO {}"
 [class.interpolator.axis]
 name = "IPO axis {}"
 elements = [{ name = "distance", type = "REAL64", unit = "mm" }]
-[class.decoder.channel]
-name = "SDA {}"
-[class.decoder.axis]
-name = "SDA axis {}"
-[class.hld.channel]
-name = "HLD {}"
-[class.hld.axis]
-name = "HLD axis {}"
-[class.path-preparation.channel]
-name = "BV {}"
-[class.path-preparation.axis]
-name = "BV axis {}"
 [class.position-controller.axis]
 name = "LR {}"
 elements = [{ name = "number", type = "UNS16", unit = "-", is = "axis-number" }]
 [class.spindle.each]
 name = "S {}"
 elements = [{ name = "speed", type = "REAL32", unit = "1/min", values = [1.0, 2.0, 3.0, 4.0, 5.0] }]
-"#;
+"#
+);

@@ -57,17 +57,6 @@ impl Counted {
         }
     }
 
-    /// The number of the channel whose objects, variables or parameters it has.
-    pub(crate) fn channel(&self) -> Option<u32> {
-        match self.list() {
-            List::Channel(number) => Some(number.into()),
-            List::Variables { channel, .. } | List::Parameters { channel, .. } => {
-                Some(channel.into())
-            }
-            List::Platform | List::Axis(_) | List::Class { .. } => None,
-        }
-    }
-
     /// The name of the list.
     pub(crate) fn list(&self) -> List {
         match *self {
