@@ -248,7 +248,7 @@ impl CheckArguments {
         let display = self.display.display();
         self.reports.write(report, |out| {
             if display.detail == Detail::Quiet {
-                // A verdict on half a conversation must not be taken for one on the whole.
+                // A pass says nothing about the part that was not captured.
                 let missing = checked.tally.missing().into_iter().chain(unjudged(report));
                 missing.into_iter().try_for_each(|line| writeln!(out, "note: {line}"))?;
                 return report::print(report, display, out);

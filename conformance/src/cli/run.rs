@@ -313,7 +313,7 @@ impl Run {
             }
             Err(Stopped::Target(error)) => {
                 print_error(&error);
-                // Nobody takes the report of an earlier run for that of this one.
+                // The report of an earlier run could be taken for that of this run.
                 if !matches!(error, ToolError::NotSent) {
                     self.reports.remove();
                 }
@@ -407,7 +407,7 @@ impl Run {
             unmet.map(|(_, why)| why.to_owned())
         };
         let mut listed = list::of_plan(&plan, unmet);
-        // Whoever gives no seed asks for no order.
+        // Without a seed the order is arbitrary.
         if self.seed.is_none() {
             list::sort(&mut listed);
         }

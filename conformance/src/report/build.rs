@@ -121,8 +121,8 @@ impl Report {
         .escaped()
     }
 
-    /// Adds what of the file of `--allow-write` was rejected, and what was written. Whoever asks for
-    /// writes that are not tried must not take the exit code for that of tried ones.
+    /// Adds the rejected entries of the file of `--allow-write`, and the names of written values. With a
+    /// rejected entry the run does not end with success: a write that was asked for was not tried.
     #[must_use]
     pub fn with_writes(mut self, rejected: Vec<String>, written: Vec<String>) -> Self {
         let decided = [Exit::Internal, Exit::LeftChanged, Exit::Usage].contains(&self.exit());

@@ -102,8 +102,8 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Writes what has changed since an earlier report, what fails newly last. Returns the exit code: what
-/// fails newly decides, then what is no longer judged.
+/// Writes what has changed since an earlier report, new failures last. Returns the exit code:
+/// [`Exit::Failure`] for a new failure, else [`Exit::Nothing`] for a requirement that is no longer judged.
 pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result<Exit> {
     let warnings = differences(now, before);
     let (new, old) = (judged(now), judged(before));

@@ -1,5 +1,5 @@
-//! Compares the names in the file of `--allow-write` with what the target has, after the cases: a
-//! misspelt name would otherwise be a write that nobody misses.
+//! Looks up the names in the file of `--allow-write` on the target, after the cases: the cases skip a name
+//! that the target does not have, so a misspelt one would go unnoticed.
 
 use ads_cnc::address::{Addressing, Attribute, Channel, ClassGroup, ElementAddress, Group};
 use ads_cnc::operation::ReadElementWriteFlag;
@@ -11,16 +11,16 @@ use crate::gate::{AllowedList, Entry};
 use crate::judge::{IfPresent as _, Step};
 use crate::objects::{List, ReportedAccess, ValueAddress};
 
-/// What the file names and cannot be written.
+/// The names in the file that cannot be written.
 #[derive(Clone, Debug, Default)]
 pub struct Unwritable {
-    /// What the target does not have.
+    /// Those that the target does not have.
     pub absent: Vec<String>,
-    /// What is read-only: only that a write of it is rejected can be tried.
+    /// Read-only ones: the suite checks that writes to them are rejected.
     pub read_only: Vec<String>,
 }
 
-/// What an entry names.
+/// What the target has under the name of an entry.
 enum Named {
     Writable,
     ReadOnly,
@@ -35,7 +35,7 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let deadline = target.deadline;
     let mut probe = Probe::new(target).with_deadline(deadline);
     for entry in entries {
-        // Who has stopped answering says nothing of the other names either.
+        // A target that has stopped answering tells nothing about the other names.
         let Ok(named) = look_up(&mut probe, &entry) else { break };
         if probe.target.gone.is_some() {
             break;

@@ -49,7 +49,7 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        // What was found is no claim of anybody.
+        // Without a profile nothing is claimed.
         let name = self.profile.is_none().then_some("none (judged by what was found)".into());
         let profile = Profile { name: name.unwrap_or(profile.name), ..profile };
         let session = TargetState::new(client, profile);

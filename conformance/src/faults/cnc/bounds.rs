@@ -72,7 +72,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             if indices.is_empty() { cnc.answer(call) } else { cnc.with(call, &with_indices(name, &indices)) }
         }),
     row("cnc.var.write-2048", &[VAR_12, VAR_13],
-        "a write of 2048 bytes, with what stands in front of the value, is rejected",
+        "a write of 2048 bytes, those before the value included, is rejected",
         |cnc, call| if is(call, &[Function::WriteByHandle, Function::WriteByName])
             && call.data.len() == 2048 {
             Err(AdsError::INVALID_SIZE)
@@ -85,7 +85,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.write-name-of-255", &[VAR_13],
-        "a value that stands after the longest name, at the offset 256, is rejected",
+        "a value after the longest name, at offset 256, is rejected",
         |cnc, call| if is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
             Err(AdsError::INVALID_SIZE)
         } else {

@@ -47,7 +47,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.with(call, &[call.data, &[0]].concat())
         }),
     row("cnc.var.name-one-character", &[VAR_9],
-        "a name that is not there stands for one with a character less",
+        "an absent name is answered as the name with one character less",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),
@@ -122,7 +122,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             }
             _ => cnc.answer(call),
         })),
-    row("cnc.var.structure-answered", &[VAR_20], "the name of a structure stands for its first element",
+    row("cnc.var.structure-answered", &[VAR_20], "the name of a structure is answered as its first element",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),

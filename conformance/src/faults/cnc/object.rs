@@ -84,7 +84,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)
         }),
     row("cnc.com.axis-not-in-offset", &[COM_6],
-        "a platform axis stands in the group only: (0x120200, 0x10001) is rejected",
+        "a platform axis is addressed by the group only: (0x120200, 0x10001) is rejected",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Axis && com.instance == 0 => {
                 Err(AdsError::INVALID_OFFSET)

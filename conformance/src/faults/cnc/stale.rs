@@ -140,8 +140,8 @@ pub(super) const ROWS: &[CncSeed] = &[
             within_length(call, Ok(kept))
         }),
     row("cnc.var.handle-slots", &[VAR_10],
-        "16 handles are known at a time: the one after takes the place of the oldest, whose number \
-         then stands for its variable",
+        "16 handles are known at a time: one more replaces the oldest, whose number is then a handle \
+         of its variable",
         slots),
     row("cnc.var.handle-channel-of-last", &[VAR_10, VAR_11],
         "a handle is looked for in the channel in which a handle was last asked for",
@@ -190,8 +190,8 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => bytes,
         }),
     sent("cnc.ads.refused-data-length", &[ADS_5],
-        "the data length of a refused Read or ReadWrite counts the result alone, and not the length \
-         behind it",
+        "the data length of a rejected Read or ReadWrite counts the result alone, and not the length \
+         after it",
         |_, request, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) if !frame::is(request, &[Command::WRITE]) && bytes.len() > LENGTH => {
                 set(bytes, frame::DATA_LENGTH, &[4, 0, 0, 0])

@@ -114,7 +114,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 cnc.with(call, &[head, text, rest].concat())
             }
         }),
-    row("cnc.var.extended-swapped", &[VAR_15], "validity stands before synchronisation",
+    row("cnc.var.extended-swapped", &[VAR_15], "validity comes before synchronisation",
         |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
             if bytes.len() == 8 {
                 bytes.rotate_left(4);
