@@ -62,120 +62,129 @@ macro_rules! targets {
 
 targets! {
     ADS_BYTES: "ads_bytes", |data, defect| bytes::check(bytes::ADS, data, defect), bytes::DEFECTS,
-        "headers, requests and replies: borrowed reading, owned reading and walk by the field table \
-         agree, errors included; what they accept encodes to the same bytes, as many as announced, \
-         into no smaller buffer";
+        "for headers, requests and replies, the borrowed reading, the owned reading and the walk \
+         by the field table agree, errors included; bytes that they accept encode to the same \
+         bytes, to as many as announced, and into no smaller buffer";
     COM_BYTES: "com_bytes", |data, defect| bytes::check(bytes::COM, data, defect), bytes::DEFECTS,
-        "object counts, descriptors, contents: the same";
+        "the same for object counts, descriptors and contents";
     VARIABLE_BYTES: "variable_bytes", |data, defect| bytes::check(bytes::VARIABLE, data, defect),
-        bytes::VARIABLE_DEFECTS, "kinds, names, descriptions, handles and values of variables: the \
-         same; values of up to 128 bytes also as any type, in one dimension and in two";
+        bytes::VARIABLE_DEFECTS,
+        "the same for kinds, names, descriptions, handles and values of variables; values of up to \
+         128 bytes are also read as any type, in one dimension and in two";
     SDA_BYTES: "sda_bytes", |data, defect| bytes::check(bytes::SDA, data, defect), bytes::DEFECTS,
-        "object addresses, attributes of elements: the same";
+        "the same for object addresses and attributes of elements";
     DYNAMIC_BYTES: "dynamic_bytes", |data, defect| bytes::check(bytes::DYNAMIC, data, defect),
-        bytes::DEFECTS, "dynamic parameters: the same";
+        bytes::DEFECTS,
+        "the same for dynamic parameters";
     STREAMING_BYTES: "streaming_bytes",
         |data, defect| bytes::check(bytes::STREAMING, data, defect), bytes::STREAMING_DEFECTS,
-        "data streaming: the same";
+        "the same for data streaming";
     #[cfg(feature = "arbitrary")]
     ADS_VALUE: "ads_value", |data, defect| values::check(bytes::ADS, data, defect), values::DEFECTS,
-        "any value of these streams encodes to as many bytes as announced, into no smaller buffer, \
-         and every reading reads it back from them";
+        "any value of these streams encodes to as many bytes as announced, and into no smaller \
+         buffer, and every reading of these bytes gives the value";
     #[cfg(feature = "arbitrary")]
     COM_VALUE: "com_value", |data, defect| values::check(bytes::COM, data, defect), values::DEFECTS,
         "the same";
     #[cfg(feature = "arbitrary")]
     VARIABLE_VALUE: "variable_value", |data, defect| values::check(bytes::VARIABLE, data, defect),
-        values::DEFECTS, "the same";
+        values::DEFECTS,
+        "the same";
     #[cfg(feature = "arbitrary")]
     SDA_VALUE: "sda_value", |data, defect| values::check(bytes::SDA, data, defect), values::DEFECTS,
         "the same";
     #[cfg(feature = "arbitrary")]
     DYNAMIC_VALUE: "dynamic_value", |data, defect| values::check(bytes::DYNAMIC, data, defect),
-        values::DEFECTS, "the same";
+        values::DEFECTS,
+        "the same";
     #[cfg(feature = "arbitrary")]
     STREAMING_VALUE: "streaming_value",
-        |data, defect| values::check(bytes::STREAMING, data, defect), values::DEFECTS, "the same";
+        |data, defect| values::check(bytes::STREAMING, data, defect), values::DEFECTS,
+        "the same";
     OPERATION_DISPATCH: "operation_dispatch", operation::dispatch, operation::DISPATCH_DEFECTS,
-        "a server's dispatch of any service, index group, index offset and data never panics; what \
-         it takes encodes to a call with the same service, address and data, into no smaller buffer, \
-         and that is dispatched to the same request";
+        "a server's dispatch of any service, index group, index offset and data never panics; an \
+         accepted request encodes to a call with the same service, address and data, and into no \
+         smaller buffer, and this call is dispatched to the same request";
     OPERATION_REQUEST: "operation_request", operation::request, operation::REQUEST_DEFECTS,
-        "an operation of any function, made of any parameters, is encoded to a call that a server \
-         dispatches to that operation, or is refused; within the documented ranges it is refused \
-         only where another function is";
+        "an operation of any function with any parameters is encoded to a call that a server \
+         dispatches to that operation, or is rejected; within the documented ranges it is rejected \
+         only if another function has its address";
     OPERATION_REPLY: "operation_reply", operation::reply, operation::REPLY_DEFECTS,
-        "a request takes for a reply what its function's stream takes, no more than the request \
-         has room for, and encodes it to the same bytes, into no smaller buffer";
+        "a request accepts as a reply what the stream of its function accepts, but no more than it \
+         has room for, and encodes the reply to the same bytes, and into no smaller buffer";
     ADS_FRAMES: "ads_frames", frames::frames, frames::DEFECTS,
-        "a stream of AMS frames, whole or damaged, cut anywhere, gives the frames that it gives \
-         uncut, one by one, and then the same fault or rest; each shows with its last byte and \
-         stays";
+        "a stream of AMS frames, whole or damaged, that is split anywhere gives the same frames \
+         one by one as the unsplit stream, and then the same fault or rest; each frame and fault \
+         is found with its last byte, and more bytes do not change it";
     STREAMING_PACKETS: "streaming_packets", streaming::packets, streaming::PACKETS_DEFECTS,
-        "of any bytes the first fault is found, or the packets together are the text with CR LF \
-         behind each line, each legal and as full as can be";
+        "for any bytes, the first fault is found, or the packets together are the text with CR LF \
+         after each line, and each packet is legal and as full as possible";
     #[cfg(feature = "tools")]
     STREAMING_SENDER: "streaming_sender", ends::check, ends::DEFECTS,
-        "whatever is acknowledged, repeated, read and reset: a sender loses and repeats nothing \
-         and counts right, the interface is a bounded queue, and what comes out is the text";
+        "whatever is acknowledged, repeated, read and reset, a sender loses nothing, repeats \
+         nothing and counts correctly, the interface is a bounded queue, and its output is the \
+         text";
     #[cfg(feature = "alloc")]
     STREAMING_CHECKER: "streaming_checker", checker::lots, checker::DEFECTS,
-        "a program that comes in any lots of lines: in each is found what is found there in the \
-         whole, in the text's order, however lines end; any bytes can be checked";
+        "if the lines of a program come in any lots, the findings in each lot are those that the \
+         whole program has there, in the order of the text, whatever the line ends; any bytes can \
+         be checked";
     #[cfg(feature = "tools")]
     SERVICE_HOST: "service_host", service::world, service::WORLD_DEFECTS,
-        "a program, one host or two, and the Service Interface in any order of steps, whatever \
-         fails: each request is served once and gets the answer to itself, after chaos too; but with \
-         two hosts, a write of RESPONSE_STATE that fails has not arrived";
+        "for a program, one host or two, and the Service Interface, in any order of steps and \
+         whatever fails, each request is served once and gets its own answer, after chaos too; \
+         with two hosts, a failed write of RESPONSE_STATE is assumed not to have arrived";
     #[cfg(feature = "tools")]
     SERVICE_MACHINES: "service_machines", service::machines, service::MACHINES_DEFECTS,
-        "a host, a program's request and the five variables, told anything: no request is served \
-         that was not found twice, writes keep their order, errors change nothing but that a host \
-         may wait";
+        "whatever a host, a program's request and the five variables are told, no request is \
+         served that was not found twice, writes keep their order, and errors change nothing, \
+         except that a host may wait";
     TEXT_CP1252: "text_cp1252", text::cp1252, text::DEFECTS,
-        "text of any bytes and of any characters is what encoding_rs makes of it, faults \
-         included, and comes back both ways";
+        "text of any bytes and of any characters is converted as encoding_rs converts it, faults \
+         included, and comes back in both directions";
     VARIABLE_PATH: "variable_path", names::path, names::DEFECTS,
         "a name has the parts that splitting the string finds, from CP1252 and from UTF-8, is put \
-         together again, and is refused where it is wrong";
+         together again, and is rejected where it is wrong";
     VARIABLE_TYPED: "variable_typed", shapes::typed, shapes::DEFECTS,
-        "type, dimensions and size are taken for a shape if they agree; an element is where nested \
-         arrays have it, and what was read is written back as it was";
+        "type, dimensions and size are accepted as a shape if they agree; an element is where \
+         nested arrays have it, and a value that was read is written back unchanged";
     #[cfg(feature = "tools")]
     TOOLS_EXPLAIN: "tools_explain", tools::explain::check, tools::explain::DEFECTS,
-        "bytes of anything are explained without a panic: all of them are shown, none twice where \
-         nothing is wrong; a stream is faulty if and only if the codec refuses it; a terminal gets \
-         nothing to act on; hex is read as what it says";
+        "any bytes are explained without a panic: all of them are shown, none twice if nothing is \
+         wrong; a stream has a fault if and only if the codec rejects it; the output has nothing \
+         that a terminal would execute; hex is read as the bytes that it states";
     #[cfg(feature = "tools")]
     TOOLS_CAPTURE: "tools_capture", tools::capture::check, tools::capture::DEFECTS,
-        "any file is read as a capture to its end, or it is said that it is cut; out of segments in \
-         any order, several times or in other pieces comes what was sent, and what is missing is told";
+        "any file is read as a capture to its end, or is reported as cut; from segments in any \
+         order, repeated or split otherwise, the bytes that were sent are reassembled, and missing \
+         bytes are reported";
     #[cfg(feature = "tools")]
     TOOLS_TESTEE: "tools_testee", tools::testee::check, tools::testee::DEFECTS,
-        "whatever a testee says is lines of a bounded length, each of which is one answer to the \
-         case it was asked or none";
+        "all output of a testee is lines of a bounded length, and each line is one answer to the \
+         case that was sent, or none";
     #[cfg(feature = "tools")]
     TOOLS_WAIVER: "tools_waiver", tools::toml::waiver, tools::toml::WAIVER_DEFECTS,
-        "any file is waivers or an error with its line, wherever in the file it stands";
+        "any file is a list of waivers or an error with its line, wherever in the file it is";
     #[cfg(feature = "tools")]
     TOOLS_PROFILE: "tools_profile", tools::toml::profile, tools::toml::PROFILE_DEFECTS,
-        "any file is a profile or an error with its line; a profile that is shown is read as the \
-         same, and claims nothing at a port that does not answer";
+        "any file is a profile or an error with its line; a profile that is printed is read as the \
+         same profile, and claims nothing at a port that does not answer";
     #[cfg(feature = "tools")]
     TOOLS_ALLOW: "tools_allow", tools::toml::allow, tools::toml::ALLOW_DEFECTS,
-        "any file allows something or is an error with its line; its entries are read as they are \
-         shown";
+        "any file is a list of permissions or an error with its line; its entries are read as they \
+         are printed";
     #[cfg(feature = "tools")]
     TOOLS_MODEL: "tools_model", tools::model::check, tools::model::DEFECTS,
-        "any file is a model or an error with its line; a CNC that is made of it answers what the \
-         codec reads, as often as it is asked the same";
+        "any file is a model or an error with its line; a CNC of this model gives answers that the \
+         codec reads, and the same answers to the same requests";
     #[cfg(feature = "tools")]
     TOOLS_GATE: "tools_gate", tools::gate::check, tools::gate::DEFECTS,
-        "nothing passes the gate that does not only ask, is not named by the file for this target \
-         and time, or is never sent; what only asks passes whatever else is allowed";
+        "the gate passes a request that is not a query only if the file names it for this target \
+         and time, and never one of those that are never sent; it passes queries whatever else is \
+         allowed";
     #[cfg(feature = "tools")]
     CNC_SESSION: "cnc_session", tools::session::check, tools::session::DEFECTS,
-        "of whatever comes over a connection each good frame is answered once, with its invoke ID \
-         and what the codec reads, in bounded buffers; a write that is refused changes nothing, \
-         another is read back";
+        "each valid frame on a connection, whatever its bytes, is answered once, with the frame's \
+         invoke ID and data that the codec reads, in bounded buffers; a rejected write changes \
+         nothing, and the value of any other write is read back";
 }
