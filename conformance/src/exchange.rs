@@ -14,6 +14,7 @@ use ads_cnc_vectors::ids::*;
 
 use crate::gate::Refusal;
 use crate::judge::{Describe, Evidence};
+use crate::text::plural;
 
 /// A request and its result.
 #[derive(Debug)]
@@ -60,7 +61,7 @@ impl fmt::Display for AdsReply {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.ams_error, self.result, &self.data) {
             (AdsError::NO_ERROR, AdsError::NO_ERROR, Some(data)) => {
-                write!(f, "{} bytes", data.len())
+                f.write_str(&plural(data.len(), "byte"))
             }
             (AdsError::NO_ERROR, AdsError::NO_ERROR, None) => f.write_str("success without data"),
             (AdsError::NO_ERROR, result, _) => write!(f, "ADS error {result:#x}"),
@@ -220,7 +221,9 @@ impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
         let function = exchange.call().dispatch().ok().map(|request| request.function());
         let spec = function.map(Function::spec);
-        let data = exchange.answer().and_then(|answer| answer.data.as_deref());
+        // An error comes without the stream that a success has.
+        let has_stream = |data: &&[u8]| exchange.success().is_some() || !data.is_empty();
+        let data = exchange.answer().and_then(|answer| answer.data.as_deref()).filter(has_stream);
         let evidence = Self {
             call: exchange.to_string(),
             function,

@@ -36,7 +36,9 @@ fn no_command_runs_the_suite() {
     let device = format!("\ndevice   \"ads-cnc serve\" {version}, state RUN\n");
     assert!(shown.contains(&device), "{shown}");
     assert!(!shown.contains("FAIL") && !shown.contains("\n  differs "), "{shown}");
-    assert_eq!(text(&output.stderr), "");
+    // On a busy machine it takes so long that its progress is shown.
+    let stderr = text(&output.stderr);
+    assert!(stderr.lines().all(|line| line.ends_with(" left")), "{stderr}");
 }
 
 /// A failure names its clause, and shows what was sent, received and expected.
@@ -52,7 +54,7 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
         "\n  The size of a description is the whole variable's in bytes",
         "\n  var-descriptions: V.G.NP[0].V: expected ",
         "; found ",
-        " alike in ",
+        " alike, also in ",
         "\n  again: ads-cnc run --defect variable-description.size.flip --only var-descriptions --seed ",
         "\n  sent      ReadWrite 0x122301, 0x45 at port 552",
         "V.G·              kind",
@@ -126,7 +128,7 @@ fn a_run_without_a_profile_judges_what_it_finds() {
     let channels = serde_json::json!([1, 2, 6]);
     assert_eq!(report["profile"]["claims"]["channels"], channels);
     assert_eq!(report["found"]["ports"], serde_json::json!([551, 552, 553]));
-    let found = "channel 1 with 3 places, 2 with 3 places, 6 with 3 places";
+    let found = "channel 1 with 3 axis places, 2 with 3 axis places, 6 with 3 axis places";
     assert!(
         told.contains(found) && told.contains("about ") && told.contains(" requests"),
         "{told}"
@@ -138,7 +140,7 @@ fn a_run_without_a_profile_judges_what_it_finds() {
     std::fs::remove_file(&profile).unwrap();
     assert_eq!(report["profile"]["claims"]["channels"], serde_json::json!([6]));
     assert_eq!(report["found"]["ports"], serde_json::json!([]));
-    assert!(told.contains("channel 6 with 3 places;"), "{told}");
+    assert!(told.contains("channel 6 with 3 axis places;"), "{told}");
 }
 
 /// A long list is sampled, and read whole with `--all`.
@@ -427,9 +429,9 @@ fn a_file_that_lets_nothing_be_written_is_said() {
     let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let serve = Serve::start(&[]);
-    let said = |target: &str, expires: &str, name: &str| {
+    let said_of = |channel: u8, target: &str, expires: &str, name: &str| {
         let file = folder.join("allow.toml");
-        let entry = format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
+        let entry = format!("[[variable]]\nchannel = {channel}\nname = \"{name}\"\n");
         let head = format!("target = \"{target}\"\nexpires = {expires}\n");
         std::fs::write(&file, format!("{head}{entry}")).unwrap();
         let args = ["run", "--only", "write-by-name", "--target", &serve.addr, "--net-id"];
@@ -437,6 +439,7 @@ fn a_file_that_lets_nothing_be_written_is_said() {
         let output = ads_cnc(&[&args[..], &[&serve.net_id], &file].concat());
         (text(&output.stderr), text(&output.stdout), output.status.code())
     };
+    let said = |target: &str, expires: &str, name: &str| said_of(1, target, expires, name);
     let rejected = |shown: &str, why: &str| {
         let above = shown.lines().rev().nth(1).unwrap();
         assert!(above.starts_with("REJECTED  allow-write: ") && above.contains(why), "{shown}");
@@ -458,8 +461,11 @@ fn a_file_that_lets_nothing_be_written_is_said() {
         rejected(&shown, &format!("{name} in channel 1: the device has no such {what}"));
         assert_eq!(code, Some(4), "{shown}");
     }
+    let (_, shown, code) = said_of(3, own, later, "V.E.vartest");
+    rejected(&shown, "V.E.vartest in channel 3: the device has no such channel");
+    assert_eq!(code, Some(4), "{shown}");
     let (found, shown, code) = said(own, later, "V.E.vartest");
-    assert!(found.contains("\nads-cnc: found ") && !found.contains("nothing "), "{found}");
+    assert!(found.contains("ads-cnc: found ") && !found.contains("nothing "), "{found}");
     assert!(shown.contains("\nwrote     V.E.vartest (restored)\n"), "{shown}");
     assert_eq!(code, Some(0), "{shown}");
     std::fs::remove_dir_all(&folder).unwrap();

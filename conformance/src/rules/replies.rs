@@ -51,7 +51,7 @@ pub(super) fn service<'e>(
             Some(answer)
         }
         Err(fault) => {
-            record.check(clause, false, "what the service gives", || fault);
+            record.check(clause, false, "the reply of the service", || fault);
             None
         }
     }
@@ -136,7 +136,7 @@ pub(super) fn judge(
                 _ => false,
             };
             let rule = if is_assumed { assumed(Rule::of(clause)) } else { Rule::of(clause) };
-            record.check(rule, false, || format!("what {} gives", spec.name), error);
+            record.check(rule, false, || format!("the reply of {:?}", spec.name), error);
             return;
         }
     };

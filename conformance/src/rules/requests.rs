@@ -57,7 +57,7 @@ pub(super) fn judge(
                     ErrorKind::BufferTooSmall => assumed(COM_3),
                     _ => Rule::of(known.unwrap_or(spec.clause)),
                 };
-                let expected = || format!("what {} takes", spec.name);
+                let expected = || format!("the request of {:?}", spec.name);
                 records
                     .on(Topic::of_request(function), observation)
                     .check(rule, false, expected, error);

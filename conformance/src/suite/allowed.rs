@@ -36,7 +36,11 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let mut probe = Probe::new(target).with_deadline(deadline);
     for entry in entries {
         // A target that has stopped answering tells nothing about the other names.
-        let Ok(named) = look_up(&mut probe, &entry) else { break };
+        let named = match is_in_no_channel(&probe, &entry) {
+            true => Ok(Named::Absent("channel")),
+            false => look_up(&mut probe, &entry),
+        };
+        let Ok(named) = named else { break };
         if probe.target.gone.is_some() {
             break;
         }
@@ -109,6 +113,23 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
         Some(None) => Named::Absent("variable"),
         _ => Named::Writable,
     })
+}
+
+/// Whether an entry is of a channel that the target does not have.
+fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
+    let channel = match entry {
+        Entry::Variable { channel, .. } | Entry::Stream(channel) | Entry::Service(channel) => {
+            channel
+        }
+        Entry::Object { list: AllowedList::Channel(channel), .. } => channel,
+        Entry::Object { .. } | Entry::Content { .. } => return false,
+    };
+    let channels = &probe.target.profile.channels;
+    let known = match channel.addressing() {
+        Addressing::Logical => channels.contains(&channel.number().into()),
+        Addressing::Index => usize::from(channel.number()) <= channels.len(),
+    };
+    !channels.is_empty() && !known
 }
 
 /// The channel by its number, which the lists have.

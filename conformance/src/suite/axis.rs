@@ -7,7 +7,6 @@ use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, HandleByName, ReadByHandle, ReadByName, Request,
 };
 use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
-use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{
@@ -82,14 +81,19 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let Some(data) = probe.try_ask(request)? else { continue };
                 any = true;
                 let handle = Handle::decode(&data);
-                let found = || format!("{} for {name} of place {place}", Hex(data));
-                probe.check(VAR_26, handle.is_ok(), "a handle of 4 bytes", found);
+                let found = || format!("a success with {} bytes", data.len());
+                let expected =
+                    || format!("an error, or the handle of {name} at place {place} in 4 bytes");
+                probe.check(VAR_26, handle.is_ok(), expected, found);
                 let Ok(Handle(handle)) = handle else { continue };
                 // The handle belongs to the place; without an axis any handle is right.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
-                let found = || format!("the handle {handle:#x} of place {place} and of {other:?}");
+                let found = || {
+                    let other = other.unwrap_or_default();
+                    format!("the handle {handle:#x} at place {place} and at place {other}")
+                };
                 probe.check(
                     [VAR_10, VAR_26, ADR_7],
                     other.is_none(),

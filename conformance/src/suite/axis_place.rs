@@ -39,7 +39,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
             // An axis has only one place. Handles of places without an axis belong to no variable.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
-                let found = || format!("{:?} of place {} too", at.handle, at.axis.index());
+                let found = || format!("handle {} of place {} too", at.handle, at.axis.index());
                 let expected = || format!("another handle at each place for {name}");
                 let own = seen.insert(at.handle.0);
                 probe.check([VAR_10, VAR_26], own, expected, found);

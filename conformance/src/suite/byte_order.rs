@@ -37,7 +37,7 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
             let Some(handle) = handle else { continue };
             let known = variable.handle.0;
             let swapped = handle.0 != known && handle.0.swap_bytes() == known;
-            let expected = || format!("{:?} of {}", variable.handle, variable.name.text);
+            let expected = || format!("handle {} of {}", variable.handle, variable.name.text);
             probe.check(GEN_1, !swapped, expected, || format!("{handle:?}"));
         }
     }

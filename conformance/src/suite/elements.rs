@@ -68,7 +68,10 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let reported = decode_element_count(&data);
         probe.check(SDA_4, reported.is_some(), "a number", found);
         let same = reported == Some(instance.reported);
-        let found = || format!("{reported:?} elements of {instance}");
+        let found = || match reported {
+            Some(number) => format!("{number} elements of {instance}"),
+            None => format!("no number of elements of {instance}"),
+        };
         probe.check(SDA_4, same, || format!("{}, as before", instance.reported), found);
         let count = instance.count;
         match (instance.counts_itself(), instance.reported) {
@@ -224,13 +227,20 @@ fn attributes_of(
     probe.check(SDA_6, !text(&name).is_empty(), "a name", found);
     let is_own = of_instance.is_none_or(|of_instance| text(of_instance) != text(&name));
     probe.check(SDA_4, is_own, "another name than the instance's, which element 0 has", found);
+    let of_name = probe.evidence();
     let ty: ElementText = attribute(probe, SDA_7, ReadElementType::new(element))?;
+    let of_type = probe.evidence();
     let length: ElementLength = attribute(probe, SDA_8, ReadElementLength::new(element))?;
+    let of_length = probe.evidence();
     let unit: ElementText = attribute(probe, SDA_6, ReadElementUnit::new(element))?;
+    let of_unit = probe.evidence();
     let flag = probe.try_ask(ReadElementWriteFlag::new(element))?;
     probe.check(ADR_6, flag.is_some(), || format!("a write flag of {at}"), "an error");
     let flag: ElementWriteFlag = attribute(probe, SDA_9, ReadElementWriteFlag::new(element))?;
-    for one in [&name, &unit, &ty] {
+    let found = || format!("{} of {at}", flag.0);
+    probe.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", found);
+    for (one, evidence) in [(&name, of_name), (&unit, of_unit), (&ty, of_type.clone())] {
+        probe.set_evidence(evidence);
         let found = || format!("{:?} of {at}", text(one));
         let is_string = !text(one).chars().any(|char| char.is_ascii_control());
         probe.check(SDA_6, is_string, "a string", found);
@@ -238,10 +248,10 @@ fn attributes_of(
         let found = || format!("{:?} of {at}", text(one));
         probe.check(assumed(GEN_3), readable, "CP1252 characters", found);
     }
+    probe.set_evidence(of_type);
     let data_type = check_type(probe, &text(&ty), &at);
+    probe.set_evidence(of_length);
     check_length(probe, data_type, length.get(), &at);
-    let found = || format!("{} of {at}", flag.0);
-    probe.check(assumed(SDA_9), flag.0 <= 1, "a write flag of 0 or 1", found);
     Ok((data_type.is_some(), unit))
 }
 

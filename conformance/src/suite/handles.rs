@@ -88,7 +88,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
             // No manual states that a variable has only one handle, so the values are compared.
             let expected =
-                || format!("the description's {:?} for {}", variable.handle, name.text());
+                || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);
             probe.check(rule, handle == variable.handle, expected, || format!("{handle:?}"));
             let found = || format!("{handle:?} of {} again", name.text());

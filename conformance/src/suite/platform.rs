@@ -160,8 +160,13 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
     let listed = descriptors_one_by_one(probe, COM_6, list, number)?;
     let printed = "mc_command_single_block_w";
     let object = listed.as_ref().iter().find(|object| object.name() == printed);
-    let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));
-    let expected = || format!("{printed} at (0x120101, 0x1)");
-    probe.check(COM_6, address == Some((0x12_0101, 1)), expected, || format!("{address:#x?}"));
+    let address = object.map(|object| (object.index_group(), object.index_offset()));
+    let found = || match address {
+        Some((group, offset)) => format!("it at ({group}, {offset})"),
+        None => "no such object".to_owned(),
+    };
+    let is_printed =
+        address.is_some_and(|(group, offset)| (group.get(), offset.get()) == (0x12_0101, 1));
+    probe.check(COM_6, is_printed, || format!("{printed} at (0x120101, 0x1)"), found);
     Ok(())
 }

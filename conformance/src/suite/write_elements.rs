@@ -54,7 +54,8 @@ fn elements(
         let arrays =
             if variable.dimensions.is_empty() { Vec::new() } else { ends(&variable.dimensions) };
         for indices in arrays {
-            let name = format!("{}{indices:?}", variable.name.text);
+            let brackets: String = indices.iter().map(|index| format!("[{index}]")).collect();
+            let name = format!("{}{brackets}", variable.name.text);
             let number = number_of(&indices, &variable.dimensions);
             let Some(place) = place_of(probe, channel, variable, indices)? else { continue };
             if !probe.may_write(&place, &variable.name.text.to_string())? {

@@ -11,6 +11,7 @@ use self::LengthRule::{Fixed, Open};
 use crate::judge::{Checks as _, IfPresent as _, Rule, Step, assumed};
 use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
+use crate::text::plural;
 use crate::wire_service::clause;
 
 /// TCP may split a frame anywhere: its length determines its end.
@@ -111,19 +112,22 @@ fn lengths(
         let exchange = probe.call(&call)?;
         Ok(Some(exchange.success().map(<[u8]>::len)))
     };
+    let shown = |found: Option<usize>| {
+        move || found.map_or_else(|| "an error".to_owned(), |len| plural(len, "byte"))
+    };
     // For a text at the end of a reply the CNC may require room for a NUL.
     if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
         let expected = || format!("{there} bytes of {what}, as many as are asked for");
         let rules = [rule.into(), own];
-        probe.check(&rules[..], found == Some(whole.len()), expected, || format!("{found:?}"));
+        probe.check(&rules[..], found == Some(whole.len()), expected, shown(found));
     }
     // A success with a shorter read length must not have more data.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
         let fits = found.is_none_or(|len| len < whole.len());
         let expected = || format!("fewer than {there} bytes of {what}");
-        probe.check(rule, fits, expected, || format!("{found:?}"));
+        probe.check(rule, fits, expected, shown(found));
     }
     let Fixed(own) = extent else { return Ok(()) };
     if !probe.target.client.gate().lets_malformed_pass() {
@@ -134,7 +138,7 @@ fn lengths(
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = || format!("{there} bytes of {what}, or an error");
         let rules = [rule.into(), own];
-        probe.check(&rules[..], fits, expected, || format!("{found:?}"));
+        probe.check(&rules[..], fits, expected, shown(found));
     }
     // If a large read length is accepted, one byte less makes no difference.
     let is_number =
@@ -145,7 +149,7 @@ fn lengths(
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {
         let expected = || format!("{len} bytes of {what}, as with more room");
-        probe.check([rule, ADS_4], found == Some(len), expected, || format!("{found:?}"));
+        probe.check([rule, ADS_4], found == Some(len), expected, shown(found));
     }
     Ok(())
 }

@@ -40,6 +40,13 @@ impl Instance {
 
 impl std::fmt::Display for Instance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} ({}, {})", self.class, self.channel, self.axis)
+        write!(f, "{}", self.class)?;
+        if self.channel > 0 {
+            write!(f, " of channel {}", self.channel)?;
+        }
+        if self.axis > 0 {
+            write!(f, ", axis {}", self.axis)?;
+        }
+        Ok(())
     }
 }

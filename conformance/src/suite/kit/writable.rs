@@ -127,10 +127,10 @@ pub(crate) fn require_taken(
     rule: impl Into<Rule>,
     good: Request<'_>,
 ) -> Step {
-    if is_taken(probe, rule, "what differs by that alone", good)? {
+    if is_taken(probe, rule, "the same request without the fault", good)? {
         Ok(())
     } else {
-        Err(Stop::inconclusive("what differs by that alone is refused too"))
+        Err(Stop::inconclusive("the device rejects the same request without the fault too"))
     }
 }
 

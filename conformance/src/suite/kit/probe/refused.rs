@@ -30,9 +30,8 @@ impl Probe<'_> {
         match given {
             Some([]) if is_vacuous => {
                 self.last = shown;
-                let expected = || format!("{} only", expected());
-                let found =
-                    || format!("what differs by that alone is refused too: {}", accepted.result());
+                let expected = || format!("{}, and a success without this fault", expected());
+                let found = || format!("an error without the fault too: {}", accepted.result());
                 for rule in rules {
                     // A sibling that is only assumed may be rejected too.
                     let verdict = match rule.level {
