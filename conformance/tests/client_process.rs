@@ -7,6 +7,7 @@ use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Command, Output, Stdio};
 
 use common::connect;
+use common::file::TestFile;
 use serde_json::Value;
 
 fn ads_cnc(args: &[&str]) -> Output {
@@ -90,6 +91,46 @@ fn a_death_is_told_with_its_bytes() {
         let others = report["cases"].as_array().unwrap().iter();
         assert!(others.filter(|case| case["verdict"] == "pass").count() > 50);
     }
+}
+
+/// The traffic of a client is captured, and the file shows the same mistake.
+#[test]
+fn its_traffic_is_captured() {
+    let file = TestFile::new(".pcapng", b"");
+    let only = ["--only", "client-handle", "--capture", file.path()];
+    let (code, report) = run("--defect client.port", &only);
+    assert_eq!(code, Some(1), "{report:#}");
+    let checked = ads_cnc(&["check", file.path(), "--any-port", "--json", "-"]);
+    let report: Value = serde_json::from_slice(&checked.stdout).unwrap();
+    let cases = report["cases"].as_array().unwrap().iter();
+    let found = cases.flat_map(|case| case["failures"].as_array().into_iter().flatten());
+    let mut found = found.map(|failure| failure["requirement"].as_str().unwrap());
+    assert!(found.any(|id| id == "GEN-4"), "{report:#}");
+}
+
+/// One answer that is not of the protocol is the client's fault there, and of nothing else.
+#[test]
+fn an_answer_of_no_protocol_fails_by_the_protocol_alone() {
+    let (code, report) = run("--defect client.garbles", &["--only", "VAR-14"]);
+    assert_eq!(code, Some(1), "{report:#}");
+    let cases = report["cases"].as_array().unwrap().iter();
+    let all = cases.flat_map(|case| case["failures"].as_array().into_iter().flatten());
+    let failed: Vec<&Value> = all.filter(|one| one["verdict"] == "fail").collect();
+    assert!(!failed.is_empty());
+    assert!(failed.iter().all(|one| one["requirement"] == "CLIENT"), "{failed:#?}");
+}
+
+/// What a client answers follows from a request that went to the wrong port.
+#[test]
+fn a_result_follows_from_the_request() {
+    let (_, report) = run("--defect client.port", &["--only", "client-read-real"]);
+    let failed = failures(&report, "client-read-real");
+    let ids: Vec<&str> = failed.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(ids[..1], ["GEN-4"], "{report:#}");
+    let case = &report["cases"].as_array().unwrap()[0];
+    let real = case["requirements"].as_array().unwrap().iter();
+    let mut real = real.filter(|one| one["requirement"] == "GEN-1");
+    assert_eq!(real.next().unwrap()["verdict"], "inconclusive", "{case:#}");
 }
 
 #[test]

@@ -82,7 +82,9 @@ fn what_is_nowhere_is_no_success() {
         let output = ads_cnc(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");
         assert!(
-            String::from_utf8(output.stderr).unwrap().contains("no case or requirement is called")
+            String::from_utf8(output.stderr)
+                .unwrap()
+                .contains("no requirement, stream or case is called")
         );
     }
     let output = ads_cnc(&["run", "--edition", "fr-1.0"]);

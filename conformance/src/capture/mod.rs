@@ -55,7 +55,7 @@ use self::link::PacketContent;
 use self::table::{ConnectionEvent, ConnectionTable};
 use self::tally::{count, count_of};
 use self::tcp::Mark;
-use crate::judge::CaseOutcome;
+use crate::judge::{CaseOutcome, attribute};
 use crate::process::progress;
 
 pub const AMS_TCP_PORT: u16 = 48898;
@@ -241,6 +241,7 @@ pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked
     judge.tally.repeated = table.repeated;
     judge.tally.early = table.early;
     judge.tally.end = Some(end);
-    let (outcomes, tally, vectors) = judge.finish();
+    let (mut outcomes, tally, vectors) = judge.finish();
+    attribute(&mut outcomes);
     Ok(Checked { outcomes, tally, vectors })
 }

@@ -9,6 +9,7 @@ use ads_cnc::operation::{Call, DispatchError, Function, Service};
 
 use super::file::FileEnd;
 use crate::exchange::Exchange;
+use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, explain};
 use crate::rules::function_at;
 use crate::text::hex::spaced;
 use crate::text::{escape, plural, shorten};
@@ -177,6 +178,9 @@ const VALUE_MAX: usize = 16;
 const FIELDS_MAX: usize = 3;
 const FIELD_MAX: usize = 64;
 
+/// Maximum number of characters of a reply.
+const REPLY_MAX: usize = 100;
+
 /// What a request asks for: the function with the name or index in its data, or its address.
 fn asked(exchange: &Exchange) -> String {
     let call = exchange.call();
@@ -253,9 +257,22 @@ fn answered(exchange: &Exchange) -> String {
         Some([]) if written.is_some_and(|data| !data.is_empty()) => {
             format!("{} written", bytes_of(written.unwrap_or_default()))
         }
-        Some(data) if !data.is_empty() => bytes_of(data),
+        Some(data) if !data.is_empty() => decoded(exchange, data).unwrap_or_else(|| bytes_of(data)),
         _ => exchange.result_in_words(),
     }
+}
+
+/// The fields of a reply with their values, if its stream tells their types.
+fn decoded(exchange: &Exchange, data: &[u8]) -> Option<String> {
+    let stream = exchange.call().dispatch().ok()?.function().spec().reply?;
+    let (subject, values) = (ExplainSubject::Stream(stream), ValueFormat::default());
+    let part = explain(&ExplainQuery { subject, values }, data).parts.into_iter().next()?;
+    let is_known = part.faults.is_empty() && part.rows.iter().all(|row| !row.value.is_empty());
+    let is_opaque =
+        part.rows.iter().any(|row| ["value", "content", "data"].contains(&row.field.as_str()));
+    let fields = part.rows.iter().map(|row| format!("{} {}", row.field, row.value));
+    let fields = fields.collect::<Vec<_>>().join(", ");
+    (is_known && !is_opaque).then(|| shorten(&fields, REPLY_MAX))
 }
 
 fn bytes_of(data: &[u8]) -> String {

@@ -4,7 +4,9 @@ use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
 
 use super::test_server::RecordedExchange;
-use crate::judge::{Describe, Evidence, Record, Rules};
+use crate::exchange::meaning;
+use crate::judge::{Describe, Evidence, Record, Rule, Rules, Verdict};
+use crate::text::plural;
 use crate::wire_service::{decode_reply, service_of};
 
 /// The checks of a scenario with their verdicts.
@@ -25,6 +27,37 @@ impl Findings {
     ) {
         self.record.add_all(rules, passed, expected, found, || exchange.map(evidence));
     }
+
+    /// The first clause that a request breaks: the CNC cannot answer it as the client expects.
+    pub(super) fn misdirected(&self) -> Option<&'static str> {
+        let mut judgements = self.record.judgements.iter();
+        judgements.find(|one| one.verdict == Verdict::Fail).map(|one| one.requirement)
+    }
+
+    /// Makes all failed checks follow from a cause.
+    pub(super) fn follow_all(&mut self, cause: &'static str) {
+        for one in &mut self.record.judgements {
+            if one.verdict == Verdict::Fail && one.requirement != cause {
+                (one.verdict, one.follows) = (Verdict::Inconclusive, Some(cause));
+            }
+        }
+    }
+
+    /// Records failed checks of rules; all but those of the cause only follow from it.
+    pub(super) fn follow(
+        &mut self,
+        rules: &[Rule],
+        cause: &'static str,
+        exchange: Option<&RecordedExchange>,
+        expected: &str,
+        found: &str,
+    ) {
+        let (own, others): (Vec<Rule>, _) = rules.iter().partition(|rule| rule.id == cause);
+        self.check(&own, false, exchange, expected, found);
+        for rule in others {
+            self.record.add_following(rule, cause, expected, found);
+        }
+    }
 }
 
 /// The evidence of an exchange in a report.
@@ -34,7 +67,7 @@ pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
     let mut evidence = Evidence {
         call: format!("bytes that are no request{fault}"),
         sent: Evidence::start(&exchange.request).to_vec(),
-        result: format!("{} bytes", exchange.sent.len()),
+        result: plural(exchange.sent.len(), "byte"),
         frame_sent: Evidence::start(&exchange.request).to_vec(),
         frame_received: Evidence::start(&exchange.sent).to_vec(),
         ..Evidence::default()
@@ -64,6 +97,13 @@ pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
         let decoded = service.and_then(|service| decode_reply(service, reply.data()).ok());
         evidence.received =
             decoded.and_then(|(_, data)| data).map(|data| Evidence::start(data).to_vec());
+        let error = reply.header().error;
+        let result =
+            if error.is_ok() { decoded.map_or(error, |(result, _)| result) } else { error };
+        if !result.is_ok() {
+            let meaning = meaning(result).map_or_else(String::new, |why| format!(" ({why})"));
+            evidence.result = format!("{result}{meaning}");
+        }
     }
     evidence
 }

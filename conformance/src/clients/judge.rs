@@ -206,10 +206,7 @@ fn play(
     let stop = judge_reaction(scenario, &script, &reaction, exchanges.last(), &mut findings);
     let stop = stop.or(beyond.stop());
     progress::requests(exchanges.len());
-    let is_lost = matches!(
-        reaction,
-        ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Broken(_)
-    );
+    let is_lost = !matches!(reaction, ClientReaction::Answer(_));
     let mut case = scenario.case();
     // Additional requests are judged by their requirements too.
     for judgement in &findings.record.judgements {
@@ -266,16 +263,26 @@ fn judge_reaction(
         ClientReaction::Answer(ActionResult::Error(_)) => expected.error,
         _ => false,
     };
-    let rules: Vec<Rule> = match reaction {
-        ClientReaction::Answer(_) => rules,
-        // A missing or garbled answer breaks a must, even if the scenario's rules are assumed.
-        ClientReaction::Died(_) | ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
-            let must = |rule: Rule| rule.at(Level::Must);
-            rules.into_iter().map(must).chain([Rule::CLIENT]).collect()
+    let (rules, cause): (Vec<Rule>, _) = match reaction {
+        ClientReaction::Answer(_) => (rules, findings.misdirected()),
+        // A crash breaks a must, even if the scenario's rules are assumed.
+        ClientReaction::Died(_) => {
+            let must = rules.into_iter().map(|rule| rule.at(Level::Must));
+            (must.chain([Rule::CLIENT]).collect(), None)
+        }
+        ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
+            // What else such a client does or omits proves nothing.
+            findings.follow_all(CLIENT);
+            (rules.into_iter().chain([Rule::CLIENT]).collect(), Some(CLIENT))
         }
         ClientReaction::Broken(why) => return Some(Stop::Inconclusive(why.clone())),
     };
-    findings.check(&rules, passed, last, || &expected, || reaction);
+    match cause {
+        Some(cause) if !passed => {
+            findings.follow(&rules, cause, last, &expected.to_string(), &reaction.to_string());
+        }
+        _ => findings.check(&rules, passed, last, || &expected, || reaction),
+    }
     None
 }
 

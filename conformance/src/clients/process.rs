@@ -8,7 +8,7 @@ use super::message::{
 };
 use super::{Action, ClientUnderTest};
 use crate::deadline::Deadline;
-use crate::process::{GRACE, LineProcess, START, Subprocess, cut};
+use crate::process::{GRACE, LineProcess, START, Subprocess, cut, not_json};
 use crate::text::did_you_mean;
 
 /// The name of the scenario that asks for hello.
@@ -72,7 +72,11 @@ impl ClientProcess {
         }
         Ok(match serde_json::from_str::<ActionResult>(&line) {
             Ok(answer) => ClientReaction::Answer(answer),
-            Err(error) => ClientReaction::Garbled(format!("{error}: {}", cut(&line))),
+            Err(error) => {
+                // The next line may be the answer to this action.
+                self.process.running = None;
+                ClientReaction::Garbled(not_json(&line, &error))
+            }
         })
     }
 }

@@ -1,5 +1,6 @@
 //! Compares a client's requests with those of the scenario.
 
+use ads_cnc::CncStr;
 use ads_cnc::ads::FrameRef;
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
@@ -9,6 +10,7 @@ use super::requests::writes;
 use super::scenario::{ExpectedRequest, ReadLength};
 use super::test_server::RecordedExchange;
 use crate::judge::assumed;
+use crate::values::until_nul;
 
 /// A request as raw bytes; the codec is used only to find the end of the frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -145,7 +147,8 @@ fn one(
     if ask.tolerated.contains(&one.data) {
         findings.check(assumed(ask.stream), false, exchange, expected, found);
     } else if !ask.data.is_empty() || !one.data.is_empty() {
-        findings.check(ask.stream, is_data(one), exchange, expected, found);
+        let rule = if is_in_utf8(&ask.data, &one.data) { GEN_3.into() } else { ask.stream };
+        findings.check(rule, is_data(one), exchange, expected, found);
     }
     let enough = match ask.length {
         ReadLength::AtLeast(least) => one.length >= least,
@@ -157,6 +160,13 @@ fn one(
     };
     let rule = if matches!(ask.length, ReadLength::Times(_)) { COM_3 } else { ask.service_rule() };
     findings.check(rule, enough, exchange, expected, || format!("a read length of {}", one.length));
+}
+
+/// Whether data begins with the expected text in UTF-8, where CP1252 has other bytes.
+fn is_in_utf8(expected: &[u8], found: &[u8]) -> bool {
+    let text = until_nul(expected);
+    let utf8 = CncStr::from_bytes(text).map(|text| text.to_string()).unwrap_or_default();
+    !utf8.is_empty() && utf8.as_bytes() != text && found.starts_with(utf8.as_bytes())
 }
 
 fn describe(ask: &ExpectedRequest) -> String {

@@ -11,6 +11,7 @@ use ads_cnc::ads::AmsNetId;
 
 use super::script::ScenarioScript;
 use super::tamper::SendStep;
+use crate::client::Tap;
 use crate::judge::Stop;
 use crate::net;
 use crate::simulator::{FRAME_MAX, NET_ID};
@@ -122,6 +123,7 @@ impl std::fmt::Display for Overflow {
 pub struct TestServer {
     acceptor: net::Acceptor,
     run: Arc<Mutex<Option<Arc<TestRun>>>>,
+    capture: Option<Mutex<Box<dyn Tap>>>,
 }
 
 /// The state of the current scenario.
@@ -131,6 +133,8 @@ struct TestRun {
     exchanges: Mutex<Recording>,
     /// Open connections, and how many there have been.
     streams: Mutex<Vec<TcpStream>>,
+    /// The address of the client, by the number of the connection.
+    peers: Mutex<Vec<SocketAddr>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
     count: AtomicUsize,
     open: Mutex<usize>,
@@ -152,7 +156,40 @@ impl TestServer {
             let run = lock(&playing);
             let _gone = run.clone().map(|run| run.connect(stream));
         })?;
-        Ok(Self { acceptor, run })
+        Ok(Self { acceptor, run, capture: None })
+    }
+
+    /// Captures all connections, one after the other.
+    #[must_use]
+    pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
+        self.capture = Some(Mutex::new(capture.into()));
+        self
+    }
+
+    /// Ends the capture, if there is one.
+    ///
+    /// # Errors
+    /// The first error of the system while writing.
+    pub fn end_capture(&mut self) -> io::Result<()> {
+        let capture = self.capture.take().map(Mutex::into_inner);
+        capture.map_or(Ok(()), |capture| capture.unwrap_or_else(PoisonError::into_inner).finish())
+    }
+
+    fn capture(&self, run: &TestRun, exchanges: &[RecordedExchange]) {
+        let Some(mut capture) = self.capture.as_ref().map(lock) else { return };
+        let peers = lock(&run.peers);
+        let mut all: Vec<&RecordedExchange> = exchanges.iter().collect();
+        all.sort_by_key(|exchange| exchange.connection);
+        for of_connection in all.chunk_by(|one, next| one.connection == next.connection) {
+            let peer = of_connection.first().and_then(|one| peers.get(one.connection));
+            let Some(peer) = peer else { continue };
+            capture.opened(*peer, self.addr());
+            for exchange in of_connection {
+                capture.sent(&exchange.request);
+                capture.received(&exchange.sent);
+            }
+            capture.closed();
+        }
     }
 
     /// The address it listens on.
@@ -170,6 +207,7 @@ impl TestServer {
             script: Mutex::new(script),
             exchanges: Mutex::default(),
             streams: Mutex::default(),
+            peers: Mutex::default(),
             threads: Mutex::default(),
             count: AtomicUsize::new(0),
             open: Mutex::new(0),
@@ -199,7 +237,9 @@ impl TestServer {
     /// not be sent yet.
     pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
-        lock(&run.exchanges).take_answered()
+        let exchanges = lock(&run.exchanges).take_answered();
+        self.capture(&run, &exchanges);
+        exchanges
     }
 
     /// Ends the scenario and closes every connection.
@@ -216,6 +256,7 @@ impl TestServer {
             let _panicked = thread.join();
         }
         let exchanges = lock(&run.exchanges).take();
+        self.capture(&run, &exchanges);
         let connections = run.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
         let beyond = Overflow { requests: lock(&run.exchanges).beyond, connections };
         let script = Arc::into_inner(run)
@@ -239,6 +280,7 @@ impl TestRun {
         }
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(Duration::from_secs(5)))?;
+        lock(&self.peers).push(stream.peer_addr()?);
         lock(&self.streams).push(stream.try_clone()?);
         self.opened(1);
         let run = Arc::clone(&self);

@@ -22,6 +22,24 @@ pub struct Case {
     pub body: Body,
 }
 
+impl Case {
+    /// The stream of its vector, or the kind of its NC text.
+    pub fn stream(&self) -> Option<&'static str> {
+        match self.body {
+            Body::Vector(vector) => Some(&vector.stream),
+            Body::Sequence(sequence) => Some(sequence.kind()),
+            _ => None,
+        }
+    }
+
+    /// Whether a word is its ID, the ID of its vector or its stream.
+    pub(crate) fn is_called(&self, word: &str) -> bool {
+        let vector = self.stream().and_then(|_| Some(self.id.split_once('-')?.1));
+        let names = [Some(self.id.as_str()), vector, self.stream()];
+        names.into_iter().flatten().any(|name| word.eq_ignore_ascii_case(name))
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CaseSubject {

@@ -151,8 +151,13 @@ fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
     all
 }
 
+/// Whether a case judges replies of a device.
+fn is_of_device(case: &Case) -> bool {
+    matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
+}
+
 fn judgements(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&str, &Judgement)> {
-    outcomes.iter().flat_map(|outcome| {
+    outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(|outcome| {
         let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
         judged.map(|judgement| (outcome.case.id.as_str(), judgement))
     })
@@ -199,8 +204,7 @@ fn cause(
 ) -> Option<&'static str> {
     let clause = judgement.requirement;
     let is_of_frames = case.needs == Needs::Frames && !matches!(case.body, Body::Traffic);
-    let is_apart = case.subject != CaseSubject::Target || is_of_frames;
-    if is_apart || is_one_of(clause, &SPECIFIC) {
+    if !is_of_device(case) || is_of_frames || is_one_of(clause, &SPECIFIC) {
         return None;
     }
     if let Some(service) = *service {

@@ -35,5 +35,8 @@ pub const TESTEE: &str = "TESTEE";
 /// The ID of the rules of the client protocol, which are not in the catalogue.
 pub const CLIENT: &str = "CLIENT";
 
+/// The beginning of the note of a case whose streams the testee does not claim.
+pub(crate) const NOT_CLAIMED: &str = "the testee does not claim ";
+
 /// What is expected of a testee or client first; without it nothing else is judged.
 pub const HELLO: &str = "an answer to hello";

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher as _, RandomState};
 
 use ads_cnc_vectors::{Source, requirement};
 
-use super::{Body, Case, CaseOutcome, CaseSubject, Needs, Verdict};
+use super::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
 use crate::text::did_you_mean;
 
@@ -23,21 +23,22 @@ use crate::text::did_you_mean;
 ///
 /// let only = vec!["VRA".to_owned()];
 /// let nothing = Selection { edition: None, only }.plan(suite::cases(), 1).unwrap_err();
-/// assert_eq!(nothing.to_string(), "no case or requirement is called VRA - did you mean VAR?");
+/// let why = "no requirement, stream or case is called VRA - did you mean VAR?";
+/// assert_eq!(nothing.to_string(), why);
 /// # Ok::<(), Unmatched>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     /// The only edition of the manual to judge by; `None` for both.
     pub edition: Option<Edition>,
-    /// Areas such as VAR, requirements such as VAR-11, IDs of cases. Upper and lower case are
-    /// equal; an empty list selects all.
+    /// Areas such as VAR, requirements such as VAR-11 or parts of them, streams such as
+    /// variable-description, IDs of cases. Upper and lower case are equal; an empty list selects all.
     pub only: Vec<String>,
 }
 
 /// A word that selects nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no case or requirement is called {word}{near}")]
+#[error("no requirement, stream or case is called {word}{near}")]
 pub struct Unmatched {
     word: String,
     /// The nearest names.
@@ -82,12 +83,13 @@ impl Selection {
     pub fn plan(&self, mut cases: Vec<Case>, seed: u32) -> Result<Plan, Unmatched> {
         let unmatched = self.only.iter().find(|word| {
             let judges = |case: &Case| case.requirements.iter().any(|id| names(word, id));
-            !cases.iter().any(|case| word.eq_ignore_ascii_case(&case.id) || judges(case))
+            !cases.iter().any(|case| case.is_called(word) || judges(case))
         });
         if let Some(word) = unmatched {
             let requirements = || cases.iter().flat_map(|case| case.requirements.iter().copied());
             let areas = requirements().filter_map(|id| Some(id.split_once('-')?.0));
-            let names = cases.iter().map(|case| case.id.as_str());
+            let names = cases.iter().flat_map(|case| [Some(case.id.as_str()), case.stream()]);
+            let names = names.flatten();
             let near = did_you_mean(word, areas.chain(requirements()).chain(names));
             return Err(Unmatched { word: word.clone(), near });
         }
@@ -119,8 +121,7 @@ impl Selection {
 
     /// The requirements of a case that are selected.
     fn selected_requirements(&self, case: &Case) -> Vec<&'static str> {
-        let whole = self.only.is_empty()
-            || self.only.iter().any(|word| word.eq_ignore_ascii_case(&case.id));
+        let whole = self.only.is_empty() || self.only.iter().any(|word| case.is_called(word));
         let selected = |id: &&str| whole || self.only.iter().any(|word| names(word, id));
         let all: Vec<_> = case.requirements.iter().copied().filter(selected).collect();
         let Some(edition) = self.edition else { return all };
@@ -168,8 +169,11 @@ impl Plan {
                 Some(judged) if judged.is_empty() => continue,
                 Some(judged) => {
                     left_out.push(left(&outcome.case, judged));
+                    // A client that breaks the protocol shows nothing of what is selected.
                     outcome.verdicts.retain(|one| {
-                        judged.contains(&one.requirement) || one.verdict == Verdict::HarnessError
+                        judged.contains(&one.requirement)
+                            || one.verdict == Verdict::HarnessError
+                            || one.requirement == CLIENT && one.verdict == Verdict::Fail
                     });
                 }
                 None => {}
@@ -187,9 +191,10 @@ fn left(case: &Case, judged: &[&str]) -> LeftOut {
     LeftOut { id: case.id.clone(), subject: case.subject, requirements: requirements.collect() }
 }
 
-/// Whether a word is the area of a requirement or its ID.
+/// Whether a word is the area of a requirement, its ID, or that of one of its parts, such as VAR-4.1.
 pub(crate) fn names(word: &str, requirement: &str) -> bool {
     let area = requirement.split_once('-').map_or("", |(area, _)| area);
+    let word = word.split('.').next().unwrap_or(word);
     word.eq_ignore_ascii_case(requirement) || word.eq_ignore_ascii_case(area)
 }
 
@@ -272,6 +277,16 @@ mod tests {
         let german = plan(Some(Edition::German), &["VAR-20"], 1);
         assert!(ids(&german).contains(&"vec-path-trajektorie-x"));
         assert!(!ids(&german).contains(&"vec-path-trajectory-x"));
+    }
+
+    #[test]
+    fn streams_vectors_and_parts_are_selected() {
+        let streams = plan(None, &["Variable-Handle"], 1);
+        assert!(streams.cases.len() > 3);
+        assert!(streams.cases.iter().all(|case| case.stream() == Some("variable-handle")));
+        let vector = plan(None, &["description-one-dimension"], 1);
+        assert_eq!(ids(&vector), ["vec-description-one-dimension"]);
+        assert_eq!(ids(&plan(None, &["VAR-4.1"], 1)), ids(&plan(None, &["VAR-4"], 1)));
     }
 
     #[test]

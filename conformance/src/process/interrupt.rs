@@ -2,9 +2,10 @@
 
 use std::io;
 use std::process;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::judge::Exit;
 
@@ -12,6 +13,9 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// The exit code of a process ended by Ctrl-C, as in a shell.
 const INTERRUPTED: i32 = 130;
+
+/// A second signal within this time is the first one again.
+const REPEATED: Duration = Duration::from_millis(200);
 
 /// The polling interval of interruptible waits.
 pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(20);
@@ -83,11 +87,19 @@ impl Interrupt {
         on_second: impl Fn() -> Option<Exit> + Send + 'static,
     ) -> io::Result<Self> {
         let (tell, told) = mpsc::channel();
+        let begun = Mutex::new(None::<Instant>);
         let handler = move || {
             if REQUESTED.swap(true, Ordering::SeqCst) {
+                // `timeout` signals the process, and then its whole group.
+                if begun.lock().is_ok_and(|first| first.is_some_and(|at| at.elapsed() < REPEATED)) {
+                    return;
+                }
                 let code = on_second().map_or(INTERRUPTED, |exit| exit.code().into());
                 super::end_all();
                 process::exit(code);
+            }
+            if let Ok(mut first) = begun.lock() {
+                *first = Some(Instant::now());
             }
             // Without a waiting thread the flag is polled.
             let _waiting = tell.send(());

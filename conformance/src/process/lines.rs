@@ -258,6 +258,16 @@ fn wait(
     }
 }
 
+/// What is wrong with a line that is not a JSON message of the protocol.
+pub(crate) fn not_json(line: &str, error: &serde_json::Error) -> String {
+    let shown = cut(line);
+    if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
+        format!("{error}: {shown}")
+    } else {
+        format!("the line is not JSON: {shown}; stdout is for answers alone, print to stderr")
+    }
+}
+
 /// The beginning of a line in quotes, for an error message.
 pub fn cut(line: &str) -> String {
     let shown: String = line.chars().take(120).collect();

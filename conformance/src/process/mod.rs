@@ -17,6 +17,7 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 #[cfg(windows)]
 use process_wrap::std::{CreationFlags, JobObject};
 
+pub(crate) use lines::not_json;
 pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
 pub use subprocess::{GRACE, Reaction, Subprocess};
 

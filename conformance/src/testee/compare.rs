@@ -1,5 +1,8 @@
 //! Compares a value with the expected one by the fields that are significant.
 
+use std::str::FromStr as _;
+
+use ads_cnc::CncString;
 use ads_cnc_vectors::{Fields, Tagged, Type, Value};
 use serde_json::Value as Json;
 
@@ -95,6 +98,11 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             return other(place, format_args!("an object with a type is expected, not {found}"));
         }
     }
+    let mut given =
+        ["value", "hex", "bits"].iter().filter_map(|name| Some((name, found.get(name)?)));
+    if let Some((name, value)) = given.find(|(_, value)| !value.is_string()) {
+        return other(place, format_args!("{name} is the JSON {value}, not a string"));
+    }
     match meant.kind {
         Type::String => {
             let expected = meant.hex.as_deref().unwrap_or_default();
@@ -154,7 +162,13 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     match compact::parse(given) {
         Ok(bytes) if bytes == meant => None,
         Ok(bytes) => {
-            other(place, format_args!("hex {} where {expected} is expected", compact::show(&bytes)))
+            let is_utf8 = std::str::from_utf8(&bytes).is_ok_and(|text| {
+                CncString::from_str(text).is_ok_and(|text| text.as_bytes() == meant)
+            });
+            let hint = if is_utf8 { ", the text in UTF-8," } else { "" };
+            let expected = if meant.is_empty() { "no byte" } else { &expected };
+            let given = if bytes.is_empty() { "no byte".to_owned() } else { compact::show(&bytes) };
+            other(place, format_args!("hex {given}{hint} where {expected} is expected"))
         }
         Err(why) => other(place, why),
     }
@@ -191,5 +205,38 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
         Some(Difference::End(format!("{place}: {expected} is expected")))
     } else {
         Some(Difference::Omitted(format!("{place}: {expected}, which is not told")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_text(hex: &str, found: &str) -> String {
+        let meant = format!(r#"{{"name":{{"type":"STRING","hex":"{hex}"}}}}"#);
+        let meant: Fields = serde_json::from_str(&meant).unwrap();
+        match compare(&meant, &serde_json::from_str(found).unwrap()) {
+            Some(Difference::Other(what) | Difference::End(what) | Difference::Omitted(what)) => {
+                what
+            }
+            None => String::new(),
+        }
+    }
+
+    #[test]
+    fn a_likely_mistake_is_named() {
+        assert_eq!(of_text("e4", r#"{"name":{"type":"STRING","hex":"e4"}}"#), "");
+        assert_eq!(
+            of_text("e4", r#"{"name":{"type":"STRING","hex":"c3a4"}}"#),
+            "name: hex c3a4, the text in UTF-8, where e4 is expected"
+        );
+        assert_eq!(
+            of_text("", r#"{"name":{"type":"STRING","hex":"00"}}"#),
+            "name: hex 00 where no byte is expected"
+        );
+        assert_eq!(
+            of_text("e4", r#"{"name":{"type":"STRING","hex":7}}"#),
+            "name: hex is the JSON 7, not a string"
+        );
     }
 }

@@ -6,6 +6,9 @@ use crate::judge::{Evidence, TEXT_MAX};
 use crate::show::show;
 use crate::text::{hex::compact, shorten};
 
+/// The beginning of what is found instead of an answer that the protocol defines.
+pub(super) const NO_ANSWER: &str = "no answer of the protocol: ";
+
 pub(super) fn describe(reaction: &TesteeReaction) -> String {
     shorten(&described(reaction), TEXT_MAX)
 }
@@ -19,7 +22,7 @@ fn described(reaction: &TesteeReaction) -> String {
             _ => "accepted".to_owned(),
         },
         TesteeReaction::Answer(Answer::Reject(reject)) => {
-            let mut text = "refused".to_owned();
+            let mut text = "rejected".to_owned();
             if let Some(class) = &reject.class {
                 text.push_str(&format!(": {class}"));
             }
@@ -37,7 +40,7 @@ fn described(reaction: &TesteeReaction) -> String {
         TesteeReaction::Answer(Answer::Error { message }) => {
             format!("an error of its own: {message}")
         }
-        TesteeReaction::Garbled(why) => format!("no answer of the protocol: {why}"),
+        TesteeReaction::Garbled(why) => format!("{NO_ANSWER}{why}"),
         TesteeReaction::Died(how) => format!("a crash: {how}"),
         TesteeReaction::Silent(limit) => format!("no answer within {} ms", limit.as_millis()),
         TesteeReaction::Broken(why) => why.clone(),

@@ -12,8 +12,7 @@ use crate::codec::message::{Answer, TesteeHello};
 use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Stop, Verdict, caught};
 use crate::process::{interrupt, progress};
 
-/// Maximum number of consecutive crashes or missing answers; after them no more questions are
-/// asked.
+/// Maximum number of consecutive questions without an answer of the protocol; after them no more are asked.
 const UNANSWERED_MAX: usize = 12;
 
 /// Maximum memory of all answers in bytes; those to vectors may take a part of it.
@@ -105,12 +104,10 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             reaction,
             TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)
         );
-        progress::step(is_lost);
-        if is_lost {
-            (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
-        } else {
-            lost = 0;
-        }
+        let is_garbled = matches!(reaction, TesteeReaction::Garbled(_));
+        progress::step(is_lost || is_garbled);
+        lost = if is_lost || is_garbled { lost.saturating_add(1) } else { 0 };
+        restarts = restarts.saturating_add(usize::from(is_lost));
         if let TesteeReaction::Answer(Answer::Ok(output)) = &reaction {
             kept = kept.saturating_add(output.weight());
         }
@@ -118,6 +115,9 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             let why = format!("its answers take more than {} MiB", ANSWERS_MAX >> 20);
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
+        }
+        if is_garbled {
+            protocol.garbled(&question, &reaction);
         }
         match purpose {
             Purpose::Case(case) => {
@@ -127,7 +127,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             Purpose::MadeUp => protocol.made_up(&question, &reaction),
         }
         if lost >= UNANSWERED_MAX {
-            let why = format!("{UNANSWERED_MAX} questions in a row without an answer");
+            let why =
+                format!("{UNANSWERED_MAX} questions in a row without an answer of the protocol");
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
@@ -136,7 +137,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         && testee.over().is_none()
         && let Err(why) = testee.bye()
     {
-        protocol.fault("it ends with exit code 0 after bye", why, None);
+        protocol.fault("it ends with exit code 0 after bye", why);
     }
     let broken = BTreeSet::new();
     let mut view = Verdicts {
@@ -164,12 +165,9 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let mut outcomes: Vec<CaseOutcome> = (0..wanted).filter_map(outcome).collect();
     // This project's codec is called without the protocol.
     if terms.subject != CaseSubject::Codec {
+        let is_open = interrupt::is_requested() && !protocol.has_failed();
         let protocol = protocol.outcome(terms.subject);
-        outcomes.push(if interrupt::is_requested() {
-            CaseOutcome::interrupted(protocol.case)
-        } else {
-            protocol
-        });
+        outcomes.push(if is_open { CaseOutcome::interrupted(protocol.case) } else { protocol });
     }
     JudgedTestee { hello: Some(hello), outcomes, asked, restarts }
 }
@@ -185,7 +183,7 @@ fn without_hello(
     subject: CaseSubject,
 ) -> JudgedTestee {
     let mut protocol = ProtocolRules::default();
-    protocol.fault(HELLO, describe(reaction), None);
+    protocol.fault(HELLO, describe(reaction));
     let untried =
         |case| CaseOutcome::untried(case, Verdict::NotRun, "there was no answer to hello");
     let mut outcomes: Vec<CaseOutcome> = cases.into_iter().map(untried).collect();

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{Testee, TesteeReaction};
 use crate::codec::message::{Answer, PROTOCOL, Question, Reply, TesteeCommand, TesteeHello};
 use crate::deadline::Deadline;
-use crate::process::{START, Subprocess, cut};
+use crate::process::{START, Subprocess, not_json};
 use crate::text::shorten;
 
 /// Maximum number of characters of a shown line.
@@ -125,16 +125,6 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
         other => {
             Err(TesteeReaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}")))
         }
-    }
-}
-
-/// What is wrong with a line that is not a JSON message of the protocol.
-fn not_json(line: &str, error: &serde_json::Error) -> String {
-    let shown = cut(line);
-    if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
-        format!("{error}: {shown}")
-    } else {
-        format!("the line is not JSON: {shown}; stdout is for answers alone, print to stderr")
     }
 }
 

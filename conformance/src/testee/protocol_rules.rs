@@ -3,20 +3,21 @@
 use ads_cnc_vectors::Level;
 
 use super::TesteeReaction;
-use super::describe::{describe, evidence};
+use super::describe::{NO_ANSWER, describe, evidence};
 use super::verdicts::Reactions;
 use crate::codec::message::{Answer, Question};
 use crate::judge::{
-    Body, Case, CaseOutcome, CaseSubject, Evidence, Judgement, Needs, TESTEE, Verdict,
+    Body, Case, CaseOutcome, CaseSubject, Describe, Needs, Record, Rule, TESTEE, Verdict,
 };
 
 /// Checks the rules of the testee protocol.
 #[derive(Default)]
 pub(super) struct ProtocolRules {
-    faults: Vec<Judgement>,
-    checks: usize,
+    record: Record,
     first: Reactions,
 }
+
+const RULE: Rule = Rule { id: TESTEE, level: Some(Level::Must) };
 
 impl ProtocolRules {
     pub(super) fn sanity(
@@ -30,46 +31,47 @@ impl ProtocolRules {
             self.first.insert((case, question.op), reaction);
             return;
         }
-        self.checks = self.checks.saturating_add(1);
         let before = self.first.get(&(case, question.op.clone()));
-        if before != Some(&reaction) {
-            let before = before.map_or_else(|| "nothing".to_owned(), describe);
-            let evidence = evidence(&question, &reaction, "", None);
-            self.fault(
-                format!("the same answer at the end as at the start: {before}"),
-                describe(&reaction),
-                Some(evidence),
-            );
-        }
+        let is_same = before == Some(&reaction);
+        let expected = before.map_or_else(|| "nothing".to_owned(), describe);
+        let expected = || format!("the same answer at the end as at the start: {expected}");
+        self.check(is_same, &question, &reaction, expected);
     }
 
     pub(super) fn made_up(&mut self, question: &Question, reaction: &TesteeReaction) {
-        self.checks = self.checks.saturating_add(1);
-        if !matches!(reaction, TesteeReaction::Answer(Answer::Unsupported { .. })) {
-            let expected = format!("unsupported, for the op {}", question.op);
-            self.fault(expected, describe(reaction), Some(evidence(question, reaction, "", None)));
-        }
+        let passed = matches!(reaction, TesteeReaction::Answer(Answer::Unsupported { .. }));
+        let expected = || format!("unsupported, for the op {}", question.op);
+        self.check(passed, question, reaction, expected);
     }
 
-    pub(super) fn fault(
+    /// A line that is no answer of the protocol.
+    pub(super) fn garbled(&mut self, question: &Question, reaction: &TesteeReaction) {
+        let found = describe(reaction);
+        let found = found.strip_prefix(NO_ANSWER).unwrap_or(&found);
+        let evidence = || Some(evidence(question, reaction, "", None));
+        self.record.add_all(RULE, false, "an answer as the protocol defines it", found, evidence);
+    }
+
+    fn check(
         &mut self,
-        expected: impl Into<String>,
-        found: impl Into<String>,
-        evidence: Option<Evidence>,
+        passed: bool,
+        question: &Question,
+        reaction: &TesteeReaction,
+        expected: impl Describe,
     ) {
-        self.faults.push(Judgement {
-            requirement: TESTEE,
-            level: Some(Level::Must),
-            verdict: Verdict::Fail,
-            expected: expected.into(),
-            found: found.into(),
-            evidence,
-            more: 0,
-            follows: None,
-        });
+        let evidence = || Some(evidence(question, reaction, "", None));
+        self.record.add_all(RULE, passed, expected, || describe(reaction), evidence);
     }
 
-    pub(super) fn outcome(self, subject: CaseSubject) -> CaseOutcome {
+    pub(super) fn fault(&mut self, expected: &str, found: String) {
+        self.record.add_all(RULE, false, expected, found, || None);
+    }
+
+    pub(super) fn has_failed(&self) -> bool {
+        self.record.judgements.iter().any(|one| one.verdict == Verdict::Fail)
+    }
+
+    pub(super) fn outcome(mut self, subject: CaseSubject) -> CaseOutcome {
         let case = Case {
             id: "testee-manners".to_owned(),
             title: "It keeps to the protocol, and does at the end what it did at the start"
@@ -79,17 +81,10 @@ impl ProtocolRules {
             needs: Needs::Codec,
             body: Body::Protocol,
         };
-        let pass = Judgement {
-            requirement: TESTEE,
-            level: Some(Level::Must),
-            verdict: Verdict::Pass,
-            expected: String::new(),
-            found: String::new(),
-            evidence: None,
-            more: 0,
-            follows: None,
-        };
-        let judgements = if self.faults.is_empty() { vec![pass] } else { self.faults };
-        CaseOutcome::tried(case, judgements, self.checks.max(1), None)
+        if self.record.checks == 0 {
+            self.record.add_all(RULE, true, "", "", || None);
+        }
+        let Record { judgements, checks } = self.record;
+        CaseOutcome::tried(case, judgements, checks, None)
     }
 }

@@ -12,7 +12,10 @@ use super::describe::{describe, evidence};
 use super::plan::{forms, questions};
 use super::{TesteeReaction, compare};
 use crate::codec::message::{Answer, Output, Question, TesteeHello};
-use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Describe, Record, Rule, Stop, Verdict};
+use crate::judge::{
+    Body, Case, CaseOutcome, CaseSubject, Describe, NOT_CLAIMED, Record, Rule, Stop, TESTEE,
+    Verdict,
+};
 use crate::show::show;
 use crate::text::hex::compact;
 use crate::values::until_nul;
@@ -74,7 +77,9 @@ impl Verdicts<'_> {
             .filter(|one| self.hello.capabilities.claim(&one.op, &one.stream))
             .collect();
         if claimed.is_empty() {
-            let note = "the testee does not claim it";
+            let all: BTreeSet<&str> = questions.iter().map(|one| one.stream.as_str()).collect();
+            let all = all.into_iter().collect::<Vec<_>>().join(", ");
+            let note = format!("{NOT_CLAIMED}{all}");
             return Some(CaseOutcome::untried(case.clone(), Verdict::NotApplicable, note));
         }
         let mut stop = None;
@@ -178,6 +183,12 @@ impl Verdicts<'_> {
             let canonical = canonical.map(|vector| vector.bytes());
             Some(evidence(question, reaction, &case.id, canonical))
         };
+        if self.is_of_protocol(case, question, reaction, judged) {
+            for &id in &case.requirements {
+                record.add_following(Rule::of(id), TESTEE, expected, found);
+            }
+            return;
+        }
         let wrong = self.wrong_fields(case, reaction, judged);
         for &id in &case.requirements {
             let cause = wrong
@@ -281,7 +292,7 @@ impl Verdicts<'_> {
             (Expect::Reject(reject), _) => {
                 let expected = || {
                     let (class, offset, field) = (&reject.class, reject.offset, &reject.field);
-                    format!("refused: {class} at offset {offset} in {field}")
+                    format!("rejected: {class} at offset {offset} in {field}")
                 };
                 self.rejected(reaction, expected, &vector.sibling, "decode")
             }
@@ -298,31 +309,51 @@ impl Verdicts<'_> {
     ) -> Option<Deviation> {
         match reaction {
             TesteeReaction::Answer(Answer::Reject(_)) => {
-                let why = self.sibling(sibling, op).err()?;
-                Some(Deviation::new(Verdict::Vacuous, expected, why))
+                // Without an accepted sibling the rejection may have any reason.
+                let why = match self.sibling(sibling, op) {
+                    Some(TesteeReaction::Answer(Answer::Ok(_))) => return None,
+                    Some(other) => describe(other),
+                    None => "not asked".to_owned(),
+                };
+                let sibling = sibling.as_deref().unwrap_or_default();
+                let found = format!("rejected, but {sibling}, which lacks this fault: {why}");
+                Some(Deviation::new(Verdict::Vacuous, expected, found))
             }
             other => Some(Deviation::fail(expected, || describe(other))),
         }
     }
 
-    /// Whether the accepted sibling was accepted: otherwise the rejection may have any reason.
-    fn sibling(&self, sibling: &Option<String>, op: &str) -> Result<(), String> {
-        let wanted = sibling.as_deref().unwrap_or_default();
+    /// Whether a failure shows a fault of the protocol alone: the answer, or that to the accepted sibling
+    /// of a rejection, is none of the protocol.
+    fn is_of_protocol(
+        &self,
+        case: &Case,
+        question: &Question,
+        reaction: &TesteeReaction,
+        judged: Verdict,
+    ) -> bool {
+        let sibling = match &case.body {
+            Body::Vector(vector) => &vector.sibling,
+            Body::Sequence(sequence) => &sequence.sibling,
+            _ => &None,
+        };
+        let sibling = self.sibling(sibling, &question.op).filter(|_| judged != Verdict::Pass);
+        [Some(reaction), sibling]
+            .into_iter()
+            .flatten()
+            .any(|one| matches!(one, TesteeReaction::Garbled(_)))
+    }
+
+    /// The reaction to the accepted sibling of a rejected vector or sequence.
+    fn sibling(&self, sibling: &Option<String>, op: &str) -> Option<&TesteeReaction> {
+        let wanted = sibling.as_deref()?;
         let is_wanted = |case: &Case| match &case.body {
             Body::Vector(vector) => vector.id == wanted,
             Body::Sequence(sequence) => sequence.id == wanted,
             _ => false,
         };
-        let Some(place) = self.cases.iter().position(is_wanted) else {
-            return Err(format!("{wanted}, which lacks this fault, was not tried"));
-        };
-        match self.reactions.get(&(place, op.to_owned())) {
-            Some(TesteeReaction::Answer(Answer::Ok(_))) => Ok(()),
-            Some(other) => {
-                Err(format!("refused, but {wanted}, which lacks this fault: {}", describe(other)))
-            }
-            None => Err(format!("{wanted}, which lacks this fault, was not answered")),
-        }
+        let place = self.cases.iter().position(is_wanted)?;
+        self.reactions.get(&(place, op.to_owned()))
     }
 
     fn sequence(&self, sequence: &Sequence, reaction: &TesteeReaction) -> Option<Deviation> {
@@ -343,7 +374,7 @@ impl Verdicts<'_> {
             (SequenceExpect::Reject(reject), reaction) => {
                 let expected = || {
                     let line = reject.line.map(|line| format!(" in line {line}"));
-                    format!("refused: {}{}", reject.class, line.unwrap_or_default())
+                    format!("rejected: {}{}", reject.class, line.unwrap_or_default())
                 };
                 let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
                 self.rejected(reaction, expected, &sequence.sibling, op)

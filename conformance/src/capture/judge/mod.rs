@@ -195,7 +195,7 @@ impl TrafficJudge {
             Err(error) => {
                 let rule = service_clause(header.command);
                 let mut record = self.rules.records.on(Topic::ClientServices, &observation);
-                record.check(rule, false, "what the service takes", error);
+                record.check(rule, false, "the request of the service", error);
             }
             Ok(None) => {
                 count_of(&mut self.tally.commands, header.command.0);
