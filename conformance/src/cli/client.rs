@@ -13,6 +13,7 @@ use crate::clients::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
 use crate::judge::Exit;
+use crate::text::did_you_mean;
 
 /// Answer the protocol of `run --client` with this project's client
 ///
@@ -52,8 +53,9 @@ impl ClientArguments {
         }
         let defect = match self.defect.as_deref().map(|id| (id, clients::find_defect(id))) {
             Some((id, None)) => {
+                let near = did_you_mean(id, clients::defects().iter().map(|defect| defect.id));
                 print_error(format_args!(
-                    "no defect has the ID {id}; client --list-defects shows all"
+                    "no defect has the ID {id}{near}; client --list-defects shows all"
                 ));
                 return Exit::Usage;
             }

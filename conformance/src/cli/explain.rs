@@ -188,7 +188,15 @@ impl Explain {
         if let Some(name) = &self.stream {
             return Stream::by_name(name).map(ExplainSubject::Stream).ok_or_else(|| {
                 let near = did_you_mean(name, Stream::all().map(|stream| stream.layout().name));
-                format!("no stream is called {name}{near}\nads-cnc explain --list shows all")
+                // Vectors have these subjects too.
+                let instead = match name.as_str() {
+                    "index-group" | "index-offset" => {
+                        "--group NUMBER --offset NUMBER explain an address"
+                    }
+                    "ams-frame" => "--frame explains AMS/TCP frames",
+                    _ => "ads-cnc explain --list shows all",
+                };
+                format!("no stream is called {name}{near}\n{instead}")
             });
         }
         let place = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {

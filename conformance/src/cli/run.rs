@@ -14,6 +14,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
 
 use super::again::again;
 use super::display::DisplayArgs;
@@ -71,6 +72,7 @@ pub(super) struct Run {
     #[arg(
         long,
         value_name = "COMMAND",
+        value_parser = NonEmptyStringValueParser::new(),
         conflicts_with_all = [
             "target", "allow_write", "dry_run", "rate", "capture", "profile", "defect"
         ]
@@ -89,8 +91,9 @@ pub(super) struct Run {
     #[arg(long, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
     malformed: bool,
 
-    /// Run what is called this: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
-    #[arg(long, help_heading = SELECTION, value_name = "AREA|ID")]
+    /// Run what is called this: an area (VAR), a requirement (VAR-11), a stream
+    /// (variable-description), a case by its ID; repeatable, or a list with commas
+    #[arg(long, help_heading = SELECTION, value_name = "AREA|STREAM|ID", value_delimiter = ',')]
     only: Vec<String>,
 
     /// Judge by this edition alone, en-1.05 or de-1.051; the simulated CNC follows it [default: both]
@@ -293,7 +296,8 @@ impl Run {
         };
         // With a client that connects by itself, the address is printed before.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
-        if asks && !self.client.waits() && !self.display.is_quiet() {
+        let is_default = self.deadline.is_default();
+        if asks && !is_default && !self.client.waits() && !self.display.is_quiet() {
             print_error(self.deadline);
         }
         let report = match &self.testee {
@@ -428,7 +432,10 @@ impl Run {
         let begin = Instant::now();
         let judged = {
             let _watch = (!self.client.waits()).then(|| Watch::start("cases"));
-            self.client.judge(&plan, self.deadline.begin(), interrupt)
+            let capture = self.target.begin_capture().map_err(|error| error.to_string());
+            capture.and_then(|capture| {
+                self.client.judge(&plan, capture, self.deadline.begin(), interrupt)
+            })
         };
         let times = vec![(CaseSubject::Client, begin.elapsed())];
         let judged = judged.map_err(Stopped::Usage)?;

@@ -11,9 +11,11 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
 
 use super::message::print_error;
 use super::serve::check_address;
+use crate::capture::Capture;
 use crate::clients::{self, ClientProcess, JudgedClient, Scenario, TestServer};
 use crate::deadline::Deadline;
 use crate::judge::{Case, CaseOutcome, Plan};
@@ -27,7 +29,7 @@ const CLIENT: &str = "Client under test";
 #[derive(Args, Clone, Debug, Default)]
 pub(super) struct ClientArgs {
     /// Judge a client: this command is told what to do (see conformance/adapters/CLIENTS.md)
-    #[arg(long, help_heading = CLIENT, value_name = "COMMAND", conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
+    #[arg(long, help_heading = CLIENT, value_name = "COMMAND", value_parser = NonEmptyStringValueParser::new(), conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
     client: Option<String>,
 
     /// Wait for a client on this address and judge what it asks, until it has closed; with --client,
@@ -77,16 +79,22 @@ impl ClientArgs {
     pub(super) fn judge(
         &self,
         plan: &Plan,
+        capture: Option<Capture>,
         deadline: Deadline,
         interrupt: &Interrupt,
     ) -> Result<OfClient, String> {
         let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
         check_address(addr, self.allow_remote)?;
-        let server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
-        match &self.client {
+        let mut server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
+        if let Some(capture) = capture {
+            server = server.with_capture(capture);
+        }
+        let judged = match &self.client {
             Some(command) => Ok(self.run_command(command, &server, plan, deadline)),
             None => wait_for_client(&server, deadline, interrupt),
-        }
+        };
+        server.end_capture().map_err(|error| format!("the capture: {error}"))?;
+        judged
     }
 
     fn run_command(

@@ -248,7 +248,11 @@ fn list_defects(part: &str) -> ExitCode {
     };
     let mut listed = faults::all().iter().filter(fits).peekable();
     if listed.peek().is_none() {
-        return exit_with_error(Exit::Usage, unknown_defect(part));
+        let parts = faults::all().iter().flat_map(|seed| seed.id.split('.'));
+        let near = did_you_mean(part, parts);
+        let why =
+            format!("no defect contains {part} in its ID, or breaks such a requirement{near}");
+        return exit_with_error(Exit::Usage, why);
     }
     for seed in listed {
         let broken = seed.requirements.join(" ");

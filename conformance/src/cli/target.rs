@@ -105,6 +105,10 @@ pub(super) struct DeadlineArgs {
 const DEADLINE: u64 = 4 * 3600;
 
 impl DeadlineArgs {
+    pub(super) const fn is_default(self) -> bool {
+        self.deadline == DEADLINE
+    }
+
     /// Starts the time.
     pub(super) fn begin(self) -> Deadline {
         Deadline::after(Duration::from_secs(self.deadline))
@@ -247,7 +251,16 @@ impl TargetArgs {
 
     /// The session, captured if the option says so.
     pub(super) fn recorded(&self, session: Session) -> Result<Session, ToolError> {
-        let Some(file) = &self.capture else { return Ok(session) };
+        let capture = self.begin_capture()?;
+        Ok(match capture {
+            Some(capture) => session.with_capture(capture),
+            None => session,
+        })
+    }
+
+    /// The capture that the option asks for.
+    pub(super) fn begin_capture(&self) -> Result<Option<Capture>, ToolError> {
+        let Some(file) = &self.capture else { return Ok(None) };
         let failed = |error: io::Error| {
             let why = format!("{}: {error}", file.display());
             match error.kind() {
@@ -263,7 +276,7 @@ impl TargetArgs {
             print_error(format_args!("{name}: {error}: the capture is not whole"));
             lost.store(true, Ordering::Relaxed);
         });
-        Ok(session.with_capture(capture))
+        Ok(Some(capture))
     }
 
     /// Prints an error with advice, and returns the exit code after the session. An incomplete

@@ -16,8 +16,8 @@ use super::{BytesReport, FoundReport};
 use crate::edition::Edition;
 use crate::explain;
 use crate::judge::{
-    Body, CLIENT, CaseOutcome, CaseSubject, Evidence, Exit, Judgement, LeftChanged, LeftOut,
-    TESTEE, Verdict, VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
+    CLIENT, CaseOutcome, CaseSubject, Evidence, Exit, Judgement, LeftChanged, LeftOut, TESTEE,
+    Verdict, VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
 };
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
@@ -251,11 +251,7 @@ fn case(outcome: &CaseOutcome, waivers: &[WaiverReport]) -> CaseReport {
         id: case.id.clone(),
         title: case.title.clone(),
         subject: case.subject,
-        stream: match case.body {
-            Body::Vector(vector) => Some(vector.stream.clone()),
-            Body::Sequence(sequence) => Some(sequence.kind().to_owned()),
-            _ => None,
-        },
+        stream: case.stream().map(str::to_owned),
         verdict,
         waived: is_waived,
         requirements: requirements.clone(),
@@ -290,8 +286,25 @@ fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
         found: judgement.found.clone(),
         more: judgement.more,
         follows: judgement.follows.map(str::to_owned),
-        evidence: judgement.evidence.as_ref().map(EvidenceReport::from),
+        evidence: judgement.evidence.as_ref().map(|evidence| marked(evidence.into(), judgement)),
     }
+}
+
+/// Marks the field that a failed check is about, where no expected bytes show it.
+fn marked(mut evidence: EvidenceReport, judgement: &Judgement) -> EvidenceReport {
+    let EvidenceReport { sent, received, expected, .. } = &mut evidence;
+    if expected.is_some() || judgement.verdict != Verdict::Fail {
+        return evidence;
+    }
+    let path = judgement.found.strip_suffix(" is expected");
+    if let Some((path, _)) = path.and_then(|found| found.split_once(": "))
+        && let Some(bytes) = received.as_mut().or(sent.as_mut())
+    {
+        bytes.mark_field(path);
+    } else if let Some(received) = received {
+        received.mark_clause(judgement.requirement);
+    }
+    evidence
 }
 
 impl From<&Evidence> for EvidenceReport {
@@ -318,12 +331,10 @@ impl From<&Evidence> for EvidenceReport {
 /// The text of a requirement at a level: the whole, or its parts of that level.
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
-    let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
-    if level == Some(requirement.level) || parts.is_empty() {
-        requirement.text.clone()
-    } else {
-        parts.join(" ")
-    }
+    let parts = parts.map(|part| part.text.as_str());
+    let whole = requirement.text.as_str();
+    let is_whole = level == Some(requirement.level) || parts.clone().next().is_none();
+    is_whole.then_some(whole).into_iter().chain(parts).collect::<Vec<_>>().join(" ")
 }
 
 /// The sources of a requirement; an assumed part has none.

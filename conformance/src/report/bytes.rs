@@ -1,9 +1,12 @@
 //! Bytes field by field, with those marked that differ from the expected ones.
 
+use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
+use ads_cnc::limits::AMS_TCP_HEADER_LEN;
+use ads_cnc::{Decode as _, Encode as _};
 use serde::{Deserialize, Serialize};
 
-use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, explain};
+use crate::explain::{ExplainQuery, ExplainSubject, ExplainedStream, ValueFormat, explain};
 use crate::text::hex::{compact, spaced};
 
 /// Bytes field by field.
@@ -48,37 +51,81 @@ impl BytesReport {
         other: Option<&[u8]>,
         values: &ValueFormat,
     ) -> Self {
-        let known = stream.and_then(Stream::by_name);
-        let (mut fields, mut faults) = (Vec::new(), Vec::new());
-        if let Some(stream) = known {
-            let question =
-                ExplainQuery { subject: ExplainSubject::Stream(stream), values: values.clone() };
-            let part = explain(&question, bytes).parts.into_iter().next().unwrap_or_default();
-            fields.extend(part.rows.into_iter().map(|row| FieldReport {
-                offset: row.offset,
-                hex: row.hex,
-                field: row.field,
-                value: row.value,
-                meaning: row.meaning.to_owned(),
-                differs: Vec::new(),
-            }));
-            fields.extend(
-                part.unread.map(|unread| FieldReport::bare(unread.offset, unread.hex, "?")),
-            );
-            faults.extend(part.faults.into_iter().map(|fault| fault.text));
-        } else if !bytes.is_empty() {
-            fields.push(FieldReport::bare(0, spaced(bytes), ""));
-        }
-        let mut report = Self {
-            stream: known.map(|stream| stream.layout().name.to_owned()),
-            length: bytes.len(),
-            fields,
-            faults,
+        let of_stream = |stream| {
+            let (subject, values) = (ExplainSubject::Stream(stream), values.clone());
+            let parts = explain(&ExplainQuery { subject, values }, bytes).parts;
+            parts.into_iter().next().map(Self::of_part)
         };
+        let bare = || {
+            let field = (!bytes.is_empty()).then(|| FieldReport::bare(0, spaced(bytes), ""));
+            let (length, fields) = (bytes.len(), field.into_iter().collect());
+            Self { stream: None, length, fields, faults: Vec::new() }
+        };
+        let mut report = stream.and_then(Stream::by_name).and_then(of_stream).unwrap_or_else(bare);
         if let Some(other) = other {
             report.mark(bytes, other);
         }
         report
+    }
+
+    /// The headers of a frame and, if it is short, the fields of its service, with offsets in the frame.
+    /// With the `request`, what differs in the headers from an answer to it is marked.
+    pub(super) fn of_frame(frame: &[u8], request: Option<&[u8]>) -> Vec<Self> {
+        let values = ValueFormat::default();
+        let question = ExplainQuery { subject: ExplainSubject::Frames(None), values };
+        let number = if frame.len() > SHORT_FRAME { FRAME_PARTS - 1 } else { FRAME_PARTS };
+        let parts = explain(&question, frame).parts.into_iter().take(number);
+        let mut parts: Vec<Self> = parts.map(Self::of_part).collect();
+        if let Some(other) = request.and_then(|request| with_headers_of_answer(request, frame)) {
+            parts.iter_mut().for_each(|part| part.mark(frame, &other));
+        }
+        parts
+    }
+
+    fn of_part(part: ExplainedStream) -> Self {
+        let unread = part.unread;
+        let rows = part.rows.into_iter().map(|row| FieldReport {
+            offset: part.at.saturating_add(row.offset),
+            hex: row.hex,
+            field: row.field,
+            value: row.value,
+            meaning: row.meaning.to_owned(),
+            differs: Vec::new(),
+        });
+        let unread = unread.map(|unread| {
+            FieldReport::bare(part.at.saturating_add(unread.offset), unread.hex, "?")
+        });
+        Self {
+            stream: part.stream.map(str::to_owned),
+            length: part.length,
+            fields: rows.chain(unread).collect(),
+            faults: part.faults.into_iter().map(|fault| fault.text).collect(),
+        }
+    }
+
+    /// Marks all bytes of the field that a path such as `descriptors[1].size` ends in.
+    pub(super) fn mark_field(&mut self, path: &str) {
+        let number = path.split(['[', ']']).nth(1).and_then(|number| number.parse().ok());
+        let name = path.rsplit('.').next().unwrap_or(path);
+        let name = name.split('[').next().unwrap_or(name);
+        let mut fields = self.fields.iter_mut().filter(|field| field.field == name);
+        if let Some(field) = fields.nth(number.unwrap_or_default()) {
+            field.differs = (0..field.bytes().len()).collect();
+        }
+    }
+
+    /// Marks the fields that a clause defines, if other clauses define the others.
+    pub(super) fn mark_clause(&mut self, clause: &str) {
+        let Some(stream) = self.stream.as_deref().and_then(Stream::by_name) else { return };
+        let layout = stream.layout();
+        let defined = layout.fields.iter().filter(|field| field.clause == clause);
+        let names: Vec<&str> = defined.map(|field| field.name).collect();
+        if layout.clause == clause || names.len() == layout.fields.len() {
+            return;
+        }
+        for field in self.fields.iter_mut().filter(|field| names.contains(&field.field.as_str())) {
+            field.differs = (0..field.bytes().len()).collect();
+        }
     }
 
     fn mark(&mut self, bytes: &[u8], other: &[u8]) {
@@ -89,6 +136,32 @@ impl BytesReport {
             field.differs = differs.map(|(at, _)| at.saturating_sub(begin)).collect();
         }
     }
+}
+
+/// A frame is the AMS/TCP header, the AMS header and the data of its service.
+const FRAME_PARTS: usize = 3;
+/// Maximum number of bytes of a frame whose data is shown too.
+const SHORT_FRAME: usize = 512;
+
+/// The frame with the headers that an answer to the request must have.
+fn with_headers_of_answer(request: &[u8], frame: &[u8]) -> Option<Vec<u8>> {
+    let header = |frame: &[u8]| {
+        AmsHeader::decode(frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?).ok()
+    };
+    let (asked, answered) = (header(request)?, header(frame)?);
+    // Another frame may follow.
+    let whole = usize::try_from(answered.data_length).ok()?.checked_add(FrameRef::HEADERS_LEN)?;
+    let frame = frame.get(..whole).unwrap_or(frame);
+    let expected = AmsHeader {
+        target: asked.source,
+        source: asked.target,
+        command: asked.command,
+        state_flags: StateFlags::RESPONSE,
+        invoke_id: asked.invoke_id,
+        ..answered
+    };
+    let frame = FrameRef::new(expected, frame.get(FrameRef::HEADERS_LEN..)?).ok()?;
+    frame.encode_to_vec().ok()
 }
 
 /// A shown field, or a number of omitted items.
@@ -142,6 +215,7 @@ impl FieldReport {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ads_cnc::ads::Command;
 
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
@@ -164,6 +238,49 @@ mod tests {
             .collect();
         assert_eq!(marked, [("size", &[1][..]), ("name", &[6])]);
         assert_eq!(report.faults, [""; 0]);
+    }
+
+    fn marked(report: &BytesReport) -> Vec<(&str, usize)> {
+        let fields = report.fields.iter().filter(|field| !field.differs.is_empty());
+        fields.map(|field| (field.field.as_str(), field.offset)).collect()
+    }
+
+    /// Without expected bytes the field is marked that a check is about, by its path or its clause.
+    #[test]
+    fn a_field_is_marked_by_path_or_clause() {
+        let values = ValueFormat::default();
+        let stream = Some("variable-description");
+        let mut report = BytesReport::new(stream, DESCRIPTION, None, &values);
+        report.mark_clause("VAR-8");
+        assert_eq!(marked(&report), [("size", 12)]);
+        // The clause of the whole stream marks none.
+        let mut report = BytesReport::new(stream, DESCRIPTION, None, &values);
+        report.mark_clause("VAR-4");
+        assert_eq!(marked(&report), []);
+        let two = [[1; 84], [2; 84]].concat();
+        let mut report = BytesReport::new(Some("object-descriptors"), &two, None, &values);
+        report.mark_field("descriptors[1].size");
+        assert_eq!(marked(&report), [("size", 88)]);
+    }
+
+    /// In a frame the headers are marked that are not those of an answer to the request.
+    #[test]
+    fn a_frame_is_compared_with_its_request() {
+        let header = AmsHeader::decode(&[7; 32]).unwrap();
+        let frame =
+            |header: AmsHeader| FrameRef::new(header, &[0; 4]).unwrap().encode_to_vec().unwrap();
+        let request = frame(AmsHeader { command: Command(3), ..header });
+        let (source, target) = (header.target, header.source);
+        let state_flags = StateFlags::RESPONSE;
+        let answer = AmsHeader { command: Command(3), state_flags, source, target, ..header };
+        let of_frame = |answer: AmsHeader| {
+            let parts = BytesReport::of_frame(&frame(answer), Some(&request));
+            let parts = parts.iter().flat_map(marked).map(|(field, at)| (field.to_owned(), at));
+            parts.collect::<Vec<_>>()
+        };
+        assert_eq!(of_frame(answer), []);
+        let wrong = AmsHeader { invoke_id: 8, ..answer };
+        assert_eq!(of_frame(wrong), [("invoke_id".to_owned(), 34)]);
     }
 
     /// A missing byte is marked on the side that has it.

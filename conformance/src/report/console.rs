@@ -11,7 +11,7 @@ use super::failures::{blocks, list};
 use super::model::{
     CaseReport, FailureReport, Report, RequirementReport, SubjectReport, TargetReport, Totals,
 };
-use crate::judge::{CLIENT, CaseSubject, Exit, HELLO, TESTEE, Verdict, WaiverReport};
+use crate::judge::{CLIENT, CaseSubject, Exit, HELLO, NOT_CLAIMED, TESTEE, Verdict, WaiverReport};
 use crate::text::{plural, shorten};
 
 /// Maximum number of reasons why cases were not run.
@@ -211,12 +211,12 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     let mut all: BTreeMap<(Verdict, &str), (usize, BTreeSet<&str>)> = BTreeMap::new();
     for case in cases {
         if let Some(note) = &case.note {
-            // A client that lacks several actions gives one reason for all of them.
-            let lacks = note.strip_prefix(LACKS);
-            let (number, names) =
-                all.entry((case.verdict, lacks.map_or(note.as_str(), |_| LACKS))).or_default();
+            // Several actions or streams that are missing are one reason.
+            let parts = LACKS.iter().find_map(|lacks| Some((*lacks, note.strip_prefix(lacks)?)));
+            let (reason, name) = parts.map_or((note.as_str(), None), |(all, one)| (all, Some(one)));
+            let (number, names) = all.entry((case.verdict, reason)).or_default();
             *number += 1;
-            names.extend(lacks);
+            names.extend(name);
         }
     }
     let mut all: Vec<_> = all.into_iter().collect();
@@ -237,8 +237,8 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// The note of a case whose action a client does not have.
-const LACKS: &str = "the client has no ";
+/// The beginnings of the notes of cases whose action a client, or whose stream a testee does not have.
+const LACKS: [&str; 2] = ["the client has no ", NOT_CLAIMED];
 
 fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     let requirements: Vec<&str> =
@@ -351,6 +351,12 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
 
 /// The last line, below the reasons of an exit code that no verdict explains.
 fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+    for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
+        let WaiverReport { test, requirement, state, .. } = waiver;
+        let word = display.paint(AnsiColor::Red, "STALE WAIVER");
+        writeln!(out, "{word}  {test} [{requirement}]: {}", state.name())?;
+    }
+    orphans(report, out)?;
     let rejected = display.paint(AnsiColor::Red, "REJECTED");
     report.rejected.iter().try_for_each(|why| writeln!(out, "{rejected}  {why}"))?;
     let (color, verdict) = match report.exit() {
@@ -370,6 +376,35 @@ fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
     writeln!(out, "{}  {totals}", display.paint(color, verdict))
 }
 
+/// Requirements that follow from one that this run does not judge.
+fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    if report.only.is_empty() {
+        return Ok(());
+    }
+    let failures = || report.cases.iter().flat_map(|case| &case.failures);
+    let fails = |id: &str| {
+        failures()
+            .any(|one| one.requirement == id && one.verdict.fails_run() && one.follows.is_none())
+    };
+    let mut all = BTreeSet::new();
+    for one in failures() {
+        if let Some(cause) = one.follows.as_deref().filter(|cause| !fails(cause)) {
+            all.insert((one.requirement.as_str(), cause));
+        }
+    }
+    let mut all = all.into_iter();
+    for (requirement, cause) in all.by_ref().take(REASONS_MAX) {
+        writeln!(
+            out,
+            "{requirement} follows from {cause}, which this run does not judge: add --only {cause}"
+        )?;
+    }
+    match all.count() {
+        0 => Ok(()),
+        more => writeln!(out, "and {more} more follow from what this run does not judge"),
+    }
+}
+
 /// Explains the verdicts in the report that are not self-explanatory.
 fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let known = |verdict: Verdict| {
@@ -378,7 +413,10 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     for (verdict, meaning) in [
         (Verdict::Warning, "known from help pages only, and not met; not a failure"),
         (Verdict::Differs, "undocumented, and not as this project assumes; not a failure"),
-        (Verdict::Vacuous, "refused as it should be, but so is what should be accepted: fails"),
+        (
+            Verdict::Vacuous,
+            "rejected as it must be, but so is the vector that must be accepted: a failure",
+        ),
         (Verdict::Inconclusive, "the replies do not decide it, or it follows from another failure"),
         (Verdict::NotObserved, "no case in this run exercises it"),
         (Verdict::Interrupted, "the run was ended before it was done"),

@@ -1,5 +1,6 @@
 //! Checks that did not pass, on the console: each failed clause once.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
@@ -8,12 +9,15 @@ use anstyle::AnsiColor;
 use super::BytesReport;
 use super::display::{Detail, Display, NAMES_MAX, RESULT_MAX, WIDTH};
 use super::groups::{Group, groups};
-use super::lines::{lines, marked};
+use super::lines::{is_fault, lines, marked};
 use super::model::{EvidenceReport, FailureReport, Report};
+use crate::judge::{CLIENT, TESTEE};
 use crate::text::{plural, shorten, wrap};
 
 /// Maximum number of failed clauses in normal detail.
 const GROUPS_MAX: usize = 6;
+/// Maximum number of other checks that are named beside failures.
+const NOTES_MAX: usize = 3;
 /// Maximum number of lines of bytes in normal detail, and of those before a wrong byte.
 const BYTES_MAX: usize = 9;
 const BEFORE_MARK: usize = 2;
@@ -25,22 +29,36 @@ pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> 
     let all = groups(report);
     let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
         all.iter().partition(|group| group.is_failure());
-    for group in &others {
+    let verbose = display.detail == Detail::Verbose;
+    // Beside failures, what is none of them has little room.
+    let shown = if verbose || failed.is_empty() { usize::MAX } else { NOTES_MAX };
+    for group in others.iter().take(shown) {
         brief(group, display, out)?;
         if let Some(location) = report.target.file.as_ref().and_then(|_| location(group)) {
             writeln!(out, "  {location}")?;
         }
     }
+    if let Some(more) = others.get(shown..).filter(|more| !more.is_empty()) {
+        let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
+        let number = plural(more.len(), "other difference or warning");
+        writeln!(out, "{number} (-v shows all): {}", list(names, usize::MAX))?;
+    }
     if !others.is_empty() {
         writeln!(out)?;
     }
-    let most = if display.detail == Detail::Verbose { usize::MAX } else { GROUPS_MAX };
-    if let Some(more) = failed.get(most..).filter(|more| !more.is_empty()) {
+    let most = if verbose { usize::MAX } else { GROUPS_MAX };
+    let (protocol, mut failed): (Vec<_>, Vec<_>) =
+        failed.into_iter().partition(|group| group.is_of_protocol());
+    failed.sort_by_key(|group| Reverse(group.followers.len()));
+    let more = failed.split_off(failed.len().min(most.saturating_sub(protocol.len())));
+    // That from which most follows is nearest to the prompt.
+    failed.sort_by_key(|group| group.followers.len());
+    if !more.is_empty() {
         let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
         let number = plural(more.len(), "other failure");
         writeln!(out, "{number} (-v shows all): {}\n", list(names, usize::MAX))?;
     }
-    for group in failed.into_iter().take(most) {
+    for group in failed.into_iter().chain(protocol) {
         block(report, group, display, out)?;
         writeln!(out)?;
     }
@@ -79,11 +97,29 @@ pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     if found.ends_with(" is expected") {
         return format!("{subject}{found}");
     }
+    if let Some(differing) = failure.evidence.as_ref().and_then(differing) {
+        return format!("{subject}{differing}");
+    }
     let found = if found.is_empty() { "nothing" } else { found.as_str() };
     format!("{subject}expected {expected}; found {found}")
 }
 
-fn block(
+/// The first field with a value that differs from the expected one, if all of them are of the same
+/// fields.
+fn differing(evidence: &EvidenceReport) -> Option<String> {
+    let (received, expected) = evidence.received.as_ref().zip(evidence.expected.as_ref())?;
+    if !received.faults.is_empty() || received.fields.len() != expected.fields.len() {
+        return None;
+    }
+    let mut pairs = received.fields.iter().zip(&expected.fields);
+    let (is, instead) = pairs.find(|(is, _)| !is.differs.is_empty())?;
+    let has_values = !is.value.is_empty() && !instead.value.is_empty();
+    (has_values && is.value != instead.value)
+        .then(|| format!("{}: {} where {} is expected", is.field, is.value, instead.value))
+}
+
+/// A group in full: clause, example with its bytes, the number of others, and what follows from it.
+pub(super) fn block(
     report: &Report,
     group: &Group<'_>,
     display: Display,
@@ -94,7 +130,7 @@ fn block(
     let verdict = display.verdict(group.verdict, group.waived);
     let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
     let sources = if failure.sources.is_empty() {
-        "in no document: assumed".to_owned()
+        "in no document: a ruling of this project".to_owned()
     } else {
         failure.sources.join("; ")
     };
@@ -109,15 +145,16 @@ fn block(
     let text = format!("{}: {}", case.id, sentence(failure, most));
     wrap(&text, WIDTH).iter().try_for_each(|line| writeln!(out, "  {line}"))?;
     if let Some(evidence) = &failure.evidence {
-        bytes(evidence, display, out)?;
+        bytes(evidence, failure.is_of_frames(), display, out)?;
     }
     let cases = group.cases();
     match (group.checks().saturating_sub(1), cases.len()) {
         (0, _) => {}
         (more, 1) => writeln!(out, "  {more} alike in this case")?,
-        (more, number) => {
-            let names = list(cases.iter().copied(), if verbose { usize::MAX } else { NAMES_MAX });
-            let text = wrap(&format!("{more} alike in {number} cases: {names}"), WIDTH);
+        (more, _) => {
+            let others = cases.iter().copied().filter(|one| *one != case.id);
+            let names = list(others, if verbose { usize::MAX } else { NAMES_MAX });
+            let text = wrap(&format!("{more} alike, also in {names}"), WIDTH);
             text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
         }
     }
@@ -129,7 +166,13 @@ fn block(
         text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
     }
     if let Some(again) = &report.again {
-        writeln!(out, "  again: {again} --only {} --seed {}", case.id, report.seed)?;
+        // The cases of a protocol cannot be selected.
+        let what = match failure.requirement.as_str() {
+            TESTEE => "--check-protocol".to_owned(),
+            CLIENT if case.id.ends_with("-manners") => format!("--seed {}", report.seed),
+            _ => format!("--only {} --seed {}", case.id, report.seed),
+        };
+        writeln!(out, "  again: {again} {what}")?;
     }
     Ok(())
 }
@@ -154,7 +197,7 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
     // The clause that it follows from has the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
         let display = Display { detail: Detail::Verbose, ..Display::default() };
-        bytes(evidence, display, out)?;
+        bytes(evidence, failure.is_of_frames(), display, out)?;
     }
     if failure.more > 0 {
         writeln!(out, "  and {} more like this in the same case", failure.more)?;
@@ -169,13 +212,18 @@ fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
     writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
     if failure.sources.is_empty() {
-        writeln!(out, "            in no document: assumed")
+        writeln!(out, "            in no document: a ruling of this project")
     } else {
         writeln!(out, "            {}", failure.sources.join("; "))
     }
 }
 
-fn bytes(evidence: &EvidenceReport, display: Display, out: &mut dyn Write) -> io::Result<()> {
+fn bytes(
+    evidence: &EvidenceReport,
+    is_of_frames: bool,
+    display: Display,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;
     let show = |lines: Vec<String>, out: &mut dyn Write| {
         cut(lines, display.detail).iter().try_for_each(|line| {
@@ -198,6 +246,10 @@ fn bytes(evidence: &EvidenceReport, display: Display, out: &mut dyn Write) -> io
     if received.is_some() || !frame_sent.is_empty() {
         writeln!(out, "  received  {}", shorten(result, most))?;
     }
+    if is_of_frames {
+        let [_, frame] = evidence.frames();
+        return show(frame.iter().flat_map(lines).collect(), out);
+    }
     let is_same =
         sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
     let received = received.as_ref().map(if is_same { marked } else { lines });
@@ -215,7 +267,8 @@ fn cut(mut lines: Vec<String>, detail: Detail) -> Vec<String> {
     if detail == Detail::Verbose || lines.len() <= BYTES_MAX {
         return lines;
     }
-    let wrong = lines.iter().position(|line| line.starts_with('!')).unwrap_or_default();
+    let marked = lines.iter().position(|line| line.starts_with('!'));
+    let wrong = marked.or_else(|| lines.iter().position(|line| is_fault(line))).unwrap_or_default();
     let (before, all) = (wrong.saturating_sub(BEFORE_MARK), lines.len());
     let mut shown: Vec<String> = lines.drain(before..).take(BYTES_MAX).collect();
     let after = all.saturating_sub(before).saturating_sub(shown.len());

@@ -93,8 +93,9 @@ impl FoundReport {
         }
         if !self.channels.is_empty() {
             let channels = self.channels.iter();
-            let channels = channels
-                .map(|one| format!("{} with {}", one.number, plural(to_usize(one.axes), "place")));
+            let channels = channels.map(|one| {
+                format!("{} with {}", one.number, plural(to_usize(one.axes), "axis place"))
+            });
             parts.push(format!("channel {}", joined(channels)));
         }
         let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis", "platform axes");

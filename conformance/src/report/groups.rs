@@ -2,8 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ads_cnc_vectors::{sequence, vector};
+
 use super::model::{CaseReport, FailureReport, Report};
-use crate::judge::{CaseSubject, Verdict};
+use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict};
 
 /// Checks that did not pass for the same clause, or in the same field of vectors of one stream.
 #[derive(Debug)]
@@ -44,7 +46,8 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     let places = report.places();
     let place = |id: &str| places.get(id).copied().unwrap_or(usize::MAX);
     let mut all: BTreeMap<GroupKey<'_>, Group<'_>> = BTreeMap::new();
-    let mut followers = Vec::new();
+    let (mut followers, mut vacuous) = (Vec::new(), Vec::new());
+    let failed = failed(report);
     for case in report.sorted() {
         for finding in case.findings() {
             let Some(first) = finding.first() else { continue };
@@ -52,13 +55,27 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 followers.extend(finding.iter().map(|one| (cause.as_str(), *one, case)));
                 continue;
             }
+            // A rejection proves nothing because the sibling, which lacks the fault, fails.
+            if first.verdict == Verdict::Vacuous
+                && let Some(cause) = sibling(case).filter(|id| failed.contains(id.as_str()))
+            {
+                vacuous.extend(finding.iter().map(|one| (cause.clone(), *one, case)));
+                continue;
+            }
+            // A testee that ends, or does not answer, does so for one reason in all streams.
+            let lost = LOST.iter().find(|kind| first.found.starts_with(**kind)).copied();
+            let stream = case.stream.as_deref().filter(|_| lost.is_none());
             let key = GroupKey {
                 gravity: first.verdict.gravity(),
                 waived: !first.waived,
                 subject: case.subject,
-                place: if case.stream.is_some() { 0 } else { place(&first.requirement) },
-                stream: case.stream.as_deref(),
-                field: case.stream.as_ref().map(|_| field(first)),
+                place: match (lost, stream) {
+                    (Some(_), _) => usize::MAX,
+                    (None, Some(_)) => 0,
+                    (None, None) => place(&first.requirement),
+                },
+                stream,
+                field: lost.or_else(|| stream.map(|_| field(first))),
             };
             let group = all.entry(key).or_insert_with(|| Group {
                 verdict: first.verdict,
@@ -89,8 +106,35 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
             group.followers.insert((failure.requirement.as_str(), case.id.as_str()));
         }
     }
+    for (sibling, failure, case) in vacuous {
+        let mut group = all.iter_mut().filter(|group| group.is_failure());
+        if let Some(group) = group.find(|group| group.cases().contains(&sibling.as_str())) {
+            group.followers.insert((failure.requirement.as_str(), case.id.as_str()));
+        }
+    }
     all
 }
+
+/// The vectors and sequences that fail.
+fn failed(report: &Report) -> BTreeSet<&str> {
+    let fails = |case: &&CaseReport| {
+        case.failures.iter().any(|one| one.verdict == Verdict::Fail && !one.waived)
+    };
+    report.cases.iter().filter(fails).map(|case| case.id.as_str()).collect()
+}
+
+/// The case of the accepted sibling of a rejected vector or sequence.
+fn sibling(case: &CaseReport) -> Option<String> {
+    let (kind, id) = case.id.split_once('-')?;
+    let sibling = match kind {
+        "vec" => vector(id)?.sibling.as_deref(),
+        _ => sequence(id)?.sibling.as_deref(),
+    };
+    sibling.map(|sibling| format!("{kind}-{sibling}"))
+}
+
+/// How a testee is found that ended, or was silent.
+const LOST: [&str; 2] = ["a crash", "no answer within"];
 
 /// What the checks of a group have in common, in the order of the groups.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
@@ -119,6 +163,12 @@ impl<'r> Group<'r> {
     pub(super) const fn is_failure(&self) -> bool {
         let fails = matches!(self.verdict, Verdict::Fail | Verdict::Vacuous);
         (fails || matches!(self.verdict, Verdict::HarnessError)) && !self.waived
+    }
+
+    /// Whether it is about the protocol with a testee or client: until that works, the others tell
+    /// little.
+    pub(super) fn is_of_protocol(&self) -> bool {
+        self.requirements.iter().any(|id| [TESTEE, CLIENT].contains(id))
     }
 
     /// The clause with most checks.

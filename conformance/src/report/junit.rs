@@ -8,8 +8,9 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use super::FoundReport;
 use super::console::describe;
-use super::failures::finding;
-use super::model::{CaseReport, FailureReport, Report};
+use super::display::RESULT_MAX;
+use super::failures::{finding, sentence};
+use super::model::{CaseReport, Report};
 use crate::judge::{Verdict, WaiverReport};
 
 /// Writes the report as JUnit XML.
@@ -184,10 +185,11 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     put(&mut test, "assertions", &case.checks.to_string());
     put_time(&mut test, case.milliseconds);
     let findings = text(case)?;
-    let message = match (&case.note, case.failures.first()) {
-        (_, Some(first)) => {
-            let FailureReport { requirement, expected, found, .. } = first;
-            format!("{requirement}: {}: expected {expected}, found {found}", case.title)
+    let gravest = case.failures.iter().rev().max_by_key(|failure| failure.verdict.gravity());
+    let message = match (&case.note, gravest) {
+        (_, Some(failure)) => {
+            let sentence = sentence(failure, RESULT_MAX);
+            format!("{}: {}: {sentence}", failure.requirement, case.title)
         }
         (Some(note), None) => format!("{}: {note}", case.title),
         (None, None) => case.title.clone(),

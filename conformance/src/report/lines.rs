@@ -26,8 +26,15 @@ fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
     } else {
         bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect()
     };
-    all.extend(bytes.faults.iter().map(|fault| format!("      ! {fault}")));
+    all.extend(bytes.faults.iter().map(|fault| format!("{FAULT}{fault}")));
     all
+}
+
+const FAULT: &str = "      ! ";
+
+/// Whether a line tells a fault of the bytes above it.
+pub(super) fn is_fault(line: &str) -> bool {
+    line.starts_with(FAULT)
 }
 
 /// Like [`lines`], but only those with a byte that differs.

@@ -4,13 +4,16 @@ use std::io::{self, Write};
 
 use super::FoundReport;
 use super::console::{counts, describe};
-use super::display::worded;
-use super::failures::finding;
+use super::display::{Display, NAMES_MAX, worded};
+use super::failures::{block, list, sentence};
+use super::groups::groups;
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
 
 /// Maximum number of characters of failures: a comment on GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;
+/// Maximum number of characters of what is expected and found in a title.
+const TITLE_MAX: usize = 60;
 
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, time, editions, seed, only, target, profile, found, .. } = report;
@@ -78,34 +81,35 @@ fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let failed = report.sorted().into_iter().filter(|case| !case.failures.is_empty());
-    let mut failed: Vec<_> = failed.collect();
-    // The gravest first: there may be no room for all.
-    failed.sort_by_key(|case| (case.waived, std::cmp::Reverse(case.verdict.gravity())));
-    if failed.is_empty() {
+    let groups = groups(report);
+    if groups.is_empty() {
         return Ok(());
     }
     writeln!(out, "\n### Not passed\n")?;
     let (mut length, mut shown) = (0_usize, 0_usize);
-    for case in &failed {
+    // The gravest first: there may be no room for all.
+    for group in groups.iter().rev() {
         let mut text = Vec::new();
-        for all in case.findings() {
-            finding(&all, &mut text)?;
-        }
+        block(report, group, Display::default(), &mut text)?;
         let text = String::from_utf8_lossy(&text);
         length += text.len();
         if length > FAILURES_MAX && shown > 0 {
             break;
         }
         shown += 1;
-        let (verdict, title) = (worded(case.verdict, case.waived), plain(&case.title));
-        let (fence, id) = (fence(&text), html(&case.id));
-        writeln!(out, "<details><summary>{verdict}: <code>{id}</code> {title}</summary>\n")?;
+        let title = group.example().map(|(case, failure)| {
+            format!("<code>{}</code> {}", html(&case.id), plain(&sentence(failure, TITLE_MAX)))
+        });
+        let title = title.unwrap_or_default();
+        let verdict = worded(group.verdict, group.waived);
+        let clauses = plain(&list(group.requirements.iter().copied(), NAMES_MAX));
+        let fence = fence(&text);
+        writeln!(out, "<details><summary>{verdict}: {clauses} {title}</summary>\n")?;
         writeln!(out, "{fence}text\n{}{fence}\n\n</details>\n", end_line(&text))?;
     }
-    match failed.len().saturating_sub(shown) {
+    match groups.len().saturating_sub(shown) {
         0 => Ok(()),
-        more => writeln!(out, "And {more} more cases; the report as HTML or JSON has them all."),
+        more => writeln!(out, "And {more} more; the report as HTML or JSON has them all."),
     }
 }
 

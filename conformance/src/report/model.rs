@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use ads_cnc_vectors::Level;
+use ads_cnc_vectors::ids::ADS_5;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{BytesReport, DeviceReport, FoundReport};
 use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
+use crate::text::hex::compact;
 
 /// Version of this structure.
 pub const FORMAT: u32 = 1;
@@ -249,6 +251,28 @@ impl Report {
         }
         let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
         Ok(report.escaped())
+    }
+}
+
+impl FailureReport {
+    /// Whether it is about the frames: their headers, or a reply that is no frame.
+    pub(super) fn is_of_frames(&self) -> bool {
+        let has_faults = |one: &EvidenceReport| {
+            let [_, received] = one.frames();
+            !one.frame_received.is_empty() && received.iter().any(|part| !part.faults.is_empty())
+        };
+        self.evidence.as_ref().is_some_and(|one| {
+            self.requirement == ADS_5.as_str() && !one.frame_received.is_empty() || has_faults(one)
+        })
+    }
+}
+
+impl EvidenceReport {
+    /// The frames of the request and of the reply, each by its headers and the fields of its service.
+    pub(super) fn frames(&self) -> [Vec<BytesReport>; 2] {
+        let bytes = |hex: &str| compact::parse(hex).unwrap_or_default();
+        let (sent, received) = (bytes(&self.frame_sent), bytes(&self.frame_received));
+        [BytesReport::of_frame(&sent, None), BytesReport::of_frame(&received, Some(&sent))]
     }
 }
 

@@ -1,10 +1,7 @@
 //! A finding and its bytes, as the template needs them.
 
-use ads_cnc::ads::FrameRef;
-use ads_cnc_vectors::ids::ADS_5;
 use serde::Serialize;
 
-use crate::explain::ValueFormat;
 use crate::judge::Verdict;
 use crate::report::bytes::ShownField;
 use crate::report::display::worded;
@@ -31,9 +28,8 @@ struct EvidenceView {
     sent: Option<BytesView>,
     received: Option<BytesView>,
     expected: Option<BytesView>,
-    /// The headers of the frames, if the finding is about them.
-    headers_sent: Vec<BytesView>,
-    headers_received: Vec<BytesView>,
+    /// The request and the reply by their headers and services, if the finding is about these.
+    frames: Vec<Vec<BytesView>>,
     frame_sent: String,
     frame_received: String,
 }
@@ -71,7 +67,7 @@ struct ByteView {
 
 pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
     let first = *all.first()?;
-    let is_of_headers = all.iter().any(|one| one.requirement == ADS_5.as_str());
+    let is_of_frames = all.iter().any(|one| one.is_of_frames());
     Some(FindingView {
         verdict: first.verdict,
         word: worded(first.verdict, first.waived),
@@ -82,31 +78,14 @@ pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
         expected: shorten(&first.expected, TEXT_MAX),
         found: shorten(&first.found, TEXT_MAX),
         more: first.more,
-        evidence: first.evidence.as_ref().map(|one| evidence(one, is_of_headers)),
+        evidence: first.evidence.as_ref().map(|one| evidence(one, is_of_frames)),
     })
 }
 
 /// Maximum number of characters of an expected and of an actual result.
 const TEXT_MAX: usize = 400;
 
-/// The headers of a frame in hex; none of a frame that is cut within them.
-fn headers(frame: &str) -> Vec<BytesView> {
-    let bytes = compact::parse(frame).unwrap_or_default();
-    let (Some(tcp), Some(ams)) = (bytes.get(..TCP_LEN), bytes.get(TCP_LEN..HEADERS_LEN)) else {
-        return Vec::new();
-    };
-    let parts = [("ams-tcp-header", tcp), ("ams-header", ams)];
-    parts
-        .map(|(stream, bytes)| {
-            view(&BytesReport::new(Some(stream), bytes, None, &ValueFormat::default()), None)
-        })
-        .into()
-}
-
-const HEADERS_LEN: usize = FrameRef::HEADERS_LEN;
-const TCP_LEN: usize = 6;
-
-fn evidence(evidence: &EvidenceReport, is_of_headers: bool) -> EvidenceView {
+fn evidence(evidence: &EvidenceReport, is_of_frames: bool) -> EvidenceView {
     let EvidenceReport {
         call, result, sent, received, expected, frame_sent, frame_received, ..
     } = evidence;
@@ -120,14 +99,14 @@ fn evidence(evidence: &EvidenceReport, is_of_headers: bool) -> EvidenceView {
     let is_same =
         sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
     let below = expected.as_ref().filter(|_| fits);
+    let frame = |parts: Vec<BytesReport>| parts.iter().map(|part| view(part, None)).collect();
     EvidenceView {
         call: call.clone(),
         result: result.clone(),
         sent: sent.as_ref().filter(|_| !is_same).map(|bytes| view(bytes, None)),
         received: received.as_ref().map(|bytes| view(bytes, below)),
         expected: expected.as_ref().filter(|_| !fits).map(|bytes| view(bytes, None)),
-        headers_sent: if is_of_headers { headers(frame_sent) } else { Vec::new() },
-        headers_received: if is_of_headers { headers(frame_received) } else { Vec::new() },
+        frames: if is_of_frames { evidence.frames().map(frame).into() } else { Vec::new() },
         frame_sent: frame_sent.clone(),
         frame_received: frame_received.clone(),
     }
