@@ -105,7 +105,7 @@ impl ExchangeError {
 impl fmt::Display for ExchangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Refused(why) => write!(f, "not sent, refused for safety: {why}"),
+            Self::Refused(why) => write!(f, "not sent, rejected for safety: {why}"),
             Self::NotSent => f.write_str("not sent: a dry run"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
             Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),

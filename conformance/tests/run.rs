@@ -395,6 +395,19 @@ fn a_place_for_each_report_is_looked_for_first() {
     assert_eq!(ads_cnc(&["run", "--timeout", "0"]).status.code(), Some(2));
 }
 
+/// A rejection that proves nothing is listed with the vector that should be accepted.
+#[test]
+fn a_vacuous_rejection_is_below_its_sibling() {
+    let defect = ["run", "--defect", "read-write-reply.length.zero", "--only", "read-write-reply"];
+    let output = ads_cnc(&defect);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    assert!(shown.contains(" 3 vacuous "), "{shown}");
+    assert!(!shown.contains("\nVACUOUS"), "{shown}");
+    let list = shown.split("follows from it: ").skip(1).collect::<String>();
+    assert!(list.contains("vec-read-write-reply-length-largest (ADS-3)"), "{shown}");
+}
+
 /// A dry run says what would be asked, and of a file for writes what may be written.
 #[test]
 fn a_dry_run_lists_what_would_be_asked() {

@@ -1,4 +1,4 @@
-//! What is run, in which order, and which failures are put up with.
+//! What is run, in which order, and which failures are waived.
 
 use std::collections::BTreeSet;
 use std::io::{BufRead as _, BufReader};

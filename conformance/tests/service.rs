@@ -235,7 +235,7 @@ fn an_entry_has_to_name_the_service() {
 fn a_dry_run_shows_what_an_answer_takes() {
     let mut bench = Bench::start();
     for (table, code, verdict) in
-        [("[[service]]\nchannel = 2\n", 0, "would be sent"), ("", 4, "would be refused")]
+        [("[[service]]\nchannel = 2\n", 0, "would be sent"), ("", 4, "would be rejected")]
     {
         bench.allow = TestFile::allowing(table);
         let output = bench.tool(&["--uuid", ID, "--dry-run"], &["echo"]).output().unwrap();

@@ -54,7 +54,7 @@ fn what_is_allowed_is_written_and_nothing_else() {
     let error = session.call(&write("V.E.Testvar[4]")).unwrap_err();
     assert_eq!(error.exit(), Exit::Refused);
     let text = error.to_string();
-    assert!(text.contains("refused for safety") && text.contains("V.E.Testvar[4]"), "{text}");
+    assert!(text.contains("rejected for safety") && text.contains("V.E.Testvar[4]"), "{text}");
 }
 
 #[test]

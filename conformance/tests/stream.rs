@@ -219,7 +219,7 @@ fn an_entry_has_to_name_the_stream() {
 #[test]
 fn a_dry_run_shows_the_packets() {
     let (addr, packets) = kept(|_| OK);
-    for (table, exit, verdict) in [(STREAM_1, 0, "would be sent\n"), ("", 4, "would be refused: ")]
+    for (table, exit, verdict) in [(STREAM_1, 0, "would be sent\n"), ("", 4, "would be rejected: ")]
     {
         let allow = TestFile::allowing(table);
         let output = stream(program().as_bytes(), addr, &allow, &["--dry-run"]);

@@ -268,11 +268,11 @@ fn a_dry_run_sends_nothing() {
     for (args, code, asks) in TOOLS {
         let tripwire = Tripwire::start();
         let output = tripwire.call(&[&args[..1], &["--dry-run"], &args[1..]].concat());
-        // Who asks first gets no answer, and so does not come to what would be refused.
+        // Who asks first gets no answer, and so does not come to what would be rejected.
         let code = if *asks { 0 } else { *code };
         assert_eq!(output.status.code(), Some(code), "{args:?}: {output:?}");
         let shown = String::from_utf8(output.stdout).unwrap();
-        let verdict = if code == 0 { "would be sent" } else { "would be refused" };
+        let verdict = if code == 0 { "would be sent" } else { "would be rejected" };
         assert!(shown.contains(verdict), "{args:?}: {shown}");
         assert_eq!(tripwire.connections().len(), 0, "{args:?}");
     }

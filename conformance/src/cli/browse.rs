@@ -26,45 +26,47 @@ const CONTENT_MAX: u32 = 0x1_0000;
 
 /// List objects and elements, or all variables
 ///
-/// Nothing is written, and no more is asked than what there is has to be asked for: descriptors in
-/// ranges, channels by their number until all are found, axes and spindles until one is not there.
-/// Elements take a request each, and four more for type, length, unit and access of those that were
-/// not met before under this name at this place of the class; --exact asks them of all. Which of the
-/// tasks SDA and GEO has a class no manual says: GEO is asked for what SDA does not have. --of and
-/// --filter save requests, --rate keeps a device from being asked too fast.
+/// The command writes nothing and sends as few requests as possible: it reads descriptors in
+/// ranges, channels by number until all are found, and axes and spindles until one does not exist.
+/// Each element takes one request, and four more for its type, length, unit and access unless an
+/// element with the same name and position in the class is already known; --exact sends them for
+/// every element. No manual says which of the tasks SDA and GEO has a class: the command queries
+/// GEO for the classes that SDA does not have. --of and --filter save requests, --rate limits their
+/// rate.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
 pub(super) struct Browse {
-    /// Variables by their descriptions (V.G, V.E, V.A) and parameters (P, V.L, V.P, V.S); V.CYC has no
-    /// list
+    /// List variables by their descriptions (V.G, V.E, V.A) and parameters (P, V.L, V.P, V.S);
+    /// V.CYC has no list
     #[arg(long)]
     variables: bool,
 
-    /// Only names with this in them, or with * or ? whole names; upper and lower case are the same
+    /// List only names that contain PATTERN, or match it as a whole if it has * or ?; ignores case
     #[arg(long, value_name = "PATTERN")]
     filter: Option<String>,
 
-    /// Only lists of this name, whole, as the table has it, with * and ?: "COM *", "decoder channel 1"
+    /// Read only lists with this whole name, as in the table; * and ? match: "COM *", "decoder
+    /// channel 1"
     #[arg(long, value_name = "LIST")]
     of: Option<String>,
 
-    /// Only these channels [default: all that are active]
+    /// Read only these channels [default: all active channels]
     #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = channel)]
     channel: Vec<Channel>,
 
-    /// Read the values too
+    /// Also read the values
     #[arg(long)]
     content: bool,
 
-    /// Ask every attribute of every element
+    /// Request every attribute of every element
     #[arg(long, conflicts_with = "variables")]
     exact: bool,
 
-    /// How to write it
+    /// Output format
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     format: BrowseFormat,
 
-    /// The same as --format json
+    /// Same as --format json
     #[arg(long, conflicts_with = "format")]
     json: bool,
 
@@ -85,12 +87,11 @@ Examples:
   ads-cnc browse --variables --filter \"V.G.*\"
   ads-cnc browse --format csv --target 192.0.2.10 --net-id 192.0.2.10.1.1 --rate 200 > objects.csv
 
-At most 100000 objects with 8 MiB of names are listed, 1000000 requests sent and 8 MiB of values
-read.
+Limits: 100000 objects with 8 MiB of names, 1000000 requests and 8 MiB of values.
 
-Exit codes: 0 listed; 2 wrong usage; 3 no answer, nothing fits, or a maximum or the deadline was
-reached; 4 refused for safety; 70 internal error. What a CNC refuses to tell is noted on stderr and
-left out.";
+Exit codes: 0 listed; 2 wrong usage; 3 no reply, no match, or a maximum or the deadline was reached;
+4 rejected for safety; 70 internal error. Requests that the CNC rejects are noted on stderr, and
+their results are omitted.";
 
 /// The text of the help states these limits.
 const _: () = assert!(
@@ -102,11 +103,11 @@ const _: () = assert!(
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum BrowseFormat {
-    /// For people
+    /// Readable table
     Table,
-    /// Comma-separated, with a line of heads
+    /// Comma-separated values with a header line
     Csv,
-    /// One document
+    /// One JSON document
     Json,
 }
 

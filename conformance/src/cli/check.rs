@@ -23,38 +23,38 @@ const TRAFFIC: &str = "Traffic";
 /// Judge captured traffic by the same requirements
 ///
 /// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them, or
-/// NetMon 2.x, as the ADS Monitor of Beckhoff writes it. TCP connections are reassembled in both
-/// directions, AMS frames in EtherCAT frames are read too, requests are paired with their replies,
-/// and exchanges are compared with each other. Frames to AMS ports other than 551 (GEO), 552
-/// (SDA) and 553 (COM), and calls of addresses at which nothing is documented, are counted.
+/// NetMon 2.x, as the ADS Monitor of Beckhoff writes it. The check reassembles both directions of
+/// TCP connections, also reads AMS frames in EtherCAT frames, pairs requests with their replies,
+/// and compares exchanges with each other. It only counts frames to AMS ports other than 551 (GEO),
+/// 552 (SDA) and 553 (COM), and calls of undocumented addresses.
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES, after_long_help = AFTER)]
 pub(super) struct CheckArguments {
-    /// The capture
+    /// The capture to read
     file: PathBuf,
 
-    /// Look at this TCP port too, whichever side has it; repeatable [default: 48898 alone]
+    /// Read the connections of this TCP port, on either side; repeatable [default: 48898]
     #[arg(long, help_heading = TRAFFIC, value_name = "N", conflicts_with = "any_port",
         value_parser = clap::value_parser!(u16).range(1..))]
     port: Vec<u16>,
 
-    /// Look at every TCP connection, and judge those in which an AMS frame is found
+    /// Read every TCP connection, and judge those that contain an AMS frame
     #[arg(long, help_heading = TRAFFIC)]
     any_port: bool,
 
-    /// Write the streams that were captured as golden vectors: to a new file, or into a folder
+    /// Write the captured streams as golden vectors, to a new file or into a folder
     #[arg(long, help_heading = TRAFFIC, value_name = "DIR|FILE", value_parser = vectors_file)]
     extract_vectors: Option<PathBuf>,
 
-    /// Leave texts and NC programs in the vectors as they were captured
+    /// Keep captured texts and NC programs in the vectors [default: texts masked, programs omitted]
     #[arg(long, help_heading = TRAFFIC, requires = "extract_vectors")]
     keep_texts: bool,
 
-    /// Judge by this alone: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
+    /// Judge only this: an area (VAR), a requirement (VAR-11) or the ID of a case; repeatable
     #[arg(long, value_name = "AREA|ID")]
     only: Vec<String>,
 
-    /// Judge by this edition alone, en-1.05 or de-1.051 [default: both]
+    /// Judge by this edition only, en-1.05 or de-1.051 [default: both]
     #[arg(long, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
@@ -67,7 +67,7 @@ pub(super) struct CheckArguments {
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 passed, 1 failed, 2 wrong usage or no capture, 3 nothing judged or inconclusive, 5 a \
-waiver no longer holds, 70 internal error";
+waiver is no longer valid, 70 internal error";
 
 const AFTER: &str = "\
 Examples:
@@ -75,30 +75,29 @@ Examples:
   ads-cnc check traffic.pcap --port 48898 --port 8016 --html report.html
   ads-cnc check traffic.pcapng --extract-vectors vectors.json
 
-What is read:
+Supported captures:
   Ethernet with and without VLAN tags, raw IP, Linux cooked (SLL, SLL2) and loopback (NULL, LOOP);
   IPv4 and IPv6. AMS frames in EtherCAT frames (EtherType 0x88A4, type 2) are one conversation per
-  AMS NetId of clients, whatever --port selects. Fragments of IP packets are counted, not put
-  together. What never came, or was cut off by a snap length, is a gap: what it touches is
-  inconclusive. A connection that began before the
-  capture is judged from the first frame that is found. A file that ends too early is judged up to
-  there, and the report says so.
+  AMS NetId of clients, whatever --port selects. Fragments of IP packets are counted, not
+  reassembled. Bytes that were not captured, or were cut off by a snap length, are a gap: checks
+  that need them are inconclusive. A connection that began before the capture is judged from its
+  first frame in the capture. A truncated file is judged up to its end, with a note in the report.
 
 Limits:
-  A record of 8 MiB; 1024 connections at the same time; 1 MiB of one direction that waits for what is
-  missing before it; 32 MiB of all connections that wait; frames of 4 MiB; 4096 requests of a
-  connection without an answer, and 512 with one invoke ID that are looked at for an answer; 24 MiB of
-  names, objects and elements; 10000 vectors.
+  A record of 8 MiB; 1024 connections at the same time; 1 MiB of one direction that waits for
+  missing bytes before it, and 32 MiB in all connections; frames of 4 MiB; 4096 unanswered requests
+  of a connection, of which 512 with the same invoke ID are searched for the request of a reply;
+  24 MiB of names, objects and elements; 10000 vectors.
 
-What is taken out of vectors:
+Removed from vectors:
   AMS NetIds, TCP and IP addresses, the client's AMS port, invoke IDs. Unless --keep-texts is given,
-  letters of names, units and texts of the type STRING become x too, and NC programs are left out.
-  Numbers stay, and so do values of which the capture does not tell the type. Look through the
-  vectors before you hand them on. Nothing is written over.
+  letters of names, units and texts of the type STRING also become x, and NC programs are omitted.
+  Numbers are kept, and so are values whose type is not in the capture. Review the vectors before
+  you pass them on. Existing files are not overwritten.
 
-Exit codes, the first that holds:
-  70 internal error, 2 wrong usage or no capture, 1 a fail, 5 a waiver that does not hold, 3 nothing
-  judged or something inconclusive, 0. Warnings and differences leave 0.";
+Exit codes, the first that applies:
+  70 internal error, 2 wrong usage or no capture, 1 a fail, 5 an invalid waiver, 3 nothing judged or
+  a case is inconclusive, 0 passed. Warnings and differences do not change the exit code.";
 
 /// Maximum number of exchanges that are shown without -v.
 const LISTED_MAX: usize = 10;

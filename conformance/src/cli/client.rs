@@ -17,19 +17,19 @@ use crate::text::did_you_mean;
 
 /// Answer the protocol of `run --client` with this project's client
 ///
-/// A client to try the suite with, and an example: it goes to this machine only. See
+/// This client tests the suite and serves as an example. It connects only to this machine. See
 /// conformance/adapters/CLIENTS.md.
 #[derive(Args, Debug)]
 pub(super) struct ClientArguments {
-    /// Do one thing wrong (see --list-defects)
+    /// Enable a defect (see --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// Be started for each action, and do what ADS_CNC_DO says
+    /// Execute the action in the environment variable ADS_CNC_DO and exit
     #[arg(long)]
     once: bool,
 
-    /// List what it can do wrong, each with the requirement that has to fail
+    /// List the defects, each with the requirement that must fail
     #[arg(long)]
     list_defects: bool,
 }

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use super::message::print_error;
 use crate::judge::Exit;
 
-/// Write a script that completes the command line in a shell
+/// Print a script that completes the command line in a shell
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Completions {

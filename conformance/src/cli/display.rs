@@ -35,11 +35,11 @@ pub(super) struct DisplayArgs {
     #[arg(long, short)]
     verbose: bool,
 
-    /// Show the last line only, and above it what was rejected
+    /// Show only the last line, and the rejected writes above it
     #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
 
-    /// When to colour: on a terminal, unless NO_COLOR is set
+    /// When to colour the output; auto: on a terminal, unless NO_COLOR is set
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     color: Color,
 }

@@ -26,8 +26,8 @@ const INPUT_MAX: u64 = 0x100_0000;
 
 /// Explain bytes field by field
 ///
-/// --stream, --group and --offset, or --frame tell what the bytes are; without, they have to be
-/// AMS/TCP frames. Bytes that are cut or wrong are shown up to the fault.
+/// --stream, --group with --offset, or --frame specify the meaning of the bytes; without them, the
+/// bytes must be AMS/TCP frames. Truncated or invalid bytes are shown up to the error.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
@@ -35,32 +35,32 @@ pub(super) struct Explain {
     #[arg(value_name = "HEX")]
     hex_bytes: Vec<String>,
 
-    /// Read the bytes from a file, as they are; - is stdin
+    /// Read the bytes from a binary file; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with = "hex_bytes")]
     file: Option<PathBuf>,
 
-    /// The file has hex
+    /// Read the file as hex
     #[arg(long, requires = "file")]
     hex: bool,
 
-    /// The bytes are this stream (see --list)
+    /// Parse the bytes as this stream (see --list)
     #[arg(long, value_name = "NAME", conflicts_with_all = ["frame", "group"])]
     stream: Option<String>,
 
-    /// The bytes are AMS/TCP frames, one after the other
+    /// Parse the bytes as consecutive AMS/TCP frames
     #[arg(long)]
     frame: bool,
 
-    /// The bytes are data of a service in this index group; with --frame: of replies whose
-    /// request is not there
+    /// Parse the bytes as service data of this index group; with --frame, use the index group for
+    /// replies without their request
     #[arg(long, value_name = "NUMBER", value_parser = number, requires = "offset")]
     group: Option<u32>,
 
-    /// Index offset
+    /// Index offset of the service data
     #[arg(long, value_name = "NUMBER", value_parser = number, requires = "group")]
     offset: Option<u32>,
 
-    /// ADS service; without it, that of the function at this address
+    /// ADS service [default: the service of the function at this address]
     #[arg(long, value_name = "SERVICE", requires = "group")]
     service: Option<ServiceName>,
 
@@ -68,7 +68,7 @@ pub(super) struct Explain {
     #[arg(long, requires = "group")]
     port: Option<u16>,
 
-    /// The bytes came back
+    /// Parse the bytes as a reply [default: as a request]
     #[arg(long, requires = "group")]
     reply: bool,
 
@@ -76,19 +76,19 @@ pub(super) struct Explain {
     #[arg(long = "type", value_name = "TYPE", value_parser = type_by_name)]
     ty: Option<DataType>,
 
-    /// Elements in each dimension of the value
+    /// Number of elements in each dimension of the value
     #[arg(long, value_name = "N,…", value_delimiter = ',', requires = "ty")]
     dimensions: Vec<u32>,
 
-    /// Write one JSON document
+    /// Print one JSON document
     #[arg(long)]
     json: bool,
 
-    /// When to colour: on a terminal, unless NO_COLOR is set
+    /// When to colour the output; auto: on a terminal, unless NO_COLOR is set
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     color: Color,
 
-    /// List the streams: name, requirement, most bytes, title
+    /// List the streams: name, requirement, maximum number of bytes, title
     #[arg(long, exclusive = true)]
     list: bool,
 }
@@ -102,10 +102,10 @@ Examples:
   ads-cnc explain --file frames.bin --json
   xxd -p frames.bin | ads-cnc explain -
 
-With --group, the bytes are the data of the service, without its own header; without any, the
-address is explained. An empty argument (\"\") means no bytes.
+With --group, the bytes are the data of the service, without its own header; without bytes, the
+command explains the address. An empty argument (\"\") means empty data.
 
-Exit codes: 0 explained; 1 the bytes are faulty; 2 wrong usage; 3 nothing is known of them;
+Exit codes: 0 explained; 1 the bytes are invalid; 2 wrong usage; 3 the address is unknown;
 70 internal error.";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

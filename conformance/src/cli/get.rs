@@ -17,25 +17,25 @@ use crate::values::{lines, plain};
 
 /// Read a variable, a parameter, an object or an element by its name
 ///
-/// A variable is typed by its description: asked for by name, and on CNCs that do not describe that,
-/// by going through the descriptions of its kind. A COM object or an element is looked for in the
-/// lists of the channel, of the platform, its axes and spindles; --of makes that quick. Nothing is
-/// written.
+/// The type of a variable comes from its description. The command requests the description by name,
+/// or, on a CNC without that function, searches the descriptions of the variable's kind. It
+/// searches for a COM object or an element in the lists of the channel, of the platform, its axes
+/// and spindles; --of shortens the search. The command writes nothing.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
 pub(super) struct Get {
     #[command(flatten)]
     name: NameArgs,
 
-    /// Only the value, on one line, as set takes it
+    /// Print only the value, on one line, in the form that set accepts
     #[arg(long, conflicts_with_all = ["json", "hex"])]
     plain: bool,
 
-    /// Write one JSON document
+    /// Print one JSON document
     #[arg(long, conflicts_with = "hex")]
     json: bool,
 
-    /// Only the bytes, as hexadecimal digits on one line
+    /// Print only the bytes, as hexadecimal digits on one line
     #[arg(long)]
     hex: bool,
 
@@ -60,9 +60,8 @@ Examples:
   ads-cnc get mc_active_single_block_r --target 192.0.2.10 --net-id 192.0.2.10.1.1
   ads-cnc get example.enable --of \"HLD axis 1\"
 
-Exit codes: 0 read; 1 the CNC has nothing of this name, or what it answers is no value of the type;
-2 wrong usage, and several things have the name; 3 no answer; 4 refused for safety; 70 internal
-error.";
+Exit codes: 0 read; 1 the name is unknown to the CNC, or the reply is not a value of the type;
+2 wrong usage, or an ambiguous name; 3 no reply; 4 rejected for safety; 70 internal error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {

@@ -79,8 +79,8 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Judge", &["run", "check", "report", "requirements"]),
     ("Simulate", &["serve"]),
     ("Inspect, reading only", &["browse", "get", "explain", "tables", "wireshark"]),
-    ("Act on a CNC", &["set", "stream", "service"]),
-    ("Try the suite itself", &["selftest", "testee", "client", "completions"]),
+    ("Write to a CNC", &["set", "stream", "service"]),
+    ("Test the suite itself", &["selftest", "testee", "client", "completions"]),
 ];
 
 /// The command line, with the help by groups.
@@ -96,7 +96,8 @@ fn command() -> clap::Command {
         }
     }
     template.push_str(
-        "\nOptions:\n{options}\n\nWithout a command: run. ads-cnc COMMAND --help says more.",
+        "\nOptions:\n{options}\n\n\
+         The default command is run. See ads-cnc COMMAND --help for details.",
     );
     command.help_template(template)
 }

@@ -13,15 +13,15 @@ const MODEL: &str = "Simulated CNC";
 /// Options that choose the data model.
 #[derive(Debug, clap::Args)]
 pub(super) struct ModelArgs {
-    /// Data model instead of the default one.
+    /// Read the data model from this file [default: the built-in model].
     #[arg(long, help_heading = MODEL, value_name = "FILE")]
     model: Option<PathBuf>,
 
-    /// Edition of the manual that the CNC follows, whatever the model says: en-1.05 or de-1.051.
+    /// Edition of the manual that the CNC follows: en-1.05 or de-1.051 [default: as in the model].
     #[arg(long, help_heading = MODEL, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
-    /// Version that the CNC claims to be, whatever the model says: V4.29.0 for one.
+    /// Version that the CNC reports, such as V4.29.0 [default: as in the model].
     #[arg(long, help_heading = MODEL, value_name = "VERSION", value_parser = cnc_version)]
     cnc_version: Option<CncVersion>,
 }

@@ -28,19 +28,19 @@ pub(super) struct NameArgs {
     #[command(flatten)]
     channel: ChannelArgs,
 
-    /// Ask the axis interface for a V.A variable: place of the axis in the channel, from 1
+    /// Use the axis interface for a V.A variable: axis place in the channel, from 1
     #[arg(long, value_name = "PLACE", value_parser = axis)]
     axis: Option<ChannelAxis>,
 
-    /// Which list of objects, if the name is in several: as browse shows them, with * and ?
+    /// List of objects, if several have the name: as shown by browse; * and ? match
     #[arg(long, value_name = "LIST", conflicts_with = "axis")]
     of: Option<String>,
 
-    /// At which index offset, if a list has the name several times
+    /// Index offset, if a list has the name several times
     #[arg(long, value_name = "NUMBER", value_parser = number, conflicts_with = "axis")]
     offset: Option<u32>,
 
-    /// Take the value for this type, and ask no description: BOOLEAN, SGN32, REAL64, STRING, …
+    /// Type of the value, without a request for its description: BOOLEAN, SGN32, REAL64, STRING, …
     #[arg(long = "type", value_name = "TYPE", value_parser = type_by_name)]
     pub(super) ty: Option<DataType>,
 }

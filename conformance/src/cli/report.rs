@@ -17,22 +17,22 @@ use crate::text::utf8;
     ads-cnc run --json - | ads-cnc report - --markdown -\n  \
     ads-cnc report report.json --statement statement.html\n  \
     ads-cnc report report.json --against yesterday.json\n\n\
-    Exit codes: 0 written, whatever the report says; 1 something fails newly, 3 something is no \
+    Exit codes: 0 written, whatever the report says; 1 a new failure, 3 a requirement is no \
     longer judged (--against); 2 wrong usage or no report; 70 internal error")]
 pub(super) struct ReportArgs {
-    /// The report; - is stdin
+    /// The JSON report to read; - is stdin
     file: PathBuf,
 
     #[command(flatten)]
     forms: ReportFormats,
 
     /// Write a conformance statement: for each clause whether it is claimed and verified; as HTML if
-    /// the name of the file ends so, otherwise as Markdown
+    /// the file name ends in .html, otherwise as Markdown
     #[arg(long, value_name = "FILE")]
     statement: Option<PathBuf>,
 
-    /// Compare with an earlier report: what fails or deviates newly, what is mended, what
-    /// is judged newly or no longer
+    /// Compare with an earlier report: list new failures and deviations, fixed ones, and
+    /// requirements newly judged or no longer judged
     #[arg(long, value_name = "EARLIER")]
     against: Option<PathBuf>,
 

@@ -19,7 +19,7 @@ pub(super) const HEADING: &str = "Reports";
 /// Formats that are made from the JSON report.
 #[derive(Args, Clone, Debug)]
 pub(super) struct ReportFormats {
-    /// Write the report as one HTML file that needs nothing else
+    /// Write the report as one self-contained HTML file
     #[arg(long, help_heading = HEADING, value_name = "FILE")]
     html: Option<PathBuf>,
 
@@ -27,11 +27,11 @@ pub(super) struct ReportFormats {
     #[arg(long, help_heading = HEADING, value_name = "FILE")]
     junit: Option<PathBuf>,
 
-    /// Write the report as Markdown, as for a pull request
+    /// Write the report as Markdown, for example for a pull request
     #[arg(long, help_heading = HEADING, value_name = "FILE")]
     markdown: Option<PathBuf>,
 
-    /// Write a badge as shields.io reads it from an endpoint
+    /// Write the JSON of a badge for an endpoint of shields.io
     #[arg(long, help_heading = HEADING, value_name = "FILE")]
     badge: Option<PathBuf>,
 }
@@ -82,11 +82,11 @@ impl ReportFormats {
 /// What whoever is judged is reported in, and the failures that are known of it.
 #[derive(Args, Clone, Debug)]
 pub(super) struct Reports {
-    /// Known failures that are put up with
+    /// Read the accepted known failures from this file
     #[arg(long, value_name = "FILE")]
     waivers: Option<PathBuf>,
 
-    /// Write the report as JSON, from which `ads-cnc report` makes all others; - is stdout
+    /// Write the report as JSON, which `ads-cnc report` converts to the other formats; - is stdout
     #[arg(long, help_heading = HEADING, value_name = "FILE")]
     json: Option<PathBuf>,
 

@@ -13,15 +13,15 @@ use crate::text::did_you_mean;
     ads-cnc requirements VAR --format json\n\n\
     Exit codes: 0 printed, 2 wrong usage, 3 no requirement matches, 70 internal error")]
 pub(super) struct Requirements {
-    /// An area (VAR), a requirement (VAR-11), a case by its ID [default: all requirements]
+    /// An area (VAR), a requirement (VAR-11) or the ID of a case [default: all requirements]
     #[arg(value_name = "AREA|ID", conflicts_with = "only")]
     wanted: Vec<String>,
 
-    /// The same as an option, as for run; repeatable
+    /// Same as the argument, with the option name of run; repeatable
     #[arg(long, value_name = "AREA|ID")]
     only: Vec<String>,
 
-    /// How it is printed
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: RequirementsFormat,
 }
@@ -31,7 +31,7 @@ enum RequirementsFormat {
     Text,
     Markdown,
     Json,
-    /// From the sections of the manuals to what covers each
+    /// The sections of the manuals, each with its coverage
     Sections,
 }
 

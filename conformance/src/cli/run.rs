@@ -44,17 +44,17 @@ const SELECTION: &str = "Selection";
 
 /// Judge a device, a codec, a client or the simulated CNC by the requirements
 ///
-/// Without --target a simulated CNC is started on this machine and judged together with the codec.
-/// A device is only read: nothing is sent to it but documented queries, to the ports they are
-/// documented for. Some ask for what is not there, by one beyond the last, to see it refused.
+/// Without --target, the run starts a simulated CNC on this machine and judges it together with the
+/// codec. A device is only read: the run sends only documented queries, to the documented ports.
+/// Some queries address the item after the last one, to verify that the device rejects them.
 ///
-/// Without --profile the run first asks which ports, channels and axes the device has, and judges all
-/// of them. Before the cases it says what it found, and how long they will take.
+/// Without --profile, the run first queries the device for its ports, channels and axes, and judges
+/// all of them. Before the cases, it prints what it found and how long the cases will take.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Exit codes: 0 passed, 1 failed, 2 wrong usage, 3 nothing judged, inconclusive or \
-        interrupted, 4 rejected for safety, 5 a waiver no longer holds, 6 a value was left changed, \
-        70 internal error",
+        interrupted, 4 rejected for safety, 5 a waiver is no longer valid, 6 a value was left \
+        changed, 70 internal error",
     after_long_help = after_long_help()
 )]
 pub(super) struct Run {
@@ -67,8 +67,8 @@ pub(super) struct Run {
     #[command(flatten)]
     client: ClientArgs,
 
-    /// Judge a codec of any language: a command that answers on stdin and stdout, one line of JSON at
-    /// a time (see conformance/adapters)
+    /// Judge a codec in any language: start this command, which reads requests on stdin and writes
+    /// replies to stdout, one line of JSON each (see conformance/adapters)
     #[arg(
         long,
         value_name = "COMMAND",
@@ -79,47 +79,51 @@ pub(super) struct Run {
     )]
     testee: Option<String>,
 
-    /// Go through the protocol with the testee step by step, for whoever writes an adapter
+    /// Check the protocol of the testee step by step; for authors of adapters
     #[arg(long, requires = "testee",
         conflicts_with_all = ["client", "client_listen", "only", "list", "json", "waivers"])]
     check_protocol: bool,
 
-    /// Also send malformed requests and unknown commands, to see them rejected; what they do to a
-    /// CNC that takes them is not known. Needs `malformed = true` in the file of --allow-write, and a
-    /// target on loopback, which is no proof that nothing moves: the CNC of an industrial PC is asked
-    /// there too, and whatever an SSH tunnel leads to
+    /// Also send malformed requests and unknown commands, to verify that the CNC rejects them
+    ///
+    /// The effect on a CNC that accepts them is unknown. Needs `malformed = true` in the file of
+    /// --allow-write and a target on loopback. Loopback does not guarantee that no machine moves:
+    /// the CNC of an industrial PC and a device behind an SSH tunnel are also reached through it.
     #[arg(long, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
     malformed: bool,
 
-    /// Run what is called this: an area (VAR), a requirement (VAR-11), a stream
-    /// (variable-description), a case by its ID; repeatable, or a list with commas
+    /// Run only these cases: an area (VAR), a requirement (VAR-11), a stream (variable-description)
+    /// or the ID of a case; repeatable or comma-separated [default: all]
     #[arg(long, help_heading = SELECTION, value_name = "AREA|STREAM|ID", value_delimiter = ',')]
     only: Vec<String>,
 
-    /// Judge by this edition alone, en-1.05 or de-1.051; the simulated CNC follows it [default: both]
+    /// Judge by this edition only, en-1.05 or de-1.051; the simulated CNC follows it [default:
+    /// both]
     #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
-    /// The order of the cases, and which items of long lists are read [default: a new one each time, which the report names]
+    /// Set the seed of the order of the cases and of the samples of long lists [default: random;
+    /// shown in the report]
     #[arg(long, help_heading = SELECTION, value_name = "N")]
     seed: Option<u32>,
 
-    /// Read every item of every list of a device, up to 10000. Otherwise, and unless something may be
-    /// written, a sample by the seed is read of a list of more than 256 items
+    /// Read every item of every list of a device, up to 10000 [default: a sample of each list of
+    /// more than 256 items, unless a write is allowed]
     #[arg(long, help_heading = SELECTION, requires = "target",
         conflicts_with_all = ["testee", "client", "client_listen"])]
     all: bool,
 
-    /// List what would be run and run nothing, with --seed in its order; with --json as data
+    /// List the cases without running them; with --seed in the order of the run, with --json as
+    /// JSON
     #[arg(long, help_heading = SELECTION)]
     list: bool,
 
-    /// What the target claims: what it does not is not asked for (see --print-profile)
+    /// Read from this file what the target claims; skip everything else (see --print-profile)
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
 
-    /// Write a profile to be filled in, with a comment on everything in it; with --target, filled in
-    /// with what the device answers
+    /// Print a commented profile to fill in; with --target, filled in with the answers of the
+    /// device
     #[arg(long, conflicts_with_all = ["testee", "client", "client_listen", "profile", "defect", "only", "list"])]
     print_profile: bool,
 
@@ -129,7 +133,7 @@ pub(super) struct Run {
     #[command(flatten)]
     display: DisplayArgs,
 
-    /// Switch on a defect of the simulated CNC and of the codec's cases (see serve --list-defects)
+    /// Enable a defect of the simulated CNC and of the codec's cases (see serve --list-defects)
     #[arg(long, value_name = "ID", conflicts_with = "target")]
     defect: Option<String>,
 }
@@ -157,20 +161,20 @@ Known failures, a file for --waivers:
   requirement = \"VAR-8\"
   verdict = \"fail\"            # or vacuous, inconclusive, warning, differs
   reason = \"sizes are rounded up to 4 until firmware 2.1\"
-  expires = 2027-01-31        # the first day on which it holds no longer
-  One that does not hold - its day is over, nothing that ran is called that, or the verdict is
-  another one - makes the run end with 5 unless something fails. An unknown case is wrong usage. With
-  --waivers or -v such an entry is printed for each failure.
+  expires = 2027-01-31        # the first day on which the waiver is no longer valid
+  A waiver is invalid if it has expired, if no executed case matches it, or if the verdict is a
+  different one. An invalid waiver makes the run end with 5 unless a case fails. An unknown case is
+  wrong usage. With --waivers or -v, the run prints such an entry for each failure.
 
 Signals:
-  On SIGINT (Ctrl-C), SIGTERM and SIGHUP the value under test is restored and read back, a testee or
-  a client is ended, and the reports are written with what was done until then; the other cases are
-  interrupted. A second signal ends the run at once and prints which value is left changed.
+  On SIGINT (Ctrl-C), SIGTERM and SIGHUP, the run restores the value under test and reads it back,
+  ends the testee or the client, and writes the reports with the results up to then; the other cases
+  are interrupted. A second signal ends the run at once and prints which value is left changed.
 
-Exit codes, the first that holds:
+Exit codes, the first that applies:
   70 internal error, 6 a value was changed and could not be restored, 2 wrong usage, 4 rejected for
-  safety, 1 a fail or a vacuous verdict, 5 a waiver that does not hold, 3 nothing judged, something
-  inconclusive or interrupted, 0. Warnings and differences leave 0."
+  safety, 1 a fail or a vacuous verdict, 5 an invalid waiver, 3 nothing judged, or a case is
+  inconclusive or interrupted, 0 passed. Warnings and differences do not change the exit code."
     )
 }
 

@@ -28,21 +28,21 @@ const CLIENT: &str = "Client under test";
 /// A client instead of a target.
 #[derive(Args, Clone, Debug, Default)]
 pub(super) struct ClientArgs {
-    /// Judge a client: this command is told what to do (see conformance/adapters/CLIENTS.md)
+    /// Judge a client: start this command and send it actions (see conformance/adapters/CLIENTS.md)
     #[arg(long, help_heading = CLIENT, value_name = "COMMAND", value_parser = NonEmptyStringValueParser::new(), conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
     client: Option<String>,
 
-    /// Wait for a client on this address and judge what it asks, until it has closed; with --client,
-    /// where the CNC is [default for --client: a free port of loopback]
+    /// Wait for a client on this address and judge its requests until it disconnects; with
+    /// --client, the address of the simulated CNC [default for --client: a free port of loopback]
     #[arg(long, help_heading = CLIENT, value_name = "ADDRESS", conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
     client_listen: Option<SocketAddr>,
 
-    /// Let --client-listen be another address than loopback too: whoever reaches it can read and write
-    /// the simulated CNC
+    /// Allow an address other than loopback for --client-listen. Any machine that reaches it can
+    /// read and write the simulated CNC
     #[arg(long, help_heading = CLIENT, requires = "client_listen")]
     allow_remote: bool,
 
-    /// How long a client has for each action, in milliseconds
+    /// Time limit for each action of a client, in milliseconds
     #[arg(long, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000)]
     client_timeout: u64,
 }

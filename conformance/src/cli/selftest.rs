@@ -14,42 +14,42 @@ use crate::process::progress::Counts;
 use crate::selftest::detection::Scope;
 use crate::selftest::{self, SelfTestProgress};
 
-/// Try the suite on itself: seeded defects must fail, correct implementations pass
+/// Test the suite itself: it must fail seeded defects and pass correct implementations
 ///
-/// Codecs with a defect are put to the vectors, CNCs with a defect to the cases over the wire,
-/// clients with a defect to the scenarios. A defect counts as caught when a requirement that it
-/// breaks is among those that fail. `serve --list-defects` lists them.
+/// The vectors judge codecs with a defect, the cases over the wire judge CNCs with a defect, and
+/// the scenarios judge clients with a defect. A defect is detected if a requirement that it
+/// violates fails. `serve --list-defects` lists the defects.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit codes: 0 all caught but for what has a written reason, and no false alarm; \
-    1 something else; 3 nothing tried.\n\nExamples:\n  ads-cnc selftest\n  ads-cnc selftest --only VAR-11 \
-    --verbose\n  ads-cnc selftest --only cnc --json selftest.json"
+    after_help = "Exit codes: 0 every defect without a documented reason detected, and no false \
+    alarm; 1 otherwise; 3 nothing tested.\n\nExamples:\n  ads-cnc selftest\n  ads-cnc selftest \
+    --only VAR-11 --verbose\n  ads-cnc selftest --only cnc --json selftest.json"
 )]
 pub(super) struct SelfTestArguments {
-    /// Only what is called this: a group (codec, cnc, client, miniature, different), an area or a
-    /// requirement, or the beginning of an ID; repeatable
+    /// Test only this: a group (codec, cnc, client, miniature, different), an area, a requirement
+    /// or the beginning of an ID; repeatable [default: all]
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
 
-    /// Measure every seeded defect of a CNC in every mode [default: those that changed since the
+    /// Measure every seeded defect of a CNC in every mode [default: the defects changed since the
     /// published table was written, and a sample of 60]
     #[arg(long)]
     all: bool,
 
-    /// Seed of the sample [default: random; shown on stderr]
+    /// Set the seed of the sample [default: random; shown on stderr]
     #[arg(long, value_name = "N", conflicts_with = "all")]
     seed: Option<u32>,
 
-    /// Measure the defects that changed, all if a case changed, and write detection.tsv and
-    /// detection.md into this folder
+    /// Measure the changed defects, or all if a case changed, and write detection.tsv and
+    /// detection.md to this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["seed", "only"])]
     renew: Option<PathBuf>,
 
-    /// Show each that was tried, and each defect that is missed
+    /// Show every tested implementation and every undetected defect
     #[arg(long, short)]
     verbose: bool,
 
-    /// Write what came of each as JSON; - is stdout
+    /// Write the result of each test as JSON; - is stdout
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }

@@ -32,15 +32,15 @@ Examples:
   ads-cnc serve --edition de-1.051 --cnc-version V3.1.3131.0 --pace 20
   ads-cnc serve --executed 1=executed.nc
 
-It speaks AMS/TCP, as a device does, and answers at the AMS ports 551 (GEO), 552 (SDA) and 553
-(COM). A client needs no route. SIGINT (Ctrl-C), SIGTERM and SIGHUP end it.
+The simulated CNC uses AMS/TCP, like a device, and answers at the AMS ports 551 (GEO), 552 (SDA) and
+553 (COM). A client needs no route. SIGINT (Ctrl-C), SIGTERM and SIGHUP end it.
 
-There are at most 64 connections. Each holds at most 192 KiB of requests and answers, one answer in
-the making of at most 64 KiB, and a thread's stack of 1 MiB. A frame that is longer than 64 KiB or
-does not hold together ends its own connection, as the log says. So does a new connection without
-a whole request for 10 s, and one that leaves a frame unfinished for 10 s.
+At most 64 connections are open at a time. Each uses at most 192 KiB for requests and replies,
+64 KiB for the reply being built, and 1 MiB for the stack of a thread. A frame that is longer than
+64 KiB or inconsistent closes its own connection, with an entry in the log. So does a new connection
+that sends no complete request within 10 s, and a frame that is not complete within 10 s.
 
-Exit codes: 0 ended by a signal; 2 wrong usage, a model that is refused, and an address that cannot be
+Exit codes: 0 ended by a signal; 2 wrong usage, an invalid model, or an address that cannot be
 listened on; 70 internal error.";
 
 /// The help states these limits.
@@ -51,50 +51,50 @@ const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 #[derive(Debug, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Args {
-    /// Address and port to listen on; with port 0 the system picks one.
+    /// Listen on this address and port; port 0 lets the system choose a port.
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898", value_parser = address)]
     listen: SocketAddr,
 
-    /// Listen on another address than loopback too. Whoever reaches it can read and write.
+    /// Allow an address other than loopback. Any machine that reaches it can read and write.
     #[arg(long)]
     allow_remote: bool,
 
-    /// AMS NetId to answer for.
+    /// Answer for this AMS NetId.
     #[arg(long, value_name = "ID", default_value_t = NET_ID, value_parser = net_id)]
     net_id: AmsNetId,
 
-    /// Seconds after which a connection without another request ends; 0 for never.
+    /// Close a connection after this many seconds without a request; 0 keeps it open.
     #[arg(long, value_name = "SECONDS", default_value_t = ServerOptions::IDLE.as_secs())]
     idle: u64,
 
     #[command(flatten)]
     model: ModelArgs,
 
-    /// Write the default model out, with comments that say what a model can be, and end.
+    /// Print the default model, with comments that explain the settings, and exit.
     #[arg(long, conflicts_with_all = ["model", "edition", "cnc_version"])]
     print_model: bool,
 
-    /// How fast streamed NC lines are run in all channels, instead of the pace of the model: a number
-    /// of lines a second (1000 in the default model), `4000 bytes/s`, `fast` or `hold`.
+    /// Set the pace at which all channels run streamed NC lines: lines per second, `4000 bytes/s`,
+    /// `fast` or `hold` [default: the pace of the model; 1000 in the default model].
     #[arg(long, value_name = "PACE")]
     pace: Option<Pace>,
 
-    /// Write what streaming ran in this channel to this file in the end, its last MiB if there is
-    /// more; for several channels more than once.
+    /// Write the streamed lines that this channel ran to this file at the end, at most the last
+    /// MiB; repeatable for several channels.
     #[arg(long, value_name = "CHANNEL=FILE")]
     executed: Vec<ExecutedTo>,
 
-    /// Let an NC program of channel 1 ask the manual's service for square roots, again and again,
-    /// instead of what the model has it ask.
+    /// Run an NC program in channel 1 that repeatedly requests square roots from the manual's
+    /// service, instead of the requests of the model.
     #[arg(long)]
     ask_square_roots: bool,
 
-    /// Answer with a seeded defect, such as variable-description.size.flip.
+    /// Enable a seeded defect, such as variable-description.size.flip [default: none].
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// List the defects, or those whose ID or requirements contain this, and end: ID, the requirements
-    /// it breaks, and what it does; separated by tabs.
+    /// List the defects, or those whose ID or requirements contain PART, and exit. Columns,
+    /// separated by tabs: ID, violated requirements, effect.
     #[arg(long, value_name = "PART", num_args = 0..=1, default_missing_value = "")]
     list_defects: Option<String>,
 }

@@ -26,19 +26,20 @@ use crate::values::{Type, parse, plain};
 
 /// Write a variable, an object or an element by its name, and read it back
 ///
-/// A machine may move. A device is written to only what a file for --allow-write names: this
-/// variable, object or element, on this device, for the time the file says; without, the write is
-/// refused with the entry that it needs.
+/// A write may move a machine. On a device, only the variables, objects and elements that a file
+/// for --allow-write names can be written, on the device and until the time in that file. Any other
+/// write is rejected, and the error shows the entry that it needs.
 ///
-/// Without --target the simulated CNC is written to, without a file. It ends with this command and
-/// keeps nothing: that shows what would happen, no more.
+/// Without --target, the command writes to a simulated CNC and needs no file. The simulated CNC
+/// ends with the command and keeps no value: this only shows what would happen.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct Set {
     #[command(flatten)]
     name: NameArgs,
 
-    /// The value: a number, decimal or with 0x; TRUE or FALSE; a text; of an array all elements, 1,2,3
+    /// Value: a number, decimal or with 0x; TRUE or FALSE; a text; all elements of an array as
+    /// 1,2,3
     #[arg(value_name = "VALUE", allow_hyphen_values = true)]
     value: String,
 
@@ -62,13 +63,13 @@ Examples:
   ads-cnc set V.E.test 1,2,3,4,5 --target 192.0.2.10 --net-id 192.0.2.10.1.1 --allow-write FILE
   ads-cnc set V.E.vartest 7 --type UNS16 --dry-run --target 192.0.2.10 --net-id 192.0.2.10.1.1
 
-Of an array with more dimensions the last index runs fastest (assumed); [[1,2,3],[4,5,6]], as get
---json prints it, is the same as 1,2,3,4,5,6. Of several texts one with a
-comma is in double quotes.
+In an array with several dimensions, the last index changes fastest (assumed): [[1,2,3],[4,5,6]], as
+printed by get --json, is the same as 1,2,3,4,5,6. In an array of texts, put a text with a comma in
+double quotes.
 
-Exit codes: 0 written, and read back the same; 1 the CNC refuses, says that it is read only, or
-reads back another value, as a command that is consumed does; 2 wrong usage, and a value that does
-not fit; 3 no answer; 4 refused for safety; 70 internal error.";
+Exit codes: 0 written, and the same value read back; 1 the CNC rejects the write, describes the
+object as read only, or returns another value, as for a command that it consumes; 2 wrong usage, or
+a value that does not fit; 3 no reply; 4 rejected for safety; 70 internal error.";
 
 impl Set {
     pub(super) fn execute(&self) -> Exit {

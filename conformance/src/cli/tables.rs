@@ -10,11 +10,12 @@ use crate::tables::{self, OffsetTable, Tables};
 
 /// Print the tables of all streams and functions, for code generators
 ///
-/// Streams with their fields, functions with their addresses and effects.
+/// The tables contain the streams with their fields, and the functions with their addresses and
+/// effects.
 #[derive(Args, Debug)]
 #[command(after_help = TABLES_EXAMPLES)]
 pub(super) struct TablesArguments {
-    /// Print them as one JSON document, by conformance/schema/tables.schema.json [default: as text]
+    /// Print one JSON document that follows conformance/schema/tables.schema.json [default: text]
     #[arg(long, conflicts_with = "ksy")]
     json: bool,
 
@@ -33,8 +34,9 @@ Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
 /// Print a dissector for Wireshark, in Lua
 ///
-/// Wireshark 4.0 or later then shows the function, the requirement, the effect and every field of each frame
-/// to a CNC, and filters by them: `ads_cnc.effect == "Write"`, `ads_cnc.variable_description.size > 100`.
+/// With the dissector, Wireshark 4.0 or later shows the function, the requirement, the effect and
+/// every field of each frame to a CNC, and filters by them: `ads_cnc.effect == "Write"`,
+/// `ads_cnc.variable_description.size > 100`.
 #[derive(Args, Debug)]
 #[command(after_help = WIRESHARK_EXAMPLES)]
 pub(super) struct WiresharkArguments {}

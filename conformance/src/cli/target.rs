@@ -28,28 +28,30 @@ const TARGET: &str = "Target";
 /// The end of a tool's help, as `after_long_help`.
 pub(super) const REACHING_A_DEVICE: &str = "\
 Reaching a device:
-  It listens for AMS/TCP on TCP port 48898 and answers only who has a route: in its ADS router add
-  one with the AMS NetId you ask as (--source-net-id), the IP address of this machine and TCP/IP.
-  Without a route it takes the connection and closes it at once, or stays silent. --net-id is the
-  device's own AMS NetId, as its router shows it. Ports 551 (GEO), 552 (SDA) and 553 (COM) are
-  asked, and nothing is written without --allow-write.";
+  The device listens for AMS/TCP on TCP port 48898 and answers only clients with a route. In its ADS
+  router, add a route with the AMS NetId of the client (--source-net-id), the IP address of this
+  machine and TCP/IP. Without a route, the device closes the connection at once or does not reply.
+  --net-id is the device's own AMS NetId, as its router shows it. Requests go to the AMS ports 551
+  (GEO), 552 (SDA) and 553 (COM); nothing is written without --allow-write.";
 
 /// The end of the help of a tool that may write.
 pub(super) const WHAT_MAY_BE_WRITTEN: &str = "\
-What may be written, a file for --allow-write:
+Allowed writes, a file for --allow-write:
   target = \"192.0.2.7.1.1\"             # AMS NetId of the device; 127.0.0.1.1.1 on loopback only
   address = \"192.0.2.7\"                # IP address of the device [default: any]
-  expires = 2026-05-04T17:30:00+02:00  # from then on nothing is written
+  expires = 2026-05-04T17:30:00+02:00  # no writes from then on
   [[variable]]                         # or [[object]], [[element]], [[stream]], [[service]]
   channel = 1
   name = \"V.E.name\"
-  A write that is refused says which entry it needs. A write by a handle or by the name of an object
-  is also refused if the device gives the same handle or address to a name that the file lacks.";
+  The error for a rejected write shows the entry that it needs. A write by a handle or by the name
+  of an object is also rejected if the device has the same handle or address for a name that is not
+  in
+  the file.";
 
 /// Whom to talk to. Without --target a simulated CNC is started for the purpose.
 #[derive(Args, Clone, Debug)]
 pub(super) struct TargetArgs {
-    /// The device: host name or address, and the port if it is not 48898
+    /// Host name or IP address of the device; the port defaults to 48898 [default: a simulated CNC]
     #[arg(long, help_heading = TARGET, value_name = "HOST[:PORT]", requires = "net_id")]
     target: Option<String>,
 
@@ -57,29 +59,29 @@ pub(super) struct TargetArgs {
     #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     net_id: Option<AmsNetId>,
 
-    /// AMS NetId to ask as; the device needs a route to it [default: this machine's address and .1.1]
+    /// AMS NetId of this client; the device needs a route to it [default: this machine's address
+    /// and .1.1]
     #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     source_net_id: Option<AmsNetId>,
 
-    /// How long to wait for a connection and for an answer, in milliseconds
-    /// [default: 2000]
+    /// Timeout for a connection and for a reply, in milliseconds [default: 2000]
     #[arg(long, help_heading = TARGET, value_name = "MS",
         value_parser = clap::value_parser!(u64).range(1..))]
     timeout: Option<u64>,
 
-    /// Limit of requests per second [default: as fast as they are answered]
+    /// Maximum number of requests per second [default: no limit; each waits for the previous reply]
     #[arg(long, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
     rate: Option<Duration>,
 
-    /// File that names what may be written, on which device and until when; without it nothing is
+    /// File with the allowed writes, the device and the end of the permission [default: no writes]
     #[arg(long, help_heading = TARGET, value_name = "FILE")]
     allow_write: Option<PathBuf>,
 
-    /// Write everything sent and received as pcapng, which Wireshark and `check` read
+    /// Write all sent and received frames to a pcapng file for Wireshark and `check`
     #[arg(long, help_heading = TARGET, value_name = "FILE", conflicts_with = "dry_run")]
     capture: Option<PathBuf>,
 
-    /// Show what would be sent and send nothing
+    /// Show the requests without sending them
     #[arg(long, help_heading = TARGET)]
     dry_run: bool,
 
@@ -95,7 +97,7 @@ pub(super) struct TargetArgs {
 /// How long a tool asks that may have much to ask for.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct DeadlineArgs {
-    /// How long to go on asking in all, in seconds; what was not asked by then is reported so
+    /// Deadline for all requests, in seconds; the rest is reported as not requested
     #[arg(long, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
         value_parser = seconds)]
     deadline: u64,

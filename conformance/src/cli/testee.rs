@@ -11,15 +11,16 @@ use crate::testee::{Answer, CodecTestee, Miniature, MiniatureAction, Reply, Test
 
 /// Answer the protocol of `run --testee` with this project's codec
 ///
-/// A testee to try an adapter's counterpart with, and an example of all answers: one JSON object a
-/// line. See conformance/adapters/README.md.
+/// This testee tests the suite's side of the protocol and is an example of all answers, one JSON
+/// object per line. See conformance/adapters/README.md.
 #[derive(Args, Debug)]
 pub(super) struct TesteeArguments {
-    /// Switch on a defect of the codec (see serve --list-defects)
+    /// Enable a defect of the codec (see serve --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// Misbehave as a whole: accepts-all, refuses-all, hangs, crashes and more; to try the suite with
+    /// Replace the codec by a faulty one to test the suite: accepts-all, refuses-all, hangs,
+    /// crashes, …
     #[arg(long, value_name = "NAME", conflicts_with = "defect", value_parser = Miniature::by_name)]
     miniature: Option<Miniature>,
 }

@@ -229,7 +229,7 @@ fn waivable<'de, D: Deserializer<'de>>(value: D) -> Result<Verdict, D::Error> {
     let waivable = Verdict::ALL.into_iter().filter(|verdict| verdict.is_waivable());
     waivable.clone().find(|verdict| verdict.name() == name).ok_or_else(|| {
         let names: Vec<&str> = waivable.map(Verdict::name).collect();
-        D::Error::custom(format!("the verdict to be put up with is one of {}", names.join(", ")))
+        D::Error::custom(format!("the verdict of a waiver is one of {}", names.join(", ")))
     })
 }
 

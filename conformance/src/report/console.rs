@@ -308,7 +308,7 @@ fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if open.is_empty() {
         return Ok(());
     }
-    writeln!(out, "To put up with what is left, add to the file of --waivers:\n")?;
+    writeln!(out, "To accept the remaining failures, add to the file of --waivers:\n")?;
     let expires = next_year(&report.time);
     for (case, RequirementReport { requirement, verdict, .. }) in open.iter().take(WAIVABLE_MAX) {
         writeln!(

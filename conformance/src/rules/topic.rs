@@ -51,48 +51,48 @@ macro_rules! traffic_cases {
 
 traffic_cases! {
     ClientFrames: CapturedClient, "cap-client-frames",
-        "Every request has the headers of a request", [ADS_5];
+        "Every request has valid request headers", [ADS_5];
     ClientServices: CapturedClient, "cap-client-services",
-        "Every request has what its service takes, and no more", [ADS_1, ADS_2, ADS_3];
+        "Every request has exactly the data that its service requires", [ADS_1, ADS_2, ADS_3];
     ClientPorts: CapturedClient, "cap-client-ports",
-        "Every function is asked at the port of its task", [GEN_4];
+        "Every function is called at the port of its task", [GEN_4];
     ClientCom: CapturedClient, "cap-client-com",
-        "Requests for objects are as their function takes them", [COM_3] of "COM";
+        "Requests for objects match the layout of their function", [COM_3] of "COM";
     ClientSda: CapturedClient, "cap-client-sda",
-        "Requests for instances and elements are as their function takes them", [] of "SDA";
+        "Requests for instances and elements match the layout of their function", [] of "SDA";
     ClientDyn: CapturedClient, "cap-client-dyn",
-        "Requests for dynamic parameters are as their function takes them", [] of "DYN";
+        "Requests for dynamic parameters match the layout of their function", [] of "DYN";
     ClientVar: CapturedClient, "cap-client-var",
-        "Requests for variables are as their function takes them", [VAR_20, VAR_24] of "VAR";
+        "Requests for variables match the layout of their function", [VAR_20, VAR_24] of "VAR";
     ClientStream: CapturedClient, "cap-client-stream",
-        "What is streamed is whole lines, and refused data comes again",
+        "The client streams whole lines and sends rejected data again",
         [STM_6, STM_7, STM_8, STM_10, STM_20] of "STM";
     ClientService: CapturedClient, "cap-client-service",
-        "A service answers what it was asked, in the order of the interface",
+        "A service answers its requests in the order of the Service Interface",
         [SVC_1, SVC_2, SVC_4, SVC_5, SVC_12];
     CncFrames: CapturedCnc, "cap-cnc-frames",
-        "Every reply has the headers of the answer to its request", [ADS_5, ADS_6];
+        "Every reply has the headers that belong to its request", [ADS_5, ADS_6];
     CncServices: CapturedCnc, "cap-cnc-services",
-        "Every reply has what its service gives, and no more than was asked for",
+        "Every reply has the data of its service, and at most the requested length",
         [ADS_1, ADS_2, ADS_3, ADS_4];
     CncCom: CapturedCnc, "cap-cnc-com",
-        "Numbers, descriptors and contents of objects hold together",
+        "Numbers, descriptors and contents of objects are consistent",
         [GEN_5, COM_3] of "COM";
     CncSda: CapturedCnc, "cap-cnc-sda",
-        "Instances, elements and their attributes hold together",
+        "Instances, elements and their attributes are consistent",
         [SDA_2, SDA_3, ADR_2, ADR_5, ADR_7, GEN_5] of "SDA";
     CncDyn: CapturedCnc, "cap-cnc-dyn",
-        "Dynamic parameters hold together", [DYN_5] of "DYN";
+        "Dynamic parameters are consistent", [DYN_5] of "DYN";
     CncVar: CapturedCnc, "cap-cnc-var",
-        "Numbers, descriptions, handles and values of variables hold together",
+        "Numbers, descriptions, handles and values of variables are consistent",
         [
             VAR_1, VAR_3, VAR_7, VAR_8, VAR_9, VAR_11, VAR_14, VAR_16, VAR_17,
             VAR_18, VAR_20, VAR_24, VAR_25, GEN_1, GEN_3
         ] of "VAR";
     CncStream: CapturedCnc, "cap-cnc-stream",
-        "The stream takes what it has to, and no more", [STM_2, STM_5];
+        "The stream accepts valid packets and rejects packets that are too long", [STM_2, STM_5];
     CncService: CapturedCnc, "cap-cnc-service",
-        "The variables of the Service Interface are of their types, and follow one another",
+        "The variables of the Service Interface have their types and change in order",
         [SVC_1, SVC_3];
 }
 

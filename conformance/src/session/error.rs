@@ -180,7 +180,7 @@ impl fmt::Display for ToolError {
             | Self::Enough(why)
             | Self::NoAnswer(why) => f.write_str(why),
             Self::Refused(refusal) => {
-                write!(f, "not sent, refused for safety: {refusal}")?;
+                write!(f, "not sent, rejected for safety: {refusal}")?;
                 match refusal.advice() {
                     advice if advice.is_empty() => Ok(()),
                     advice => write!(f, "\n{advice}"),

@@ -389,7 +389,7 @@ impl fmt::Display for Shown<'_> {
         let spec = call.dispatch().ok().map(|request| request.function().spec());
         let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
         let verdict = match &self.0.outcome {
-            Err(ExchangeError::Refused(refusal)) => format!("would be refused: {refusal}"),
+            Err(ExchangeError::Refused(refusal)) => format!("would be rejected: {refusal}"),
             Err(ExchangeError::Unsendable(error)) => format!("has no form on the wire: {error}"),
             _ => "would be sent".to_owned(),
         };

@@ -22,25 +22,25 @@ use crate::text::hex::spaced;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("adr-com-object-access", &[ADR_1, ADR_3, ADR_4, GEN_4], Needs::Queries, com_object_access,
-        "Each channel's object list is at 0x130100 + channel, on the port of COM"),
+        "Each channel's object list is in index group 0x130100 + channel, at the port of COM"),
     case("adr-decoder-group", &[ADR_1, ADR_5, GEN_4, GEN_6], Needs::Queries, decoder_group,
-        "Each channel's variables are at 0x122300 + channel, on the port of SDA"),
+        "Each channel's variables are in index group 0x122300 + channel, at the port of SDA"),
     case("adr-logical-and-by-index", &[ADR_1, ADR_12], Needs::Queries, logical_and_by_index,
-        "A channel answers the same by its number and by its rank"),
+        "A channel returns the same data by its number and by its rank"),
     case("adr-rank-among-active", &[ADR_11], Needs::Queries, rank_among_active,
-        "By index, channels are counted without gaps"),
+        "Channel ranks number the active channels without gaps"),
     case("adr-geo-answers-too", &[ADR_10], Needs::Malformed, geo_answers_too,
-        "GEO and SDA both answer for a class of the CNC"),
+        "The ports of GEO and SDA return the same data for a class of the CNC"),
     case("adr-absent-channel", &[ADS_4], Needs::Queries, absent_channel,
-        "A channel that is not configured is answered by an error"),
+        "A request to a channel that is not configured returns an error"),
 ];
 
 #[rustfmt::skip]
 pub(super) const FRAME_CASES: &[CaseRow] = &[
     case("ads-every-frame", &[ADS_1, ADS_2, ADS_3, ADS_4, ADS_5], Needs::Frames, every_frame,
-        "Every frame of this run has the header and the length its request asks for"),
+        "Every frame of the run has the header and the length that its request requires"),
     case("ads-every-refusal", &[ADS_6, ADS_7], Needs::Frames, every_refusal,
-        "What was refused in this run was refused by an error number"),
+        "Each request that the target rejects in the run returns an error number"),
 ];
 
 fn com_object_access(probe: &mut Probe<'_>) -> Step {

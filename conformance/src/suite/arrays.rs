@@ -11,11 +11,11 @@ use crate::judge::{Checks as _, Needs, Step, assumed};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("val-array-has-elements", &[VAR_4, VAR_7], Needs::Queries, array_has_elements,
-        "An array has the elements that its dimensions say, up to the last of each"),
+        "An array has all elements that its dimensions specify, up to the last of each dimension"),
     case("val-index-out-of-bounds", &[VAR_11, VAR_20], Needs::Queries, index_out_of_bounds,
-        "An index that the array does not have is answered by an error"),
+        "A read with an index outside the array returns an error"),
     case("val-number-of-indices", &[VAR_11], Needs::Queries, number_of_indices,
-        "Neither too few nor too many indices address anything"),
+        "A read with too few or too many indices returns an error"),
 ];
 
 /// The indices with another index in one dimension.

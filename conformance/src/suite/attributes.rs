@@ -15,9 +15,9 @@ use crate::rules::element_type;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("adr-attributes", &[ADR_6], Needs::Queries, attributes,
-        "Type and length of an element are what their groups say"),
+        "The attribute groups return the type of an element and the length of its content"),
     case("adr-attributes-by-index", &[ADR_1, ADR_12], Needs::Queries, by_index,
-        "By number and by rank of the channel, an element has the same attributes"),
+        "An element has the same attributes by the channel's number and by its rank"),
 ];
 
 fn text(text: &ElementText) -> String {

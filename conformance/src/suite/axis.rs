@@ -19,13 +19,13 @@ use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("axis-handles", &[VAR_10, VAR_26, ADR_7, GEN_6], Needs::Queries, handles,
-        "On the axis interface a name has the handle that its place is described with"),
+        "The axis interface returns the handle in the description of the axis variable"),
     case("axis-values", &[VAR_10, VAR_26], Needs::Queries, values,
-        "On the axis interface a name reads what it reads with the axis behind it"),
+        "The axis interface returns the same value as the variable name with the axis appended"),
     case("axis-unknown", &[VAR_26, ADS_4], Needs::Queries, unknown,
-        "What no axis has is answered by an error on the axis interface"),
+        "The axis interface rejects a name or an axis place that does not exist"),
     case("axis-zero", &[VAR_26], Needs::Malformed, zero,
-        "At axis 0 the offsets of the axis interface are other functions"),
+        "The axis interface has no axis place 0: its offsets belong to other functions"),
 ];
 
 /// Calls a function for each place of each channel at which a variable with this name has a handle.

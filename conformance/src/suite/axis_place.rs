@@ -18,11 +18,11 @@ use crate::judge::{Checks as _, Needs, Step, Stop};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("axis-places", &[VAR_10, VAR_26, GEN_6], Needs::Queries, places,
-        "Every axis with variables is at a place, counted from 1, and at no other"),
+        "Every axis with variables has exactly one axis place, counted from 1"),
     case("axis-place-too-far", &[VAR_26], Needs::Malformed, too_far,
-        "The axis index takes 16 bits, and no place is another's"),
+        "All 16 bits of the axis index count: no two indices address the same axis place"),
     case("axis-reserved", &[VAR_26], Needs::Malformed, reserved,
-        "The reserved offsets of the axis interface are no functions"),
+        "The reserved offsets of the axis interface return an error"),
 ];
 
 fn places(probe: &mut Probe<'_>) -> Step {

@@ -14,9 +14,9 @@ use crate::judge::{Checks as _, IfPresent as _, Needs, Step};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("gen-number-order", &[GEN_1], Needs::Queries, number_order,
-        "Counts and handles come with their lowest byte first"),
+        "Counts and handles are little-endian"),
     case("gen-field-order", &[GEN_1], Needs::Queries, field_order,
-        "Numbers in descriptors, descriptions and addresses come with their lowest byte first"),
+        "Numbers in descriptors, descriptions and addresses are little-endian"),
 ];
 
 /// A number that is wrong, but right with reversed bytes, breaks the byte order.

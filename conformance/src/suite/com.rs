@@ -16,15 +16,15 @@ use crate::rules::check_descriptor;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("com-count", &[COM_1, COM_2], Needs::Queries, count,
-        "Offset 0 gives the number of objects, and the last of them is there"),
+        "Offset 0 returns the number of objects, and the last object exists"),
     case("com-descriptors", &[COM_2, COM_5, GEN_5], Needs::Queries, descriptors,
-        "Every object has a descriptor of 84 bytes that makes sense"),
+        "Every object has a valid descriptor of 84 bytes"),
     case("com-descriptors-in-sequence", &[COM_3], Needs::Queries, in_sequence,
-        "A read of k × 84 bytes gives k descriptors, the same as k reads"),
+        "A read of k × 84 bytes returns the same k descriptors as k separate reads"),
     case("com-end-of-list", &[COM_2, COM_3], Needs::Queries, end_of_list,
-        "Reading beyond the last object gives what there is, or an error"),
+        "A read beyond the last object returns only the existing descriptors, or an error"),
     case("com-odd-length", &[COM_3], Needs::Queries, odd_length,
-        "A read length that is no multiple of 84 gives one descriptor"),
+        "A read length that is not a multiple of 84 returns one descriptor"),
 ];
 
 /// The platform's list and those of the channels; other cases judge missing ones.

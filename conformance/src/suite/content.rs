@@ -17,17 +17,17 @@ use crate::objects::Object;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("com-content", &[COM_2, COM_5, COM_6, GEN_5], Needs::Queries, content,
-        "Every object is read where its descriptor says, in the size it says"),
+        "Every object is readable at the address and in the size of its descriptor"),
     case("com-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
-        "By number and by rank of the channel, an object has the same content"),
+        "An object has the same content by the channel's number and by its rank"),
     case("com-content-room", &[COM_2, COM_5, ADS_1], Needs::Queries, room,
-        "With more room than it needs a content has no more bytes than its descriptor says"),
+        "A read longer than the object returns at most the size in the descriptor"),
     case("com-places", &[COM_2, COM_5], Needs::Queries, places,
-        "No two objects of a list are at one place"),
+        "No two objects of a list have the same address"),
     case("com-read-lengths", &[ADS_1], Needs::Malformed, read_lengths,
-        "A read length that does not hold a content is answered by an error"),
+        "A read length shorter than the content returns an error"),
     case("obj-everything", &[OBJ_1], Needs::Queries, everything,
-        "Everything that is counted can be listed, each thing once"),
+        "Every counted object and element can be listed, exactly once"),
 ];
 
 fn content(probe: &mut Probe<'_>) -> Step {

@@ -15,13 +15,13 @@ use crate::rules::check_extended;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("var-extended-descriptions", &[VAR_15, VAR_16, ADS_3], Needs::Queries, extended,
-        "Every V.E has an extended description; V.G and V.A are answered by nothing"),
+        "Every V.E variable has an extended description; V.G and V.A have none"),
     case("var-extended-beyond-last", &[VAR_3], Needs::Queries, extended_beyond,
-        "The index behind the last has no extended description"),
+        "The index after the last has no extended description"),
     case("var-described-by-name", &[VAR_28], Needs::Queries, described_by_name,
-        "By its name a variable is described as by its index"),
+        "A variable has the same description by its name and by its index"),
     case("var-unknown-described", &[VAR_28], Needs::Queries, unknown_described,
-        "A name nobody has is described by an error"),
+        "A request for the description of an unknown name returns an error"),
 ];
 
 /// The number of variables of a kind; other cases judge it.

@@ -13,9 +13,9 @@ use crate::values::until_nul;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("ads-device-info", &[ADS_8], Needs::Queries, device_info,
-        "Each task says the name and version of its device"),
+        "Each task returns the name and the version of its device"),
     case("ads-device-state", &[ADS_9], Needs::Queries, device_state,
-        "Each task says the state it is in"),
+        "Each task returns its state"),
 ];
 
 impl Probe<'_> {

@@ -21,18 +21,18 @@ use crate::rules::{check_length, check_type};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("sda-elements", &[SDA_4, ADR_2, ADR_6, ADR_7], Needs::Queries, elements,
-        "The first element says how many follow, and whose they are; then the list ends"),
+        "The first element has the element count and the name of the instance; the list then ends"),
     case("sda-first-element", &[SDA_4, SDA_8], Needs::Queries, first_element,
-        "The first element has the attributes of an element, and its length is that of the number"),
+        "The first element has all attributes, and its length is that of the element count"),
     case("sda-attributes", &[SDA_4, SDA_6, SDA_7, SDA_8, SDA_9, ADR_6, GEN_3, GEN_5],
         Needs::Queries, attributes,
-        "Every element has a name, a type, a length, a unit and a write flag that make sense"),
+        "Every element has a valid name, type, length, unit and write flag"),
     case("sda-content", &[SDA_8, ADR_6, GEN_5], Needs::Queries, content,
-        "The content of an element has the length it says, and a value its type has"),
+        "The content of an element has the element's length and a value of its type"),
     case("sda-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
-        "By number and by rank of the channel, an element has the same content and attributes"),
+        "An element has the same content and attributes by the channel's number and rank"),
     case("sda-read-lengths", &[ADS_1], Needs::Malformed, read_lengths,
-        "A read length that does not hold the answer is answered by an error"),
+        "A read length shorter than the reply returns an error"),
 ];
 
 /// Reads an attribute: a valid reply passes the requirements of its stream and group.

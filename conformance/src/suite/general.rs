@@ -19,17 +19,17 @@ use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed, onli
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("gen-ports-answer", &[GEN_4], Needs::Queries, ports_answer,
-        "At each port that is claimed a task is"),
+        "A task answers at each claimed port"),
     case("gen-tasks-apart", &[GEN_4], Needs::Malformed, tasks_apart,
-        "A task answers at its own port, and not at another's"),
+        "A task answers at its own port, not at the port of another task"),
     case("gen-type-sizes", &[GEN_5], Needs::Queries, type_sizes,
-        "A variable takes the bytes of its type for each of its elements"),
+        "The size of a variable is the size of its type times the number of its elements"),
     case("gen-numbering", &[GEN_6, ADR_2], Needs::Queries, numbering,
         "Channels are counted from 1, spindles from 0"),
     case("gen-no-channel-0", &[GEN_6], Needs::Malformed, no_channel_0,
-        "No channel has the number 0, and none the rank 0; no place of a channel is place 0"),
+        "Channel number 0, channel rank 0 and axis place 0 do not exist"),
     case("gen-names-found", &[GEN_3], Needs::Queries, names_found,
-        "A name is found by the characters it is described with, those beyond ASCII too"),
+        "A name is found by the characters of its description, including non-ASCII characters"),
 ];
 
 /// A claimed port must exist; other cases judge the replies of its task.

@@ -16,13 +16,13 @@ use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 pub(super) const CASES: &[CaseRow] = &[
     // The first case that reads values: the handle was not requested by name before.
     case("var-described-handle", &[VAR_4, VAR_9, VAR_10], Needs::Queries, described,
-        "A description has the name and the handle that the variable is read by"),
+        "The name and the handle in a description read the variable"),
     case("var-handle-by-name", &[VAR_9, VAR_10], Needs::Queries, by_name,
-        "A name's handle is the one in its description, and no other's"),
+        "A name has the handle in its description, and no two names share a handle"),
     case("var-handle-stays", &[VAR_10], Needs::Queries, stays,
-        "A handle keeps its variable, whatever else is asked, read or refused meanwhile"),
+        "A handle keeps its variable after other requests, reads and rejected requests"),
     case("val-unknown-handle", &[ADS_4, VAR_11], Needs::Malformed, unknown,
-        "A handle nobody has is answered by an error"),
+        "A request with an unknown handle returns an error"),
 ];
 
 pub(super) fn whole(channel: Channel, handle: Handle) -> ReadByHandle<'static> {

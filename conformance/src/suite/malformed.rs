@@ -19,19 +19,19 @@ use crate::judge::{Needs, OrStop as _, Rules, Step, assumed};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("bad-kind", &[VAR_1], Needs::Malformed, bad_kind,
-        "A kind with a final dot, without NUL, unknown or too long is answered by an error"),
+        "A kind with a final dot, without NUL, unknown or too long returns an error"),
     case("bad-index-kind", &[VAR_3], Needs::Malformed, bad_index_kind,
-        "A request by index that is cut anywhere is answered by an error"),
+        "A truncated request by index returns an error"),
     case("bad-name", &[VAR_9], Needs::Malformed, bad_name,
-        "A name without NUL, with bytes behind it or too long is answered by an error"),
+        "A name without NUL, with bytes after it or too long returns an error"),
     case("bad-handle-header", &[VAR_11, VAR_24], Needs::Malformed, bad_handle_header,
-        "A handle header that is cut, or whose count lies, is answered by an error"),
+        "A truncated handle header, or one with a wrong index count, returns an error"),
     case("bad-address", &[ADS_4], Needs::Malformed, bad_address,
-        "An index group, index offset or port that nobody has is answered by an error"),
+        "An unknown index group, index offset or port returns an error"),
     case("bad-service", &[ADS_4], Needs::Malformed, bad_service,
-        "A function is not answered to another service than its own"),
+        "A function that is called by a wrong service returns an error"),
     case("bad-read-length", &[COM_3, ADS_3], Needs::Malformed, bad_read_length,
-        "A read length that does not hold the answer is answered by an error"),
+        "A read length shorter than the reply returns an error"),
 ];
 
 /// A valid request, to be sent with a fault.

@@ -13,13 +13,13 @@ use crate::values::until_nul;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("var-names-are-paths", &[VAR_20], Needs::Queries, paths,
-        "Each name is one of structures, indices and the variable in them"),
+        "Each name is a path of structures, indices and a variable"),
     case("var-by-name-only", &[VAR_18], Needs::Queries, by_name_only,
-        "A variable that is by name only is read by its name and has no handle"),
+        "A variable accessible only by name is read by its name and has no handle"),
     case("var-dynamic-by-name", &[VAR_18, VAR_19, DYN_3, VAR_14, GEN_1], Needs::Queries, dynamic_by_name,
-        "V.P, V.L and V.S read the same among the variables as among the parameters"),
+        "V.P, V.L and V.S have the same value as variables and as dynamic parameters"),
     case("var-texts", &[VAR_22], Needs::Queries, texts,
-        "A text ends at its first NUL, or with what there is of it"),
+        "A text ends at its first NUL, or at the end of the value"),
 ];
 
 fn paths(probe: &mut Probe<'_>) -> Step {

@@ -11,7 +11,7 @@ use crate::judge::{Checks as _, Needs, Step};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("gen-packed", &[GEN_2], Needs::Queries, packed,
-        "In descriptors and descriptions nothing stands between the fields"),
+        "Descriptors and descriptions have no padding between the fields"),
 ];
 
 /// Whether the type in a descriptor is one of the manual's.

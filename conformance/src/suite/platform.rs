@@ -20,13 +20,13 @@ use crate::objects::{List, Object};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("com-platform-objects", &[COM_1, COM_4, ADR_3], Needs::Queries, platform_objects,
-        "The platform's objects are in its own list and in that of the first channel"),
+        "The platform's objects are in the platform's list and in the first channel's list"),
     case("com-platform-content", &[COM_4, ADR_3], Needs::Queries, platform_content,
-        "The platform's objects hold the same, whichever list named them"),
+        "The platform's objects have the same content in the platform's list and in the channel's"),
     case("com-platform-axes", &[COM_7, ADR_3], Needs::Queries, platform_axes,
-        "Platform axes have object lists of their own"),
+        "Platform axes have their own object lists"),
     case("com-printed-content-address", &[COM_6], Needs::PrintedExamples, printed_content_address,
-        "Content is where the manuals print it"),
+        "The contents are at the addresses printed in the manuals"),
 ];
 
 /// Channel 1, which the manuals name for the platform's objects; `None` if the first channel has another

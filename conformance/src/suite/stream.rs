@@ -17,17 +17,17 @@ use crate::objects::List;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("stream-object", &[STM_1, COM_2], Needs::Queries, object,
-        "The object of the stream is listed by its name and at its address, and takes writes"),
+        "The stream object is listed with its name, its address and write access"),
     case("stream-whole-lines", &[STM_1, STM_4, STM_7], Needs::Writes, whole_lines,
-        "A packet of whole lines is taken, by the number of the channel and by its rank"),
+        "A packet of whole lines is accepted by the channel's number and by its rank"),
     case("stream-longest", &[STM_2, STM_20], Needs::Writes, longest,
-        "A packet of 992 bytes is taken, and a line of 990 characters in it"),
+        "A packet of 992 bytes with a line of 990 characters is accepted"),
     case("stream-lengths", &[STM_2, STM_4], Needs::Writes, lengths,
-        "Packets of any length up to 992 bytes are taken"),
+        "Packets of any length up to 992 bytes are accepted"),
     case("stream-refused-for-now", &[STM_6], Needs::Writes, refused_for_now,
-        "What is refused for now is taken later, the same bytes again"),
+        "A packet that is rejected as busy is accepted when it is sent again"),
     case("stream-too-long", &[STM_2], Needs::Malformed, too_long,
-        "A packet of 993 bytes is refused"),
+        "A packet of 993 bytes is rejected"),
 ];
 
 /// Index offset of the stream object in the group of a channel.

@@ -12,7 +12,7 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("gen-characters-written", &[GEN_3], Needs::Writes, written,
-        "Every character of CP1252 that is written to a text is read again"),
+        "Every CP1252 character written to a text is read back"),
 ];
 
 /// Bytes without a character in CP1252.

@@ -18,15 +18,15 @@ use crate::text::hex::spaced;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("val-whole-by-handle", &[VAR_8, VAR_11, VAR_14], Needs::Queries, whole_by_handle,
-        "Without an index, a handle gives the whole variable, in its described size"),
+        "Without an index, a handle returns the whole variable in its described size"),
     case("val-whole-by-name", &[VAR_9, VAR_14], Needs::Queries, whole_by_name,
-        "A name gives the same bytes as its handle"),
+        "A name returns the same bytes as its handle"),
     case("val-elements-by-handle", &[VAR_11, VAR_14, VAR_21], Needs::Queries, elements_by_handle,
-        "An index gives the element of that place in the whole array"),
+        "A handle with an index returns the element at that position of the whole array"),
     case("val-elements-by-name", &[VAR_14, VAR_20], Needs::Queries, elements_by_name,
-        "A name with [index] gives the same element as the handle"),
+        "A name with [index] returns the same element as the handle"),
     case("val-string-size", &[VAR_25], Needs::Queries, string_size,
-        "A text is no longer than one can be declared"),
+        "A text is at most as long as the maximum that can be declared"),
 ];
 
 /// Compares a value with the whole variable, which is read before and after it.

@@ -19,19 +19,19 @@ use crate::rules::check_description;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("var-count", &[VAR_1, VAR_2], Needs::Queries, count,
-        "Each kind has a number, and no kind at all asks for their sum"),
+        "Each kind has a number of variables, and an empty kind returns their sum"),
     case("var-descriptions",
         &[VAR_1, VAR_2, VAR_3, VAR_4, VAR_5, VAR_6, VAR_7, VAR_8, VAR_9, GEN_1, GEN_3],
         Needs::Queries, descriptions,
-        "Every index from 0 on has a description that holds together"),
+        "Every index from 0 to the last has a consistent description"),
     case("var-index-beyond-last", &[VAR_1, VAR_2], Needs::Queries, index_beyond_last,
-        "The index behind the last is answered by an error"),
+        "A request with the index after the last returns an error"),
     case("var-other-channel", &[VAR_2, VAR_3, VAR_14], Needs::Queries, other_channel,
-        "In a channel that is not there, there is no variable either"),
+        "A channel that does not exist has no variables"),
     case("var-structures-are-resolved", &[VAR_20], Needs::Queries, structures_are_resolved,
-        "A structure's own name addresses nothing"),
+        "The name of a structure alone addresses no variable"),
     case("var-padded-name", &[VAR_1, VAR_9], Needs::Malformed, padded_name,
-        "NULs may pad a name or a kind up to 256 bytes"),
+        "A name or a kind may be padded with NULs to 256 bytes"),
 ];
 
 /// The number of variables of a kind, which the target must return.

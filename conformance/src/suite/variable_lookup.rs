@@ -15,11 +15,11 @@ use crate::judge::{Checks as _, Needs, OrStop as _, Step};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("var-unknown-name", &[ADS_4, VAR_9, VAR_10], Needs::Queries, unknown_name,
-        "A name nobody has is answered by an error"),
+        "A request with an unknown name returns an error"),
     case("var-similar-name", &[VAR_9, VAR_20], Needs::Queries, similar_name,
-        "A name with another character or index is not the variable's"),
+        "A name with a different character or index does not address the variable"),
     case("var-known-types", &[VAR_5], Needs::Queries, known_types,
-        "Variables whose type is documented have its number"),
+        "A variable with a documented type has the number of that type"),
 ];
 
 fn unknown_name(probe: &mut Probe<'_>) -> Step {

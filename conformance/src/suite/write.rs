@@ -16,17 +16,17 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-by-handle", &[VAR_6, VAR_10, VAR_12, VAR_17], Needs::Writes, by_handle,
-        "What is written by a handle is read back, and the old value after it"),
+        "A value written by handle is read back, and then the restored value"),
     case("write-by-name", &[VAR_6, VAR_13, VAR_14, VAR_17], Needs::Writes, by_name,
-        "What is written by a name is read back by name and by handle"),
+        "A value written by name is read back by name and by handle"),
     case("write-axis-variable", &[VAR_17, VAR_26], Needs::Writes, axis_variables,
-        "What is written on the axis interface is read with the axis behind the name"),
+        "A value written on the axis interface is read by the name with the axis appended"),
     case("write-axis-read-only", &[VAR_6, VAR_26], Needs::Writes, axis_read_only,
-        "An axis variable that is READ_ONLY takes no value on the axis interface either"),
+        "The axis interface rejects a write to an axis variable that is READ_ONLY"),
     case("write-by-name-only", &[VAR_18], Needs::Writes, by_name_only,
-        "What is by name only is written by its name"),
+        "A variable accessible only by name is written by its name"),
     case("write-dynamic-by-name", &[VAR_19], Needs::Writes, dynamic_by_name,
-        "V.P, V.L and V.S are written among the variables, by name"),
+        "V.P, V.L and V.S are written as variables, by name"),
 ];
 
 fn by_handle(probe: &mut Probe<'_>) -> Step {

@@ -17,11 +17,11 @@ use crate::objects::{List, ValueAddress};
 pub(super) const CASES: &[CaseRow] = &[
     case("write-after-refusal", &[ADS_2, ADS_4, VAR_12, VAR_13],
         Needs::MalformedWrites, after_refusal,
-        "Behind a write that was refused the next one is done, and its result is its own"),
+        "A write after a rejected write is executed and returns its own result"),
     case("write-objects-of-wrong-size", &[COM_5], Needs::MalformedWrites, objects_of_wrong_size,
-        "Of a write of another size that is refused nothing is in the object"),
+        "A rejected write with a wrong size does not change the object"),
     case("write-empty-places", &[SDA_11], Needs::MalformedWrites, empty_places,
-        "A place without an axis reads as blank, whatever was written there"),
+        "An axis place without an axis has blank content, also after a write"),
 ];
 
 fn after_refusal(probe: &mut Probe<'_>) -> Step {

@@ -13,9 +13,9 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-objects-by-index", &[ADR_12], Needs::Writes, objects_by_index,
-        "What an object takes by its channel's number it takes by its rank, and has it then"),
+        "An object accepts and returns a value by the channel's rank as by its number"),
     case("write-platform-axes-of-hld", &[SDA_13], Needs::Writes, axes_of_hld,
-        "A platform axis of the first channel's HLD is the one without a channel"),
+        "A platform axis has the same values in the first channel's HLD and in the platform's HLD"),
 ];
 
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {

@@ -16,17 +16,17 @@ use crate::objects::{Object, ValueAddress};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-objects", &[COM_2, COM_5, ADR_3], Needs::Writes, objects,
-        "What is written to an object with write access is read back"),
+        "A value written to an object with write access is read back"),
     case("write-read-only-objects", &[COM_2], Needs::Writes, read_only_objects,
-        "An object without write access takes no value"),
+        "A write to an object without write access is rejected"),
     case("write-elements", &[SDA_1, SDA_9, ADR_2], Needs::Writes, elements,
-        "What is written to an element with its write flag set is read back, and nowhere else"),
+        "A value written to an element with its write flag set is read back from it alone"),
     case("write-read-only-elements", &[SDA_9], Needs::Writes, read_only_elements,
-        "An element without its write flag set takes no value"),
+        "A write to an element without its write flag set is rejected"),
     case("write-elements-of-wrong-size", &[SDA_8], Needs::MalformedWrites, wrong_size,
-        "A value of another length than the element's is answered by an error"),
+        "A write with a length other than the element's returns an error"),
     case("write-number-of-elements", &[SDA_4], Needs::MalformedWrites, number_of_elements,
-        "The number of elements of an instance takes no value"),
+        "A write to the element count of an instance is rejected"),
 ];
 
 /// Objects whose descriptors say that they are writable, or not.

@@ -13,9 +13,9 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-elements-by-handle", &[VAR_12], Needs::Writes, by_handle,
-        "An index writes the element of that place, and no other"),
+        "A write with a handle and an index changes the element at that position, and no other"),
     case("write-elements-by-name", &[VAR_13, VAR_20], Needs::Writes, by_name,
-        "A name with [index] writes the element of that place, and no other"),
+        "A write with a name and [index] changes the element at that position, and no other"),
 ];
 
 /// The indices of the first and the last element; for several dimensions also those at one edge,

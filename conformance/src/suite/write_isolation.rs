@@ -14,11 +14,11 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-nothing-else-by-name", &[VAR_13], Needs::MalformedWrites, by_name,
-        "A write by name changes what it names, and nothing else in any channel"),
+        "A write by name changes the named variable, and no other in any channel"),
     case("write-nothing-else-by-handle", &[VAR_12], Needs::MalformedWrites, by_handle,
-        "A write by handle changes what the handle stands for, and nothing else in any channel"),
+        "A write by handle changes the variable of the handle, and no other in any channel"),
     case("write-nothing-else-of-axes", &[VAR_26], Needs::MalformedWrites, of_axes,
-        "A write on the axis interface changes the variable of that place, and nothing else"),
+        "A write on the axis interface changes the variable of its axis place, and no other"),
 ];
 
 /// A variable, its initial value, and its expected value.

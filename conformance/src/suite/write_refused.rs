@@ -18,17 +18,17 @@ use crate::objects::{Object, ValueAddress};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-read-only", &[VAR_6], Needs::Writes, read_only,
-        "A variable that is READ_ONLY takes no value"),
+        "A write to a variable that is READ_ONLY is rejected"),
     case("write-read-only-changed", &[VAR_6], Needs::MalformedWrites, read_only_changed,
-        "A variable that is READ_ONLY takes no other value, whatever is answered"),
+        "A write of a different value to a READ_ONLY variable is rejected and changes nothing"),
     case("write-unknown", &[VAR_12, VAR_13, ADS_4], Needs::MalformedWrites, unknown,
-        "What is not there takes no value"),
+        "A write to a variable that does not exist is rejected"),
     case("write-absent-channel", &[ADS_4], Needs::MalformedWrites, to_absent_channel,
-        "A channel that is not configured takes no value"),
+        "A write to a channel that is not configured is rejected"),
     case("write-index-out-of-bounds", &[VAR_12, VAR_13], Needs::MalformedWrites, out_of_bounds,
-        "An element that the array does not have takes no value, and no other one takes it"),
+        "A write outside the array is rejected and changes no other element"),
     case("write-bad-requests", &[VAR_12, VAR_13, VAR_24], Needs::MalformedWrites, bad_requests,
-        "A write whose name has no end, or whose count of indices lies, writes nothing"),
+        "A write with an unterminated name or a wrong index count is rejected and changes nothing"),
 ];
 
 fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {

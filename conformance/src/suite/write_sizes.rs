@@ -16,7 +16,7 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-wrong-size", &[VAR_12, VAR_13, VAR_25, VAR_26], Needs::MalformedWrites, wrong_size,
-        "A value of another size than the variable's is answered by an error, or is there as it was sent"),
+        "A write with a wrong size returns an error, or the variable has the value sent"),
 ];
 
 /// An address of a value, and the requirement of writes to it.

@@ -13,7 +13,7 @@ use crate::values::until_nul;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-texts", &[VAR_12, VAR_13, VAR_25], Needs::Writes, texts,
-        "A text as long as is described is read as written, and a shorter one behind it too"),
+        "A text of the described length is read back as written, and so is a shorter one after it"),
 ];
 
 fn texts(probe: &mut Probe<'_>) -> Step {

@@ -67,7 +67,7 @@ fn what_tools_say_passes() {
     assert!(text(&found.stderr).contains(note), "{}", text(&found.stderr));
     assert_eq!(found.status.code(), Some(0));
     let streamed = text(&ads_cnc(&["check", "--any-port", "-v", &folder.file("4.pcapng")]).stdout);
-    let line = "pass            cap-client-stream: What is streamed is whole lines, and refused data comes again";
+    let line = "pass            cap-client-stream: The client streams whole lines and sends rejected data again";
     assert!(streamed.contains(line), "{streamed}");
 }
 

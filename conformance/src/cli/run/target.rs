@@ -154,7 +154,9 @@ impl Run {
             rejected.extend(absent);
             if !read_only.is_empty() {
                 let names = read_only.join(", ");
-                print_error(format_args!("read-only, so that a write is only refused: {names}"));
+                print_error(format_args!(
+                    "read-only, so the run only verifies that a write is rejected: {names}"
+                ));
             }
         }
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;

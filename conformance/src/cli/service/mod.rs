@@ -33,30 +33,30 @@ use response::ServiceResponse;
 /// Maximum number of consecutive failed writes.
 const FAILED_WRITES_MAX: u32 = 5;
 
-/// Answer requests of NC programs by a command (Service Interface)
+/// Answer requests of NC programs by running a command (Service Interface)
 ///
-/// The command gets the request on stdin; what it writes to stdout is the response, and its exit
-/// code the response state.
+/// The command receives the request on stdin. Its stdout becomes the response, and its exit code
+/// the response state.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct ServiceArguments {
-    /// UUID of the service; several, with commas between them, share the command
+    /// UUID of the service; comma-separated UUIDs share the command
     #[arg(long, value_name = "UUID", required = true, value_delimiter = ',', value_parser = uuid)]
     uuid: Vec<ServiceId>,
 
-    /// How long the command may run
+    /// End the command after this time
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = some_time)]
     time_limit: Duration,
 
-    /// How often it looks for a request
+    /// Poll for requests at this interval
     #[arg(long, value_name = "TIME", default_value = "50ms", value_parser = some_time)]
     poll: Duration,
 
-    /// End after this many answers
+    /// Exit after this many answers [default: no limit]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     answers: Option<u64>,
 
-    /// End after one answer
+    /// Exit after one answer
     #[arg(long, conflicts_with = "answers")]
     once: bool,
 
@@ -66,7 +66,7 @@ pub(super) struct ServiceArguments {
     #[command(flatten)]
     target: TargetArgs,
 
-    /// The command and its arguments; no shell comes between
+    /// The command and its arguments; run without a shell
     #[arg(last = true, required = true, value_name = "CMD")]
     command: Vec<String>,
 }
@@ -82,32 +82,33 @@ Examples:
 The file of --allow-write needs a table [[service]] with the channel.
 
 The command
-  stdin     the request in UTF-8 and a line feed; it is never an argument, as anybody who writes an
-            NC program chooses it
-  stdout    the response in UTF-8 (what is none is taken as CP1252), without its last line end. It is
-            cut to the 127 bytes of CP1252 that fit, with a warning
-  stderr    left as it is
+  stdin     the request in UTF-8 and a line feed. The request is never an argument, because its text
+            comes from an NC program
+  stdout    the response in UTF-8 (otherwise read as CP1252), without its last line end. A response
+            longer than 127 bytes of CP1252 is truncated, with a warning
+  stderr    passed through unchanged
   ADS_CNC_UUID, ADS_CNC_REQUEST_STATE, ADS_CNC_CHANNEL
             in the environment: UUID as given to --uuid, request state, channel
 
 The response state
   1         exit code 0
-  2, 3, …   this exit code
+  2, 3, …   the same exit code
   1001      exit code 1, which would look like success
-  1002      the time limit was over; the command was ended
-  1003      ended by a signal, or as the service was ended
-  1004      the command could not be started, or 8 processes that earlier ones have started still have
+  1002      the time limit was exceeded; the command was ended
+  1003      the command was ended by a signal, or because the service was ended
+  1004      the command could not be started, or 8 processes started by earlier commands still hold
             their stdout
-  A response of these that would be empty says why.
+  With the states 1002 to 1004, an empty response is replaced by the reason.
 
-What a command has started ends with it, unless it has made a session of its own.
+Processes that a command has started end with it, unless they have their own session.
 
-An answer that comes when its request is gone is dropped. SIGINT (Ctrl-C), SIGTERM and SIGHUP end the
-service; a command that runs is ended and answered for. A second signal ends it at once. When the connection is lost it ends with an error: to read, it connects once more,
-but a write whose answer did not come may have arrived.
+An answer whose request no longer exists is dropped. SIGINT (Ctrl-C), SIGTERM and SIGHUP end the
+service; it ends a running command and answers its request. A second signal ends the service at
+once. A lost connection is an error: the service connects once more to read, but a write without a
+reply may have arrived.
 
-Exit codes: 0 ended by a signal, --once or --answers; 1 the CNC refuses; 2 wrong usage; 3 no
-connection, or lost; 4 refused for safety; 70 internal error.";
+Exit codes: 0 ended by a signal, --once or --answers; 1 the CNC rejects a request; 2 wrong usage;
+3 no connection, or connection lost; 4 rejected for safety; 70 internal error.";
 
 fn uuid(text: &str) -> Result<ServiceId, String> {
     ServiceId::new(text).map_err(|_| {

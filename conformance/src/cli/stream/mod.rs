@@ -36,8 +36,8 @@ const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 
 /// Stream an NC program to a channel: this moves the machine
 ///
-/// The whole text is checked first; then it is sent in packets of whole lines while the CNC runs
-/// what it has. A packet that the CNC cannot take for now is sent again.
+/// The command first checks the whole text, then sends it in packets of whole lines while the CNC
+/// runs the lines that it has received. A packet that the CNC rejects as busy is sent again.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct StreamArguments {
@@ -45,15 +45,15 @@ pub(super) struct StreamArguments {
     #[arg(value_name = "FILE.nc")]
     file: PathBuf,
 
-    /// How long to wait before a packet that was refused for now is sent again
+    /// Wait this long before sending a packet again that the CNC rejected as busy
     #[arg(long, value_name = "TIME", default_value = "500ms", value_parser = duration)]
     retry_after: Duration,
 
-    /// How often a packet is sent again before it is given up; 1200 times 500ms are ten minutes
+    /// Send a packet again at most this many times; 1200 times 500ms are ten minutes
     #[arg(long, value_name = "N", default_value_t = 1200)]
     retries: u32,
 
-    /// Send even what the check says would end streaming
+    /// Send the program even if the check reports that a line would end streaming
     #[arg(long)]
     force: bool,
 
@@ -77,21 +77,23 @@ Examples:
   generate-path | ads-cnc stream - --target 127.0.0.1 --net-id 127.0.0.1.1.1 \
       --allow-write allow.toml
 
-The file of --allow-write needs a table [[stream]] with the channel. Without --target a simulated CNC
-is started, which needs no file and ends with the tool: a trial.
+The file of --allow-write needs a table [[stream]] with the channel. Without --target, the command
+starts a simulated CNC for a trial, which needs no file and ends with the command.
 
-The CNC takes the text if the program named by P-CHAN-00158 has been started there. It holds 4094
-bytes; while that is full it refuses for now, and the packet is sent again. What it has taken it may
-not have run yet: wait until it has before the next program. A line that cannot be sent is an error.
-So is what ends streaming, a loop or a jump back; as the check may be wrong about it, --force sends
-it. What would be lost or left over is warned of.
+The CNC accepts the text if the program named by P-CHAN-00158 has been started there. Its buffer
+holds 4094 bytes. While the buffer is full, the CNC rejects packets as busy, and the command sends
+them again. The CNC may not have run all accepted lines yet: wait until it has before the next
+program. A line that cannot be sent is an error. A line that ends streaming, such as a loop or a
+jump back, is an error too; the check may be wrong about it, so --force sends it. The command warns
+of lines that would be lost or left over.
 
-SIGINT (Ctrl-C), SIGTERM and SIGHUP end it between two packets. That does not stop the machine, which
-runs what it has; nor is a packet sent twice whose answer did not come.
+SIGINT (Ctrl-C), SIGTERM and SIGHUP end the command between two packets. This does not stop the
+machine, which runs the accepted lines. A packet without a reply is not sent again.
 
-Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 2 wrong usage;
-3 unfinished: a signal, no connection or no answer; 4 refused for safety; 70 internal error.
-Once it sends, stdout says which lines were taken, and which were not if it ends before its time.";
+Exit codes: 0 all lines accepted; 1 the text is invalid, or the CNC rejects it; 2 wrong usage;
+3 unfinished: a signal, no connection or no reply; 4 rejected for safety; 70 internal error.
+Once the command has sent a packet, stdout shows which lines were accepted and, if it ends early,
+which were not.";
 
 impl StreamArguments {
     /// Sends, and returns the exit code.

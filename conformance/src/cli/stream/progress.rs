@@ -116,13 +116,13 @@ mod tests {
         let text = NcText::new(b"N10 G0 X0\nN20 M30\n").unwrap();
         let progress = StreamProgress::new(text, false);
         let sent = streaming::Progress { packets: 1, lines: 1, bytes: 11 };
-        let line = progress.text(sent, Some("refused 3 times"));
+        let line = progress.text(sent, Some("rejected 3 times"));
         assert!(line.starts_with("1 of 2 lines, 11 bytes of 20 bytes, "), "{line}");
-        assert!(line.ends_with("/s, refused 3 times"), "{line}");
+        assert!(line.ends_with("/s, rejected 3 times"), "{line}");
         let mut progress = StreamProgress { lines: 12_345_678, ..progress };
         progress.line.live = true;
         let sent = streaming::Progress { packets: 123_456, lines: 1_234_567, bytes: 123_456_789 };
-        let line = progress.text(sent, Some("refused 1200 times with 0x706"));
+        let line = progress.text(sent, Some("rejected 1200 times with 0x706"));
         let line = progress.line.fitted(&line);
         assert_eq!(line.chars().count(), progress::WIDTH, "{line}");
     }

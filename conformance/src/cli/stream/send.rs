@@ -77,7 +77,7 @@ impl Sending<'_> {
                     }
                     let times =
                         if times == 1 { "once".to_owned() } else { format!("{times} times") };
-                    let waits = format!("refused {times} with {error:#x}");
+                    let waits = format!("rejected {times} with {error:#x}");
                     progress.show(self.sender.sent(), Some(&waits));
                     if interrupt.sleep(self.retry.after) {
                         return SendEnd::Interrupted;

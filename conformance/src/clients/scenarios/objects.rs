@@ -22,40 +22,48 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     let descriptors =
         ExpectedRequest { length: ReadLength::Times(84), ..read(553, 0x13_0101, 1, 84) };
     vec![
-        Scenario::new("client-count-objects", "It counts objects", "count-objects 1")
-            .asks(count(0x13_0101))
-            .gives(COUNT),
-        Scenario::new("client-count-objects-6", "It counts those of channel 6", "count-objects 6")
-            .asks(count(0x13_0106))
-            .gives(12),
-        Scenario::new("client-list-objects", "It lists objects", "list-objects 1")
+        Scenario::new(
+            "client-count-objects",
+            "The client reads the number of objects",
+            "count-objects 1",
+        )
+        .asks(count(0x13_0101))
+        .gives(COUNT),
+        Scenario::new(
+            "client-count-objects-6",
+            "The client reads the number of objects of channel 6",
+            "count-objects 6",
+        )
+        .asks(count(0x13_0106))
+        .gives(12),
+        Scenario::new("client-list-objects", "The client lists the objects", "list-objects 1")
             .asks(descriptors.of(COM_2, COM_2))
             .by(COM_2)
             .expect(ExpectedAnswer::Asked(list)),
         Scenario::new(
             "client-read-object",
-            "It reads an object where its descriptor says",
+            "The client reads an object at the address in its descriptor",
             "read-object 1 example_lreal_w",
         )
         .asks(content(0x1A, 8))
         .gives(1234.5678),
         Scenario::new(
             "client-read-object-unsigned",
-            "It reads a DWORD as a number without sign",
+            "The client reads a DWORD as an unsigned number",
             "read-object 1 example_dword_r",
         )
         .asks(content(0x15, 4))
         .gives(0xDEAD_BEEF_u32),
         Scenario::new(
             "client-read-object-long",
-            "It reads a LINT of eight bytes",
+            "The client reads a LINT of eight bytes",
             "read-object 1 example_lint_w",
         )
         .asks(content(0x18, 8))
         .gives(i64::MIN),
         Scenario::new(
             "client-read-object-text",
-            "It reads a STRING as CP1252",
+            "The client reads a STRING as CP1252",
             "read-object 1 example_string_r",
         )
         .asks(content(0x1B, 21))
@@ -63,26 +71,26 @@ pub(super) fn scenarios() -> Vec<Scenario> {
         .gives("Länge 5€"),
         Scenario::new(
             "client-read-object-full-name",
-            "It finds an object whose name takes all 32 bytes",
+            "The client finds an object with a name of 32 bytes",
             "read-object 1 example_name_of_32_characters__r",
         )
         .asks(content(0x1C, 1))
         .gives(false),
         Scenario::new(
             "client-write-object",
-            "It writes an object where its descriptor says",
+            "The client writes an object at the address in its descriptor",
             "write-object 1 mc_command_single_block_w TRUE",
         )
         .asks(write(553, 0x12_0101, 1, &[1]).of(COM_5, COM_5)),
         Scenario::new(
             "client-write-object-real",
-            "It writes an LREAL",
+            "The client writes an LREAL",
             "write-object 1 example_lreal_w -2.5",
         )
         .asks(write(553, 0x12_0101, 0x1A, &[0, 0, 0, 0, 0, 0, 0x04, 0xC0]).of(COM_5, GEN_1)),
         Scenario::new(
             "client-write-object-signed",
-            "It writes a negative INT",
+            "The client writes a negative INT",
             "write-object 1 example_int_w -2",
         )
         .asks(write(553, 0x12_0101, 0x14, &[0xFE, 0xFF]).of(COM_5, GEN_1)),

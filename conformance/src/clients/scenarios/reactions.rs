@@ -110,7 +110,7 @@ fn ways(told: &ReactionScenario) -> Vec<Scenario> {
         told.invalid_reply("other-id", "to another invoke ID only", Tamper::OtherInvokeId, ADS_5),
         told.invalid_reply(
             "other-command",
-            "as the answer to another command",
+            "as the reply to another command",
             Tamper::OtherCommand,
             ADS_5,
         ),
@@ -123,14 +123,14 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
     for (place, name, rule) in [
         (LengthField::AmsTcp, "AMS/TCP length", ADS_5),
         (LengthField::Ams, "AMS data length", ADS_5),
-        (LengthField::Data, "length before the data", told.service),
+        (LengthField::Data, "ADS data length", told.service),
     ] {
         if place == LengthField::Data && told.function == Function::WriteByName {
             continue;
         }
         for (lie, how) in [
-            (WrongLength::Longer, "one more"),
-            (WrongLength::Shorter, "one less"),
+            (WrongLength::Longer, "one too large"),
+            (WrongLength::Shorter, "one too small"),
             (WrongLength::Zero, "0"),
             (WrongLength::Huge, "0xFFFFFFFF"),
         ] {
@@ -145,7 +145,7 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
                 WrongLength::Zero => "zero",
                 WrongLength::Huge => "huge",
             };
-            let what = format!("the {name} says {how}");
+            let what = format!("the {name} is {how}");
             all.push(told.invalid_reply(
                 &format!("{field}-{lies}"),
                 &what,
@@ -165,7 +165,7 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
             .by(ADS_6),
         told.invalid_reply(
             "bare-result",
-            "an error as result, and nothing after it",
+            "an error as result without further fields",
             Tamper::BareResult,
             ADS_4,
         )
@@ -175,13 +175,13 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
         all.extend([
             told.invalid_reply(
                 "empty-result",
-                "an error as result, length 0",
+                "an error as result with data length 0",
                 Tamper::EmptyResult,
                 ADS_4,
             ),
             told.invalid_reply(
                 "result-data",
-                "an error as result, with data",
+                "an error as result with data",
                 Tamper::ResultWithData,
                 ADS_4,
             ),
@@ -206,10 +206,10 @@ fn ends(told: &ReactionScenario) -> Vec<Scenario> {
 fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
     let wrong = |id: &str, what: &str, tamper| told.invalid_reply(id, what, tamper, told.data);
     vec![
-        wrong("more", "four bytes more than there should be", Tamper::More(4)),
-        wrong("one-more", "one byte more", Tamper::More(1)),
-        wrong("less", "one byte less", Tamper::Less(1)),
-        wrong("none", "no data at all", Tamper::Only(0)),
+        wrong("more", "four bytes too many", Tamper::More(4)),
+        wrong("one-more", "one byte too many", Tamper::More(1)),
+        wrong("less", "one byte too few", Tamper::Less(1)),
+        wrong("none", "no data", Tamper::Only(0)),
     ]
 }
 
@@ -238,23 +238,25 @@ fn streams() -> Vec<Scenario> {
         describe("padded", "the name is padded to 256 bytes", Tamper::Padded(24))
             .gives(as_is(1, 1))
             .by(assumed(VAR_4)),
-        describe("type", "a type that nobody knows", Tamper::Patch(4, [77, 0, 0, 0]))
+        describe("type", "an unknown type", Tamper::Patch(4, [77, 0, 0, 0]))
             .gives(as_is(77, 1))
             .by(assumed(VAR_23)),
-        describe("access", "an access that nobody knows", Tamper::Patch(8, [9, 0, 0, 0]))
+        describe("access", "an unknown access", Tamper::Patch(8, [9, 0, 0, 0]))
             .gives(as_is(1, 9))
             .by(assumed(VAR_23)),
         describe(
             "dimensions",
-            "more dimensions than there is room for",
+            "more dimensions than the reply can hold",
             Tamper::Patch(16, [0xFF; 4]),
         )
         .expect(ExpectedAnswer::Error)
         .by(VAR_24),
-        describe("short", "it ends within the dimensions", Tamper::Only(22))
+        describe("short", "the reply ends within the dimensions", Tamper::Only(22))
             .expect(ExpectedAnswer::Error)
             .by(VAR_4),
-        describe("empty", "it is empty", Tamper::Only(0)).expect(ExpectedAnswer::Error).by(VAR_4),
+        describe("empty", "the reply is empty", Tamper::Only(0))
+            .expect(ExpectedAnswer::Error)
+            .by(VAR_4),
         short("handle", "handle 1 V.E.vartest", Function::HandleByName, VAR_10, 3),
         short("count-variables", "count-variables 1 V.E", Function::CountVariables, VAR_2, 2),
         short("parameters", "count-parameters 1 P", Function::CountDynamic, DYN_1, 1),
@@ -275,14 +277,14 @@ fn lists() -> Vec<Scenario> {
     let right = |scenario: Scenario| scenario.expect(ExpectedAnswer::Asked(super::objects::list));
     vec![
         right(list("bytewise", "one byte at a time", Tamper::Bytewise)).by(ADS_5),
-        right(list("late", "after the reply to the request before", Tamper::Late))
+        right(list("late", "after the reply to the previous request", Tamper::Late))
             .by(assumed(ADS_5)),
         right(list("twice", "twice in one piece", Tamper::Twice)).by(assumed(ADS_5)),
         // The client requests the rest, or reports an error because the list is incomplete.
-        list("fewer", "fewer descriptors than it asks for", Tamper::Descriptors(5))
+        list("fewer", "fewer descriptors than requested", Tamper::Descriptors(5))
             .expect(ExpectedAnswer::AskedOrError(super::objects::list))
             .by(assumed(COM_3)),
-        list("torn", "the last descriptor is not whole", Tamper::Less(1))
+        list("torn", "the last descriptor is truncated", Tamper::Less(1))
             .expect(ExpectedAnswer::Error)
             .by(COM_2),
         list("none", "no descriptors", Tamper::Only(0)).expect(ExpectedAnswer::Error).by(COM_2),

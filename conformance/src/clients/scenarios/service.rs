@@ -33,7 +33,7 @@ fn host(id: &str, title: &str, seconds: f32, prepare: fn(&ScenarioScript)) -> Sc
 pub(super) fn scenarios() -> Vec<Scenario> {
     let mut ask = Scenario::new(
         "client-ask-service",
-        "It asks a service and waits for the response",
+        "The client requests a service and waits for the response",
         format!("ask-service 1 {UUID} {REQUEST}"),
     )
     .by(SVC_6)
@@ -43,33 +43,35 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     // The response to an earlier request; a client that does not wait reads it.
     ask.prepare = Some(|script| script.write_variable(ServiceVariable::Response, b"stale"));
     vec![
-        host("own", "It answers a request to its service", 5.0, |script| {
+        host("own", "The client answers a request to its service", 5.0, |script| {
             request(script, UUID, 1);
         })
         .by(SVC_2)
         .gives(1)
         .ordered(RequestOrder::Host, HOST),
-        host("state", "It answers whatever the request state is", 5.0, |script| {
+        host("state", "The client answers any request state other than 0", 5.0, |script| {
             request(script, UUID, 77);
         })
         .by(SVC_2)
         .gives(1)
         .ordered(RequestOrder::Host, HOST),
-        host("case", "It knows its UUID in small letters", 5.0, |script| {
+        host("case", "The client recognizes its UUID in lower case", 5.0, |script| {
             request(script, &UUID.to_lowercase(), 1);
         })
         .by(assumed(SVC_7))
         .gives(1),
-        host("other", "It leaves a request to another service", 0.4, |script| {
+        host("other", "The client ignores a request to another service", 0.4, |script| {
             request(script, "19719079-BA06-4740-BC02-DE5215211751", 1);
         })
         .by(SVC_2)
         .gives(0)
         .ordered(RequestOrder::IdleHost, IDLE),
-        host("idle", "It does nothing without a request", 0.4, |script| request(script, UUID, 0))
-            .by(SVC_2)
-            .gives(0)
-            .ordered(RequestOrder::IdleHost, IDLE),
+        host("idle", "The client writes nothing without a request", 0.4, |script| {
+            request(script, UUID, 0)
+        })
+        .by(SVC_2)
+        .gives(0)
+        .ordered(RequestOrder::IdleHost, IDLE),
         ask,
     ]
 }

@@ -53,23 +53,41 @@ pub(super) fn scenarios() -> Vec<Scenario> {
             refusals.iter().map(|&number| (number, AdsError::INVALID_DATA)).collect();
         scenario.by(STM_6)
     };
-    let mut for_good = program("refused", "It gives up what is refused for good", lines(3, "\n"));
+    let mut for_good =
+        program("refused", "The client stops after a permanent error", lines(3, "\n"));
     for_good.refused = (0..64).map(|number| (number, AdsError::INVALID_ACCESS)).collect();
     (for_good.watch, for_good.more) = (None, vec![ADS_2]);
     vec![
-        program("short", "It streams a few lines", lines(3, "\r\n")),
-        program("packets", "It streams a program in packets of whole lines", lines(90, "\r\n")),
-        program("line-feeds", "It ends lines by CR LF that ended by LF", lines(40, "\n")),
-        program("unfinished", "It ends the last line too", unfinished),
-        program("longest", "It streams a line of 990 characters", longest),
-        later("later", "It writes again what could not be taken", &[1]),
-        later("later-first", "It writes the first packet again, and again", &[0, 1, 2]),
+        program("short", "The client streams a few lines", lines(3, "\r\n")),
+        program(
+            "packets",
+            "The client streams a program in packets of whole lines",
+            lines(90, "\r\n"),
+        ),
+        program(
+            "line-feeds",
+            "The client replaces LF by CR LF at the end of a line",
+            lines(40, "\n"),
+        ),
+        program("unfinished", "The client ends an unterminated last line", unfinished),
+        program("longest", "The client streams a line of 990 characters", longest),
+        later("later", "The client sends a rejected packet again", &[1]),
+        later(
+            "later-first",
+            "The client sends the first packet again after several rejections",
+            &[0, 1, 2],
+        ),
         for_good.expect(ExpectedAnswer::Error).by(crate::judge::assumed(STM_6)),
-        refused("too-long", "It refuses a line of 991 characters", &too_long, STM_20),
-        refused("no-ascii", "It refuses what is not ASCII", b"N10 (L\xE4nge)\r\nM30\r\n", STM_7),
+        refused("too-long", "The client rejects a line of 991 characters", &too_long, STM_20),
+        refused(
+            "no-ascii",
+            "The client rejects a character that is not ASCII",
+            b"N10 (L\xE4nge)\r\nM30\r\n",
+            STM_7,
+        ),
         refused(
             "loop",
-            "It refuses a loop",
+            "The client rejects a loop",
             b"$FOR V.P.I = 1, 3, 1\nG00 X1\n$ENDFOR\nM30\n",
             STM_8,
         ),

@@ -43,26 +43,34 @@ fn kinds() -> Vec<Scenario> {
     let indexed =
         |offset, data: &[u8], least, place| both(GROUP, offset, data, least).of(place, VAR_3);
     vec![
-        Scenario::new("client-count-variables", "It counts V.E", "count-variables 1 V.E")
-            .asks(count(GROUP, b"V.E\0"))
-            .gives(123),
-        Scenario::new("client-count-all", "It counts all kinds", "count-variables 1 all")
-            .asks(count(GROUP, b"\0").tolerating(b""))
-            .expect(crate::clients::scenario::ExpectedAnswer::Done),
+        Scenario::new(
+            "client-count-variables",
+            "The client reads the number of V.E variables",
+            "count-variables 1 V.E",
+        )
+        .asks(count(GROUP, b"V.E\0"))
+        .gives(123),
+        Scenario::new(
+            "client-count-all",
+            "The client reads the number of variables of all kinds",
+            "count-variables 1 all",
+        )
+        .asks(count(GROUP, b"\0").tolerating(b""))
+        .expect(crate::clients::scenario::ExpectedAnswer::Done),
         Scenario::new(
             "client-count-variables-6",
-            "It counts of channel 6",
+            "The client reads the number of V.E variables of channel 6",
             "count-variables 6 V.E",
         )
         .asks(count(0x12_2306, b"V.E\0"))
         .gives(2),
-        Scenario::new("client-describe", "It reads a description", "describe 1 2 V.E")
+        Scenario::new("client-describe", "The client reads a description", "describe 1 2 V.E")
             .asks(indexed(0x45, b"\x02\0\0\0V.E\0", 39, VAR_4))
             .gives(json!({"name": "V.E.Variable_3", "handle": 0x200_0002, "type": 1,
                 "access": 1, "size": 2, "dimensions": [2]})),
         Scenario::new(
             "client-describe-elementary",
-            "It reads a description without dimensions",
+            "The client reads a description without dimensions",
             "describe 1 4 V.E",
         )
         .asks(indexed(0x45, b"\x04\0\0\0V.E\0", 32, VAR_4))
@@ -70,14 +78,14 @@ fn kinds() -> Vec<Scenario> {
             "size": 2, "dimensions": []})),
         Scenario::new(
             "client-describe-extended",
-            "It reads an extended description",
+            "The client reads an extended description",
             "describe-extended 1 3 V.E",
         )
         .asks(indexed(0x4B, b"\x03\0\0\0V.E\0", 8, VAR_15))
         .gives(json!({"synchronisation": 2, "validity": 2})),
         Scenario::new(
             "client-describe-extended-none",
-            "It takes that V.G has no extended description",
+            "The client accepts that V.G has no extended description",
             "describe-extended 1 0 V.G",
         )
         .asks(indexed(0x4B, b"\0\0\0\0V.G\0", 0, VAR_16))
@@ -89,13 +97,20 @@ fn kinds() -> Vec<Scenario> {
 fn by_name() -> Vec<Scenario> {
     let long = format!("V.E.name_of_255_characters_{}", "x".repeat(228));
     vec![
-        value("array", "It reads an array", "V.E.Testvar", b"V.E.Testvar", "SGN32[5]", 20)
+        value("array", "The client reads an array", "V.E.Testvar", b"V.E.Testvar", "SGN32[5]", 20)
             .gives(json!([123, 234, 345, 456, 567])),
-        value("element", "It reads an element", "V.E.Testvar[3]", b"V.E.Testvar[3]", "SGN32", 4)
-            .gives(456),
+        value(
+            "element",
+            "The client reads an element of an array",
+            "V.E.Testvar[3]",
+            b"V.E.Testvar[3]",
+            "SGN32",
+            4,
+        )
+        .gives(456),
         value(
             "signed",
-            "It reads a negative number",
+            "The client reads a negative number",
             "V.E.matrix[1][2]",
             b"V.E.matrix[1][2]",
             "SGN16",
@@ -104,7 +119,7 @@ fn by_name() -> Vec<Scenario> {
         .gives(23),
         value(
             "negative",
-            "It reads negative numbers",
+            "The client reads an array of negative numbers",
             "V.E.array_sgn32",
             b"V.E.array_sgn32",
             "SGN32[5]",
@@ -113,7 +128,7 @@ fn by_name() -> Vec<Scenario> {
         .gives(json!([-1, 0, 1, i32::MIN, i32::MAX])),
         value(
             "unsigned",
-            "It reads numbers without sign",
+            "The client reads an array of unsigned numbers",
             "V.E.struct.array_uns32",
             b"V.E.struct.array_uns32",
             "UNS32[3]",
@@ -122,7 +137,7 @@ fn by_name() -> Vec<Scenario> {
         .gives(json!([0, 1, u32::MAX])),
         value(
             "real",
-            "It reads a REAL64",
+            "The client reads a REAL64",
             "V.E.trajectory.vector.y",
             b"V.E.trajectory.vector.y",
             "REAL64",
@@ -132,7 +147,7 @@ fn by_name() -> Vec<Scenario> {
         .gives(-2.25),
         value(
             "tiny",
-            "It reads a REAL64 that is nearly 0",
+            "The client reads a REAL64 near 0",
             "V.E.trajectory.vector.z",
             b"V.E.trajectory.vector.z",
             "REAL64",
@@ -140,17 +155,31 @@ fn by_name() -> Vec<Scenario> {
         )
         .by(GEN_1)
         .gives(1e-300),
-        value("boolean", "It reads a BOOLEAN", "V.E.boolean", b"V.E.boolean", "BOOLEAN", 1)
+        value("boolean", "The client reads a BOOLEAN", "V.E.boolean", b"V.E.boolean", "BOOLEAN", 1)
             .gives(true),
-        value("cp1252", "It sends a name as CP1252", "V.E.Länge", b"V.E.L\xE4nge", "REAL64", 8)
-            .by(GEN_3)
-            .gives(1234.5),
-        value("long-name", "It sends a name of 255 characters", &long, long.as_bytes(), "UNS08", 1)
-            .by(VAR_9)
-            .gives(255),
+        value(
+            "cp1252",
+            "The client sends a name as CP1252",
+            "V.E.Länge",
+            b"V.E.L\xE4nge",
+            "REAL64",
+            8,
+        )
+        .by(GEN_3)
+        .gives(1234.5),
+        value(
+            "long-name",
+            "The client sends a name of 255 characters",
+            &long,
+            long.as_bytes(),
+            "UNS08",
+            1,
+        )
+        .by(VAR_9)
+        .gives(255),
         value(
             "text",
-            "It reads a text to its NUL and no further",
+            "The client reads a text up to its NUL",
             "V.E.text",
             b"V.E.text",
             "STRING",
@@ -160,7 +189,7 @@ fn by_name() -> Vec<Scenario> {
         .gives("Länge 5€"),
         value(
             "matrix",
-            "It reads a matrix row by row",
+            "The client reads a matrix row by row",
             "V.E.matrix",
             b"V.E.matrix",
             "SGN16[2,3]",
@@ -170,39 +199,46 @@ fn by_name() -> Vec<Scenario> {
         .gives(json!([[11, 12, 13], [21, 22, 23]])),
         value(
             "structure",
-            "It reads an element of an array in a structure",
+            "The client reads an element of an array in a structure",
             "V.G.NP[0].V[1]",
             b"V.G.NP[0].V[1]",
             "REAL64",
             8,
         )
         .gives(2.0),
-        value("cycle", "It reads a V.CYC by its name", "V.CYC.count", b"V.CYC.count", "UNS32", 4)
-            .gives(42),
+        value(
+            "cycle",
+            "The client reads a V.CYC variable by its name",
+            "V.CYC.count",
+            b"V.CYC.count",
+            "UNS32",
+            4,
+        )
+        .gives(42),
         written(
             "element",
-            "It writes an element",
+            "The client writes an element of an array",
             "write-by-name 1 V.E.test[4] SGN32 123",
             b"V.E.test[4]",
             &[123, 0, 0, 0],
         ),
         written(
             "array",
-            "It writes an array",
+            "The client writes an array",
             "write-by-name 1 V.E.test SGN32[5] 1,-1,2,-2,3",
             b"V.E.test",
             b"\x01\0\0\0\xFF\xFF\xFF\xFF\x02\0\0\0\xFE\xFF\xFF\xFF\x03\0\0\0",
         ),
         written(
             "real",
-            "It writes a REAL64 under a name in CP1252",
+            "The client writes a REAL64 to a variable with a CP1252 name",
             "write-by-name 1 V.E.Länge REAL64 -0.5",
             b"V.E.L\xE4nge",
             b"\0\0\0\0\0\0\xE0\xBF",
         ),
         written(
             "boolean",
-            "It writes FALSE as 0",
+            "The client writes FALSE as 0",
             "write-by-name 1 V.E.boolean BOOLEAN FALSE",
             b"V.E.boolean",
             &[0],
@@ -222,7 +258,8 @@ fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let ask = write(552, GROUP, 0x4A, &with(1)).of(VAR_13, VAR_13).also(&with(0));
     let filled = with(21_usize.saturating_sub(bytes.len()));
     let action = format!("write-by-name 1 {name} STRING {text}");
-    Scenario::new("client-write-text", "It writes a text as CP1252", action).asks(ask.also(&filled))
+    Scenario::new("client-write-text", "The client writes a text as CP1252", action)
+        .asks(ask.also(&filled))
 }
 
 fn by_handle() -> Vec<Scenario> {
@@ -231,32 +268,36 @@ fn by_handle() -> Vec<Scenario> {
     let read = |data: &[u8], least| both(GROUP, 0x47, data, least).of(VAR_14, VAR_11);
     let write = |data: &[u8]| write(552, GROUP, 0x49, data).of(VAR_12, VAR_12);
     vec![
-        Scenario::new("client-handle", "It asks for a handle", "handle 1 V.E.vartest")
-            .asks(named(0x46, b"V.E.vartest", 4).of(VAR_10, VAR_9))
-            .gives(0x200_0004),
+        Scenario::new(
+            "client-handle",
+            "The client requests a handle by name",
+            "handle 1 V.E.vartest",
+        )
+        .asks(named(0x46, b"V.E.vartest", 4).of(VAR_10, VAR_9))
+        .gives(0x200_0004),
         Scenario::new(
             "client-handle-read",
-            "It reads an array by its handle",
+            "The client reads an array by its handle",
             "read-by-handle 1 33559092 - SGN32[5]",
         )
         .asks(read(whole, 20))
         .gives(json!([123, 234, 345, 456, 567])),
         Scenario::new(
             "client-handle-read-element",
-            "It reads an element by a handle",
+            "The client reads an element of an array by its handle",
             "read-by-handle 1 33559092 4 SGN32",
         )
         .asks(read(one, 4))
         .gives(567),
         Scenario::new(
             "client-handle-write",
-            "It writes an array by its handle",
+            "The client writes an array by its handle",
             "write-by-handle 1 33559092 - SGN32[5] 5,4,3,2,1",
         )
         .asks(write(&[whole, &b"\x05\0\0\0\x04\0\0\0\x03\0\0\0\x02\0\0\0\x01\0\0\0"[..]].concat())),
         Scenario::new(
             "client-handle-write-element",
-            "It writes an element by a handle",
+            "The client writes an element of an array by its handle",
             "write-by-handle 1 33559092 4 SGN32 123",
         )
         .asks(write(&[&one[..], &[123, 0, 0, 0]].concat())),
@@ -268,28 +309,28 @@ fn of_axes() -> Vec<Scenario> {
     vec![
         Scenario::new(
             "client-axis-handle",
-            "It asks for an axis's handle",
+            "The client requests the handle of an axis variable",
             "axis-handle 1 2 V.A.WCS",
         )
         .asks(axis(0x2_0004, 4))
         .gives(0x0102_001B),
         Scenario::new(
             "client-axis-read",
-            "It reads an axis's variable",
+            "The client reads an axis variable",
             "read-axis 1 2 V.A.WCS REAL64",
         )
         .asks(axis(0x2_0005, 8))
         .gives(1234.2),
         Scenario::new(
             "client-axis-read-3",
-            "It reads that of another",
+            "The client reads an axis variable of another axis",
             "read-axis 1 3 V.A.WCS REAL64",
         )
         .asks(axis(0x3_0005, 8))
         .gives(-3.5),
         Scenario::new(
             "client-axis-write",
-            "It writes an axis's variable",
+            "The client writes an axis variable",
             "write-axis 1 2 V.A.WCS REAL64 -2.5",
         )
         .asks(write(552, GROUP, 0x2_0006, b"V.A.WCS\0\0\0\0\0\0\0\x04\xC0").of(VAR_26, VAR_13)),
@@ -317,21 +358,21 @@ fn dynamic() -> Vec<Scenario> {
         all.extend([
             Scenario::new(
                 format!("client-count-parameters-{id}"),
-                format!("It counts {kind}"),
+                format!("The client reads the number of {kind} parameters"),
                 format!("count-parameters 1 {kind}"),
             )
             .asks(read(552, GROUP, number, 4).of(DYN_1, DYN_1))
             .gives(count),
             Scenario::new(
                 format!("client-parameter-name-{id}"),
-                format!("It asks for a name of {kind}, counting from 1"),
+                format!("The client requests the name of a {kind} parameter, counted from 1"),
                 format!("parameter-name 1 {kind} {place}"),
             )
             .asks(both(GROUP, base, &index, 96).of(DYN_2, DYN_5))
             .gives(name),
             Scenario::new(
                 format!("client-parameter-value-{id}"),
-                format!("It reads a {kind} by its name"),
+                format!("The client reads a {kind} parameter by its name"),
                 format!("parameter-by-name 1 {kind} {name}"),
             )
             .asks(
@@ -343,7 +384,7 @@ fn dynamic() -> Vec<Scenario> {
             .gives(parameter),
             Scenario::new(
                 format!("client-parameter-index-{id}"),
-                format!("It reads a {kind} by its index"),
+                format!("The client reads a {kind} parameter by its index"),
                 format!("parameter-by-index 1 {kind} {place}"),
             )
             .asks(both(GROUP, base + 2, &index, 8).of(DYN_4, DYN_5))

@@ -25,22 +25,22 @@ use crate::suite::kit::{Probe, Steady, ask_if_claimed, compare, name_of};
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("ads-read-addresses", &[ADS_1], Needs::Queries, read_addresses,
-        "A Read answers for its own group and offset, with so many bytes as it asks for"),
+        "A Read returns the requested number of bytes from its own group and offset"),
     case("ads-read-write-addresses", &[ADS_3], Needs::Queries, read_write_addresses,
-        "A ReadWrite answers for its own group and offset, and for the data it writes"),
+        "A ReadWrite returns the data for its own group, offset and write data"),
     case("ads-services-agree", &[ADS_1, ADS_3], Needs::Queries, services_agree,
-        "What a Read gives the number of, a ReadWrite gives so many of"),
+        "The number that a Read returns equals the number of items that a ReadWrite returns"),
     case("ads-read-lengths", &[ADS_1, ADS_3, ADS_4, COM_1, COM_5, DYN_1, DYN_3, DYN_4, SDA_1, SDA_4, SDA_8,
         SDA_9, VAR_2, VAR_10, VAR_14, VAR_15, VAR_26], Needs::Queries, lengths::read_length,
-        "A reply has no more bytes than are asked for, and no more than there are"),
+        "A reply has at most the requested bytes, and at most the available bytes"),
     case("ads-own-reply", &[ADS_1, ADS_3, COM_1, COM_2, COM_5, DYN_1, DYN_2, DYN_3, DYN_4, SDA_4, SDA_6,
         SDA_7, SDA_8, SDA_9, VAR_2, VAR_4, VAR_10, VAR_11, VAR_14, VAR_26, VAR_28],
         Needs::Queries, own_reply::own_reply,
-        "A reply answers its own request, and not an earlier one"),
+        "A reply belongs to its own request, not to an earlier request"),
     case("ads-in-pieces", &[ADS_5], Needs::Queries, lengths::in_pieces,
-        "A request is answered the same in whatever pieces it comes"),
+        "The reply to a request does not depend on the pieces in which the request arrives"),
     case("ads-write", &[ADS_2], Needs::Writes, write::arrives,
-        "What a Write is acknowledged for is there by another service, and nothing else is"),
+        "Another service reads the value of an acknowledged Write; no other value changes"),
 ];
 
 /// Maximum number of items of a list that are tried.

@@ -20,19 +20,19 @@ use crate::values::until_nul;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("service-variables", &[SVC_1, SVC_11, VAR_6], Needs::Queries, variables,
-        "A channel with the interface has its five variables, and in them what they hold"),
+        "A channel with the Service Interface has its five variables with valid values"),
     case("service-response", &[SVC_1, SVC_3, SVC_4, VAR_13], Needs::Writes, response,
-        "A service writes its response and its state, and a request's state takes it back"),
+        "A service writes response and response state; a new request state resets the latter"),
     case("service-longest", &[SVC_1, VAR_13], Needs::Writes, texts::longest,
-        "REQUEST and RESPONSE hold 128 bytes, and no more"),
+        "REQUEST and RESPONSE hold at most 128 bytes"),
     case("service-texts", &[SVC_1, VAR_13], Needs::Writes, texts::texts,
-        "A text of any length and of any characters is read as it was written"),
+        "A text of any length and any characters is read back unchanged"),
     case("service-variables-apart", &[SVC_1, SVC_3, VAR_13], Needs::Writes, texts::apart,
-        "Each of the variables is its own"),
+        "A write to one variable of the Service Interface changes no other"),
     case("service-request", &[SVC_1, SVC_2, VAR_13], Needs::Writes, texts::request,
-        "A request stays as it is written while its state is set"),
+        "REQUEST and REQUEST_STATE keep the written values until a service answers"),
     case("service-texts-by-handle", &[SVC_1, VAR_13], Needs::Writes, texts::by_handle,
-        "A text of any length is written and read by its handle as by its name"),
+        "A text of any length is written and read by handle and by name alike"),
 ];
 
 fn variables(probe: &mut Probe<'_>) -> Step {
