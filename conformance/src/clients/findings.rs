@@ -28,8 +28,8 @@ impl Findings {
         self.record.add_all(rules, passed, expected, found, || exchange.map(evidence));
     }
 
-    /// The first clause that a request breaks: the CNC cannot answer it as the client expects.
-    pub(super) fn misdirected(&self) -> Option<&'static str> {
+    /// The first clause that fails: by a request that breaks it, as the answer of the client is judged last.
+    pub(super) fn first_failed(&self) -> Option<&'static str> {
         let mut judgements = self.record.judgements.iter();
         judgements.find(|one| one.verdict == Verdict::Fail).map(|one| one.requirement)
     }

@@ -264,7 +264,7 @@ fn judge_reaction(
         _ => false,
     };
     let (rules, cause): (Vec<Rule>, _) = match reaction {
-        ClientReaction::Answer(_) => (rules, findings.misdirected()),
+        ClientReaction::Answer(_) => (rules, findings.first_failed()),
         // A crash breaks a must, even if the scenario's rules are assumed.
         ClientReaction::Died(_) => {
             let must = rules.into_iter().map(|rule| rule.at(Level::Must));

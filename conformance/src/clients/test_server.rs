@@ -1,5 +1,6 @@
 //! The CNC that a client under test connects to: it records all frames and can change its replies.
 
+use std::collections::HashMap;
 use std::io::{self, Read as _, Write as _};
 use std::net::{Shutdown, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -123,7 +124,31 @@ impl std::fmt::Display for Overflow {
 pub struct TestServer {
     acceptor: net::Acceptor,
     run: Arc<Mutex<Option<Arc<TestRun>>>>,
-    capture: Option<Mutex<Box<dyn Tap>>>,
+    capture: Option<Mutex<ClientCapture>>,
+}
+
+/// A capture of connections, one after the other.
+#[derive(Debug)]
+struct ClientCapture {
+    tap: Box<dyn Tap>,
+    /// The open connection: client, server.
+    open: Option<(SocketAddr, SocketAddr)>,
+}
+
+impl ClientCapture {
+    /// Ends the open connection and begins the next, if it is another one.
+    fn switch(&mut self, next: Option<(SocketAddr, SocketAddr)>) {
+        if self.open == next {
+            return;
+        }
+        if self.open.take().is_some() {
+            self.tap.closed();
+        }
+        if let Some((client, server)) = next {
+            self.tap.opened(client, server);
+        }
+        self.open = next;
+    }
 }
 
 /// The state of the current scenario.
@@ -134,7 +159,7 @@ struct TestRun {
     /// Open connections, and how many there have been.
     streams: Mutex<Vec<TcpStream>>,
     /// The address of the client, by the number of the connection.
-    peers: Mutex<Vec<SocketAddr>>,
+    peers: Mutex<HashMap<usize, SocketAddr>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
     count: AtomicUsize,
     open: Mutex<usize>,
@@ -162,7 +187,7 @@ impl TestServer {
     /// Captures all connections, one after the other.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
-        self.capture = Some(Mutex::new(capture.into()));
+        self.capture = Some(Mutex::new(ClientCapture { tap: capture.into(), open: None }));
         self
     }
 
@@ -172,23 +197,20 @@ impl TestServer {
     /// The first error of the system while writing.
     pub fn end_capture(&mut self) -> io::Result<()> {
         let capture = self.capture.take().map(Mutex::into_inner);
-        capture.map_or(Ok(()), |capture| capture.unwrap_or_else(PoisonError::into_inner).finish())
+        capture
+            .map_or(Ok(()), |capture| capture.unwrap_or_else(PoisonError::into_inner).tap.finish())
     }
 
     fn capture(&self, run: &TestRun, exchanges: &[RecordedExchange]) {
         let Some(mut capture) = self.capture.as_ref().map(lock) else { return };
-        let peers = lock(&run.peers);
         let mut all: Vec<&RecordedExchange> = exchanges.iter().collect();
         all.sort_by_key(|exchange| exchange.connection);
-        for of_connection in all.chunk_by(|one, next| one.connection == next.connection) {
-            let peer = of_connection.first().and_then(|one| peers.get(one.connection));
+        for exchange in all {
+            let peer = lock(&run.peers).get(&exchange.connection).copied();
             let Some(peer) = peer else { continue };
-            capture.opened(*peer, self.addr());
-            for exchange in of_connection {
-                capture.sent(&exchange.request);
-                capture.received(&exchange.sent);
-            }
-            capture.closed();
+            capture.switch(Some((peer, self.addr())));
+            capture.tap.sent(&exchange.request);
+            capture.tap.received(&exchange.sent);
         }
     }
 
@@ -257,6 +279,9 @@ impl TestServer {
         }
         let exchanges = lock(&run.exchanges).take();
         self.capture(&run, &exchanges);
+        if let Some(mut capture) = self.capture.as_ref().map(lock) {
+            capture.switch(None);
+        }
         let connections = run.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
         let beyond = Overflow { requests: lock(&run.exchanges).beyond, connections };
         let script = Arc::into_inner(run)
@@ -280,7 +305,7 @@ impl TestRun {
         }
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(Duration::from_secs(5)))?;
-        lock(&self.peers).push(stream.peer_addr()?);
+        lock(&self.peers).insert(connection, stream.peer_addr()?);
         lock(&self.streams).push(stream.try_clone()?);
         self.opened(1);
         let run = Arc::clone(&self);

@@ -2,7 +2,7 @@
 
 use std::io;
 use std::process;
-use std::sync::Mutex;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
@@ -87,19 +87,17 @@ impl Interrupt {
         on_second: impl Fn() -> Option<Exit> + Send + 'static,
     ) -> io::Result<Self> {
         let (tell, told) = mpsc::channel();
-        let begun = Mutex::new(None::<Instant>);
+        let begun = OnceLock::new();
         let handler = move || {
+            let begun: &Instant = begun.get_or_init(Instant::now);
             if REQUESTED.swap(true, Ordering::SeqCst) {
                 // `timeout` signals the process, and then its whole group.
-                if begun.lock().is_ok_and(|first| first.is_some_and(|at| at.elapsed() < REPEATED)) {
+                if begun.elapsed() < REPEATED {
                     return;
                 }
                 let code = on_second().map_or(INTERRUPTED, |exit| exit.code().into());
                 super::end_all();
                 process::exit(code);
-            }
-            if let Ok(mut first) = begun.lock() {
-                *first = Some(Instant::now());
             }
             // Without a waiting thread the flag is polled.
             let _waiting = tell.send(());

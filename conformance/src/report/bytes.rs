@@ -69,17 +69,27 @@ impl BytesReport {
     }
 
     /// The headers of a frame and, if it is short, the fields of its service, with offsets in the frame.
-    /// With the `request`, what differs in the headers from an answer to it is marked.
+    /// Faulty fields are marked and, with the `request`, what differs in the headers from an answer to it.
     pub(super) fn of_frame(frame: &[u8], request: Option<&[u8]>) -> Vec<Self> {
+        if frame.is_empty() {
+            return Vec::new();
+        }
         let values = ValueFormat::default();
         let question = ExplainQuery { subject: ExplainSubject::Frames(None), values };
         let number = if frame.len() > SHORT_FRAME { FRAME_PARTS - 1 } else { FRAME_PARTS };
+        let other = request.and_then(|request| with_headers_of_answer(request, frame));
         let parts = explain(&question, frame).parts.into_iter().take(number);
-        let mut parts: Vec<Self> = parts.map(Self::of_part).collect();
-        if let Some(other) = request.and_then(|request| with_headers_of_answer(request, frame)) {
-            parts.iter_mut().for_each(|part| part.mark(frame, &other));
-        }
-        parts
+        let marked = |part: ExplainedStream| {
+            let is_faulty: Vec<bool> = part.rows.iter().map(|row| row.faulty).collect();
+            let mut part = Self::of_part(part);
+            if let Some(other) = &other {
+                part.mark(frame, other);
+            }
+            let fields = part.fields.iter_mut().zip(is_faulty);
+            fields.filter(|(_, is_faulty)| *is_faulty).for_each(|(field, _)| field.mark_all());
+            part
+        };
+        parts.map(marked).collect()
     }
 
     fn of_part(part: ExplainedStream) -> Self {
@@ -110,7 +120,7 @@ impl BytesReport {
         let name = name.split('[').next().unwrap_or(name);
         let mut fields = self.fields.iter_mut().filter(|field| field.field == name);
         if let Some(field) = fields.nth(number.unwrap_or_default()) {
-            field.differs = (0..field.bytes().len()).collect();
+            field.mark_all();
         }
     }
 
@@ -124,7 +134,7 @@ impl BytesReport {
             return;
         }
         for field in self.fields.iter_mut().filter(|field| names.contains(&field.field.as_str())) {
-            field.differs = (0..field.bytes().len()).collect();
+            field.mark_all();
         }
     }
 
@@ -149,9 +159,9 @@ fn with_headers_of_answer(request: &[u8], frame: &[u8]) -> Option<Vec<u8>> {
         AmsHeader::decode(frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?).ok()
     };
     let (asked, answered) = (header(request)?, header(frame)?);
-    // Another frame may follow.
-    let whole = usize::try_from(answered.data_length).ok()?.checked_add(FrameRef::HEADERS_LEN)?;
-    let frame = frame.get(..whole).unwrap_or(frame);
+    // Another frame may follow, unless a length is wrong.
+    let whole = FrameRef::split(frame, u32::MAX).ok().flatten().map(|(_, len)| len);
+    let frame = whole.and_then(|whole| frame.get(..whole)).unwrap_or(frame);
     let expected = AmsHeader {
         target: asked.source,
         source: asked.target,
@@ -202,6 +212,10 @@ impl BytesReport {
 }
 
 impl FieldReport {
+    fn mark_all(&mut self) {
+        self.differs = (0..self.bytes().len()).collect();
+    }
+
     fn bare(offset: usize, hex: String, field: &str) -> Self {
         let (value, meaning) = (String::new(), String::new());
         Self { offset, hex, field: field.to_owned(), value, meaning, differs: Vec::new() }
@@ -281,6 +295,13 @@ mod tests {
         assert_eq!(of_frame(answer), []);
         let wrong = AmsHeader { invoke_id: 8, ..answer };
         assert_eq!(of_frame(wrong), [("invoke_id".to_owned(), 34)]);
+        // A length that is wrong by itself, and no bytes at all.
+        let mut cut = request.clone();
+        cut[26] = 9;
+        let parts = BytesReport::of_frame(&cut, None);
+        let parts: Vec<_> = parts.iter().flat_map(marked).collect();
+        assert_eq!(parts, [("data_length", 26)]);
+        assert_eq!(BytesReport::of_frame(&[], Some(&request)), []);
     }
 
     /// A missing byte is marked on the side that has it.

@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
+use ads_cnc_vectors::Level;
 use anstyle::AnsiColor;
 
 use super::BytesReport;
@@ -11,7 +12,7 @@ use super::display::{Detail, Display, NAMES_MAX, RESULT_MAX, WIDTH};
 use super::groups::{Group, groups};
 use super::lines::{is_fault, lines, marked};
 use super::model::{EvidenceReport, FailureReport, Report};
-use crate::judge::{CLIENT, TESTEE};
+use crate::judge::{CLIENT, CaseSubject, TESTEE};
 use crate::text::{plural, shorten, wrap};
 
 /// Maximum number of failed clauses in normal detail.
@@ -129,12 +130,7 @@ pub(super) fn block(
     let verbose = display.detail == Detail::Verbose;
     let verdict = display.verdict(group.verdict, group.waived);
     let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
-    let sources = if failure.sources.is_empty() {
-        "in no document: a ruling of this project".to_owned()
-    } else {
-        failure.sources.join("; ")
-    };
-    writeln!(out, "{verdict}  {clauses}  {sources}")?;
+    writeln!(out, "{verdict}  {clauses}  {}", sources(failure))?;
     let clause = wrap(&failure.clause, WIDTH);
     let shown = if verbose { usize::MAX } else { CLAUSE_MAX };
     clause.iter().take(shown).try_for_each(|line| writeln!(out, "  {line}"))?;
@@ -145,7 +141,8 @@ pub(super) fn block(
     let text = format!("{}: {}", case.id, sentence(failure, most));
     wrap(&text, WIDTH).iter().try_for_each(|line| writeln!(out, "  {line}"))?;
     if let Some(evidence) = &failure.evidence {
-        bytes(evidence, failure.is_of_frames(), display, out)?;
+        let shown = frames_shown(failure, case.subject);
+        bytes(evidence, shown, display, out)?;
     }
     let cases = group.cases();
     match (group.checks().saturating_sub(1), cases.len()) {
@@ -168,8 +165,7 @@ pub(super) fn block(
     if let Some(again) = &report.again {
         // The cases of a protocol cannot be selected.
         let what = match failure.requirement.as_str() {
-            TESTEE => "--check-protocol".to_owned(),
-            CLIENT if case.id.ends_with("-manners") => format!("--seed {}", report.seed),
+            TESTEE | CLIENT if case.id.ends_with("-manners") => format!("--seed {}", report.seed),
             _ => format!("--only {} --seed {}", case.id, report.seed),
         };
         writeln!(out, "  again: {again} {what}")?;
@@ -187,7 +183,11 @@ pub(super) fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) ->
 }
 
 /// A check that did not pass, and its requirements.
-pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn finding(
+    subject: CaseSubject,
+    all: &[&FailureReport],
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let Some(failure) = all.first() else { return Ok(()) };
     for one in all {
         clause(one, out)?;
@@ -197,7 +197,7 @@ pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result
     // The clause that it follows from has the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
         let display = Display { detail: Detail::Verbose, ..Display::default() };
-        bytes(evidence, failure.is_of_frames(), display, out)?;
+        bytes(evidence, frames_shown(failure, subject), display, out)?;
     }
     if failure.more > 0 {
         writeln!(out, "  and {} more like this in the same case", failure.more)?;
@@ -211,16 +211,29 @@ fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     }
     let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
     writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
-    if failure.sources.is_empty() {
-        writeln!(out, "            in no document: a ruling of this project")
-    } else {
-        writeln!(out, "            {}", failure.sources.join("; "))
+    writeln!(out, "            {}", sources(failure))
+}
+
+/// The sources of a clause. Without any it is assumed, or one of the rulings that bind all the same.
+fn sources(failure: &FailureReport) -> String {
+    match (failure.sources.is_empty(), failure.level) {
+        (false, _) => failure.sources.join("; "),
+        (true, Some(Level::Info) | None) => "in no document: assumed".to_owned(),
+        (true, Some(_)) => "in no document: a binding ruling of this project".to_owned(),
     }
+}
+
+/// Which frames are shown by their headers in place of their data: request, reply.
+fn frames_shown(failure: &FailureReport, subject: CaseSubject) -> [bool; 2] {
+    let is_of_frames = failure.is_of_frames();
+    // A client is judged by its requests.
+    let is_client = matches!(subject, CaseSubject::Client | CaseSubject::CapturedClient);
+    [is_of_frames && is_client, is_of_frames]
 }
 
 fn bytes(
     evidence: &EvidenceReport,
-    is_of_frames: bool,
+    [request, reply]: [bool; 2],
     display: Display,
     out: &mut dyn Write,
 ) -> io::Result<()> {
@@ -242,13 +255,19 @@ fn bytes(
         _ => (shorten(call, most), location),
     };
     writeln!(out, "  {who:<8}  {call}{location}")?;
-    show(sent.as_ref().map(lines).unwrap_or_default(), out)?;
+    let frame = |parts: &[BytesReport]| parts.iter().flat_map(lines).collect();
+    let frames = reply.then(|| evidence.frames());
+    match &frames {
+        Some([sent, _]) if request && !sent.is_empty() => show(frame(sent), out)?,
+        _ => show(sent.as_ref().map(lines).unwrap_or_default(), out)?,
+    }
     if received.is_some() || !frame_sent.is_empty() {
         writeln!(out, "  received  {}", shorten(result, most))?;
     }
-    if is_of_frames {
-        let [_, frame] = evidence.frames();
-        return show(frame.iter().flat_map(lines).collect(), out);
+    if let Some([_, received]) = &frames
+        && !received.is_empty()
+    {
+        return show(frame(received), out);
     }
     let is_same =
         sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);

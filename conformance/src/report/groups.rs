@@ -63,8 +63,10 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 continue;
             }
             // A testee that ends, or does not answer, does so for one reason in all streams.
-            let lost = LOST.iter().find(|kind| first.found.starts_with(**kind)).copied();
-            let stream = case.stream.as_deref().filter(|_| lost.is_none());
+            let stream = case.stream.as_deref();
+            let lost =
+                stream.and_then(|_| LOST.into_iter().find(|kind| first.found.starts_with(kind)));
+            let stream = stream.filter(|_| lost.is_none());
             let key = GroupKey {
                 gravity: first.verdict.gravity(),
                 waived: !first.waived,

@@ -246,7 +246,7 @@ fn failure(
 fn text(case: &CaseReport) -> io::Result<String> {
     let mut out = Vec::new();
     for all in case.findings() {
-        finding(&all, &mut out)?;
+        finding(case.subject, &all, &mut out)?;
     }
     Ok(String::from_utf8_lossy(&out).into_owned())
 }

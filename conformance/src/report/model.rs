@@ -259,11 +259,11 @@ impl FailureReport {
     pub(super) fn is_of_frames(&self) -> bool {
         let has_faults = |one: &EvidenceReport| {
             let [_, received] = one.frames();
-            !one.frame_received.is_empty() && received.iter().any(|part| !part.faults.is_empty())
+            received.iter().any(|part| !part.faults.is_empty())
         };
-        self.evidence.as_ref().is_some_and(|one| {
-            self.requirement == ADS_5.as_str() && !one.frame_received.is_empty() || has_faults(one)
-        })
+        self.evidence
+            .as_ref()
+            .is_some_and(|one| self.requirement == ADS_5.as_str() || has_faults(one))
     }
 }
 
