@@ -63,7 +63,7 @@ fn origin(function: Function) -> Function {
 
 /// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
 /// like it, so they always fail.
-const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, SVC_1];
+const SPECIFIC: [ClauseId; 8] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, ADS_7, SVC_1];
 
 /// Clauses of every function: an error of the function itself looks like an error of these.
 const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
@@ -99,14 +99,34 @@ struct Root {
     clause: &'static str,
     /// The variable or object; `None` for several, or for none in particular.
     subject: Option<String>,
+    /// Whether it is about a variable that is not one of the Service Interface.
+    is_of_others: bool,
+    /// The functions whose replies the check compares.
+    compared: Vec<Function>,
     check: (String, String, String),
+}
+
+impl Root {
+    /// Whether a check that compares replies of `functions` fails because the function of this one is
+    /// broken, which this one shows by fewer replies.
+    fn spoils(&self, clause: &str, functions: &[Function]) -> bool {
+        let mut homes = before(self.function);
+        homes.insert(self.function);
+        self.compared.len() < functions.len()
+            && functions.contains(&self.function)
+            && self.compared.iter().all(|function| functions.contains(function))
+            && is_of_functions(clause)
+            && !homes.into_iter().any(|home| defines(clause, home))
+    }
 }
 
 /// What explains the failures of a run.
 struct Causes {
     roots: Vec<Root>,
-    /// The clause of the service that all of them use.
-    service: Option<&'static str>,
+    /// The service that functions of several chains use, and its clause.
+    service: Option<(Service, &'static str)>,
+    /// Whether all failures are of one chain.
+    is_one_chain: bool,
     /// The clause of the request that several of them use, and these.
     request: Option<(&'static str, Vec<Function>)>,
 }
@@ -115,6 +135,10 @@ fn site(judgement: &Judgement) -> (Option<Function>, Option<&str>) {
     let evidence = judgement.evidence.as_ref();
     let subject = evidence.and_then(|evidence| evidence.subject.as_deref());
     (evidence.and_then(|evidence| evidence.function), subject)
+}
+
+fn compared(judgement: &Judgement) -> &[Function] {
+    judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
 }
 
 /// Whether the two can be about the same: one of them may be about all.
@@ -133,22 +157,36 @@ fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
         let clause = judgement.requirement;
         if is_of_functions(clause) && defines(clause, function) {
             // The failures that are not stored are about others.
+            let is_of_others = subject.is_some_and(|name| !name.contains(".SERVICE."));
             let subject = subject.filter(|_| judgement.more == 0).map(str::to_owned);
             let check = check(case, judgement);
-            all.push(Root { function, clause, subject, check });
+            let compared = compared(judgement).to_vec();
+            all.push(Root { function, clause, subject, is_of_others, compared, check });
+        }
+    }
+    // The one that compares the fewest replies first: it can only be spoiled by one before it.
+    all.sort_by_key(|root| root.compared.len());
+    let mut simplest: Vec<Root> = Vec::new();
+    for root in all {
+        let is_about = |other: &Root| related(root.subject.as_deref(), other.subject.as_deref());
+        if !simplest
+            .iter()
+            .any(|other| other.spoils(root.clause, &root.compared) && is_about(other))
+        {
+            simplest.push(root);
         }
     }
     let has_earlier = |root: &Root| {
         let before = before(root.function);
-        all.iter().any(|other| {
+        simplest.iter().any(|other| {
             let (one, other_subject) = (root.subject.as_deref(), other.subject.as_deref());
             before.contains(&other.function) && related(one, other_subject)
         })
     };
-    let first: Vec<bool> = all.iter().map(|root| !has_earlier(root)).collect();
+    let first: Vec<bool> = simplest.iter().map(|root| !has_earlier(root)).collect();
     let mut first = first.into_iter();
-    all.retain(|_| first.next().unwrap_or_default());
-    all
+    simplest.retain(|_| first.next().unwrap_or_default());
+    simplest
 }
 
 /// Whether a case judges replies of a device.
@@ -166,20 +204,24 @@ fn judgements(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&str, &Judgemen
 /// Number of chains that must fail for their service to be the cause: each service has functions of three.
 const CHAINS_OF_SERVICE: usize = 3;
 
-/// The clause of the service, if functions of all chains fail, all of them of this service, and its clause
-/// fails too.
-fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> {
-    let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
-    let service = roots.first()?.function.spec().service;
-    let clause = match service {
-        Service::Read => ADS_1.as_str(),
-        Service::ReadWrite => ADS_3.as_str(),
-        _ => return None,
-    };
-    let is_alone = roots.iter().all(|root| root.function.spec().service == service);
-    let fails =
-        judgements(outcomes).any(|(_, one)| one.requirement == clause && is_broken(one.verdict));
-    (origins.len() >= CHAINS_OF_SERVICE && is_alone && fails).then_some(clause)
+/// The functions whose replies fail, and for each the one that its chain begins with.
+fn origins(outcomes: &[CaseOutcome]) -> HashSet<(Function, Function)> {
+    let broken = judgements(outcomes)
+        .filter(|(_, one)| is_broken(one.verdict) && is_of_functions(one.requirement));
+    broken.filter_map(|(_, one)| site(one).0).map(|one| (one, origin(one))).collect()
+}
+
+/// The service whose clause fails, and functions of all chains with it.
+fn service_of(outcomes: &[CaseOutcome]) -> Option<(Service, &'static str)> {
+    let services = [(Service::Read, ADS_1.as_str()), (Service::ReadWrite, ADS_3.as_str())];
+    let origins = origins(outcomes);
+    services.into_iter().find(|(service, clause)| {
+        let mine = origins.iter().filter(|(function, _)| uses(*function, *service));
+        let chains: HashSet<Function> = mine.map(|(_, origin)| *origin).collect();
+        chains.len() >= CHAINS_OF_SERVICE
+            && judgements(outcomes)
+                .any(|(_, one)| one.requirement == *clause && is_broken(one.verdict))
+    })
 }
 
 /// The clause of a request that several functions have, if it and all of several of them fail.
@@ -196,21 +238,37 @@ fn request_of(roots: &[Root]) -> Option<(&'static str, Vec<Function>)> {
     })
 }
 
+/// Whether a function uses a service, or one whose answers it takes.
+fn uses(function: Function, service: Service) -> bool {
+    let is_of_service = |one: &Function| one.spec().service == service;
+    is_of_service(&function) || before(function).iter().any(is_of_service)
+}
+
 /// The clause whose failure explains this one.
 fn cause(
     case: &Case,
     judgement: &Judgement,
-    Causes { roots, service, request }: &Causes,
+    Causes { roots, service, is_one_chain, request }: &Causes,
 ) -> Option<&'static str> {
     let clause = judgement.requirement;
     let is_of_frames = case.needs == Needs::Frames && !matches!(case.body, Body::Traffic);
-    if !is_of_device(case) || is_of_frames || is_one_of(clause, &SPECIFIC) {
+    if !is_of_device(case) || is_of_frames {
         return None;
     }
-    if let Some(service) = *service {
-        return (clause != service).then_some(service);
+    if is_one_of(clause, &SPECIFIC) {
+        let is_of_others = |root: &&Root| {
+            clause == SVC_1.as_str()
+                && root.is_of_others
+                && site(judgement).0 == Some(root.function)
+        };
+        return roots.iter().find(is_of_others).map(|root| root.clause);
     }
     let (function, subject) = site(judgement);
+    if let Some((service, of_service)) = *service
+        && (clause == of_service || function.is_none_or(|one| uses(one, service)))
+    {
+        return (clause != of_service).then_some(of_service);
+    }
     let explains = |root: &&Root| match &root.subject {
         // Failures that are not stored may be about others.
         Some(_) if judgement.more > 0 => false,
@@ -247,30 +305,68 @@ fn cause(
     if roots().any(|root| root.check == same) {
         return None;
     }
-    roots().find(is_earlier).map(|root| root.clause)
+    let spoils = |root: &&Root| {
+        let compared = compared(judgement);
+        let uses = root.function == function || compared.contains(&root.function);
+        let is_any = judgement.verdict == Verdict::Vacuous
+            || *is_one_chain && is_one_of(clause, &[ADS_1, ADS_3]);
+        root.spoils(clause, compared) || uses && is_any
+    };
+    roots().find(is_earlier).or_else(|| roots().find(spoils)).map(|root| root.clause)
 }
 
 /// Makes failed checks inconclusive that follow from the failure of an earlier function.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     let roots = roots(outcomes);
     if roots.is_empty() {
-        return;
+        return single_out(outcomes);
     }
-    let (service, request) = (service_of(&roots, outcomes), request_of(&roots));
-    let causes = Causes { roots, service, request };
-    for outcome in outcomes {
+    let (service, request) = (service_of(outcomes), request_of(&roots));
+    let chains: HashSet<Function> =
+        origins(outcomes).into_iter().map(|(_, origin)| origin).collect();
+    let causes = Causes { roots, service, is_one_chain: chains.len() == 1, request };
+    for outcome in &mut *outcomes {
         for verdict in &mut outcome.verdicts {
-            follow(&outcome.case, verdict, &causes);
+            follow(verdict, |judgement| cause(&outcome.case, judgement, &causes));
+        }
+    }
+    single_out(outcomes);
+}
+
+/// Whether the first clause can be the cause of a failure of the second: not if both define the same
+/// function, or the second one an earlier function.
+fn can_explain(cause: &str, clause: &str) -> bool {
+    let homes = |clause| Function::ALL.iter().filter(move |one| defines(clause, **one));
+    // An address is no cause if the function itself fails.
+    (homes(cause).next().is_some() || homes(clause).next().is_none())
+        && homes(cause).all(|home| !homes(clause).any(|one| one == home || follows(*home, *one)))
+}
+
+/// Of the clauses that a check can fail for, those follow that no other check shows broken, if another
+/// check shows one of the others broken.
+fn single_out(outcomes: &mut [CaseOutcome]) {
+    let broken = judgements(outcomes).filter(|(_, one)| one.verdict == Verdict::Fail);
+    let alone: HashSet<&'static str> =
+        broken.filter(|(_, one)| one.together.is_empty()).map(|(_, one)| one.requirement).collect();
+    for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
+        for verdict in &mut outcome.verdicts {
+            let clause = verdict.requirement;
+            let is_alone = alone.contains(clause) || is_one_of(clause, &GENERAL);
+            follow(verdict, |judgement| {
+                let mut others = judgement.together.iter().copied();
+                let explains = |other: &&str| alone.contains(other) && can_explain(other, clause);
+                if is_alone { None } else { others.find(explains) }
+            });
         }
     }
 }
 
-fn follow(case: &Case, verdict: &mut RequirementVerdict, causes: &Causes) {
+fn follow(verdict: &mut RequirementVerdict, cause: impl Fn(&Judgement) -> Option<&'static str>) {
     for judgement in &mut verdict.judgements {
         if !is_broken(judgement.verdict) {
             continue;
         }
-        if let Some(clause) = cause(case, judgement, causes)
+        if let Some(clause) = cause(judgement)
             && clause != judgement.requirement
         {
             judgement.verdict = Verdict::Inconclusive;
@@ -309,6 +405,7 @@ mod tests {
             found: String::new(),
             evidence: Some(Evidence { function, subject, ..Evidence::default() }),
             more: 0,
+            together: Vec::new(),
             follows: None,
         };
         let case = Case {

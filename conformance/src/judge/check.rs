@@ -202,6 +202,8 @@ pub struct Judgement {
     pub evidence: Option<Evidence>,
     /// The number of further checks with the same verdict, which are not stored.
     pub more: usize,
+    /// The other clauses that the same check can fail for.
+    pub together: Vec<&'static str>,
     /// The clause whose failure explains this one, if it is inconclusive for that.
     pub follows: Option<&'static str>,
 }
@@ -270,8 +272,15 @@ impl Record {
     ) {
         let words = (!passed).then(|| (expected.describe(), found.describe()));
         let (expected, found) = words.unwrap_or_default();
-        for rule in rules.rules() {
-            self.add(rule, rule.verdict(passed), expected.as_str(), found.as_str(), &evidence);
+        let rules: Vec<Rule> = rules.rules().collect();
+        for &rule in &rules {
+            let verdict = rule.verdict(passed);
+            let others = rules
+                .iter()
+                .filter(|other| !passed && other.id != rule.id && other.verdict(passed) == verdict);
+            let together: Vec<&str> = others.map(|other| other.id).collect();
+            let words = (expected.as_str(), found.as_str());
+            self.add_one(rule, verdict, together, words.0, words.1, &evidence);
         }
     }
 
@@ -285,6 +294,18 @@ impl Record {
         found: impl Describe,
         evidence: impl FnOnce() -> Option<Evidence>,
     ) {
+        self.add_one(rule, verdict, Vec::new(), expected, found, evidence);
+    }
+
+    fn add_one(
+        &mut self,
+        rule: Rule,
+        verdict: Verdict,
+        together: Vec<&'static str>,
+        expected: impl Describe,
+        found: impl Describe,
+        evidence: impl FnOnce() -> Option<Evidence>,
+    ) {
         self.checks += 1;
         let passed = verdict == Verdict::Pass;
         let same = self
@@ -292,7 +313,8 @@ impl Record {
             .iter_mut()
             .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
         let mut same: Vec<_> = same.collect();
-        if same.len() >= if passed { 1 } else { STORED_MAX } {
+        let is_new = !passed && same.iter().all(|one| one.together != together);
+        if !is_new && same.len() >= if passed { 1 } else { STORED_MAX } {
             if let Some(last) = same.last_mut() {
                 last.more += 1;
             }
@@ -313,6 +335,7 @@ impl Record {
             found,
             evidence,
             more: 0,
+            together,
             follows: None,
         };
         self.judgements.push(judgement);

@@ -13,6 +13,8 @@ pub struct Evidence {
     pub subject: Option<String>,
     /// The documented function that the request addresses.
     pub function: Option<Function>,
+    /// The functions called since the previous check, whose replies the check may compare.
+    pub compared: Vec<Function>,
     /// Name of the stream of the request's data, if the function is documented.
     pub request_stream: Option<&'static str>,
     /// Name of the stream of the reply's data.

@@ -9,7 +9,7 @@ use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
-use super::kit::{ChannelItems, Probe, RawCall, Steady, content_reads, in_channel};
+use super::kit::{ChannelItems, Probe, RawCall, Steady, content_reads, in_channel, rules_by_index};
 use super::row::{CaseRow, case};
 use crate::exchange::Exchange;
 use crate::judge::{
@@ -27,7 +27,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Each channel's variables are in index group 0x122300 + channel, at the port of SDA"),
     case("adr-logical-and-by-index", &[ADR_1, ADR_12], Needs::Queries, logical_and_by_index,
         "A channel returns the same data by its number and by its rank"),
-    case("adr-rank-among-active", &[ADR_11], Needs::Queries, rank_among_active,
+    case("adr-rank-among-active", &[ADR_11, ADR_12], Needs::Queries, rank_among_active,
         "Channel ranks number the active channels without gaps"),
     case("adr-geo-answers-too", &[ADR_10], Needs::Malformed, geo_answers_too,
         "The ports of GEO and SDA return the same data for a class of the CNC"),
@@ -91,26 +91,28 @@ fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
         && found == logical.with_content(content.0, content.1)
 }
 
-fn same_by_rank(probe: &mut Probe<'_>, rules: &[ClauseId], rank: Channel, number: Channel) -> Step {
+fn same_by_rank(probe: &mut Probe<'_>, clause: ClauseId, rank: Channel, number: Channel) -> Step {
     for (logical, by_index) in known_by(number)?.into_iter().zip(known_by(rank)?) {
         let function = logical.function().spec().name;
         let is_object = matches!(logical, Request::ReadDescriptors(_));
-        let Some(logical) = probe.try_ask(logical)? else { continue };
+        let Some(answer) = probe.try_ask(logical)? else { continue };
         let exchange = probe.send(by_index)?;
         let found = exchange.success();
+        let rules = rules_by_index(clause, logical, by_index, found.is_some())?;
+        let logical = answer;
         let same = found.is_some_and(|found| {
             found == logical || is_object && same_object(&logical, found, rank)
         });
         let by = number.number();
         let expected = || format!("{function}: {}, the answer of channel {by}", spaced(&logical));
-        probe.check_reply(rules, same, &logical, expected, &exchange);
+        probe.check_reply(&rules, same, &logical, expected, &exchange);
     }
     let items = ChannelItems::read(probe, number)?;
     let mut steady = Steady::default();
     for (one, other) in items.requests(number)?.into_iter().zip(items.requests(rank)?) {
         if probe.claims(one.function()) != Claim::No {
             let what = format!("{} of channel {}", one.function().spec().name, number.number());
-            steady.same(probe, rules, what, one, other)?;
+            steady.by_index(probe, clause, what, one, other)?;
         }
     }
     steady.finish()
@@ -118,7 +120,7 @@ fn same_by_rank(probe: &mut Probe<'_>, rules: &[ClauseId], rank: Channel, number
 
 fn logical_and_by_index(probe: &mut Probe<'_>) -> Step {
     for (rank, number) in probe.ranks()? {
-        same_by_rank(probe, &[ADR_1, ADR_12], rank, number)?;
+        same_by_rank(probe, ADR_1, rank, number)?;
     }
     Ok(())
 }
@@ -127,7 +129,7 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let ranks = probe.ranks()?;
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
     let &(rank, number) = gap.or_not_applicable("every channel's number is its rank")?;
-    same_by_rank(probe, &[ADR_11], rank, number)?;
+    same_by_rank(probe, ADR_11, rank, number)?;
     let ranks = u32::try_from(ranks.len()).unwrap_or(u32::MAX);
     let beyond = Channel::by_index(ranks.saturating_add(1))?;
     probe.refuses(

@@ -66,7 +66,7 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
             for (one, other) in attribute_reads(element).into_iter().zip(by_rank) {
                 let what = one.function().spec().name;
                 let what = format!("{what} {} of {instance}", element.index_offset());
-                steady.same(probe, [ADR_1, ADR_12], what, one, other)?;
+                steady.by_index(probe, ADR_1, what, one, other)?;
             }
         }
     }

@@ -115,7 +115,7 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(by_rank) = probe.address_by_rank(&object) else { continue };
         let (Ok(one), Ok(other)) = (object.address.read(), by_rank.read()) else { continue };
         any = true;
-        steady.same(probe, [ADR_1, ADR_12], &object.name, one, other)?;
+        steady.by_index(probe, ADR_1, &object.name, one, other)?;
     }
     applicable(any, "no object is in the group of a channel")?;
     steady.finish()

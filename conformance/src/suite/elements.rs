@@ -299,15 +299,14 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(rank) = rank else { return Ok(()) };
         let by_index = element_by_rank(element, rank);
         let Some(length) = probe.length_of(element)? else { return Ok(()) };
-        let rules = [ADR_1, ADR_12];
         let what = format!("element {} of {instance}", element.index_offset());
         let pairs = attribute_reads(element).into_iter().zip(attribute_reads(by_index));
         for (one, other) in pairs {
             let what = format!("{} of {what}", one.function().spec().name);
-            steady.same(probe, rules, what, one, other)?;
+            steady.by_index(probe, ADR_1, what, one, other)?;
         }
         match (ReadElement::new(element, length), ReadElement::new(by_index, length)) {
-            (Ok(one), Ok(other)) => steady.same(probe, rules, what, one, other),
+            (Ok(one), Ok(other)) => steady.by_index(probe, ADR_1, what, one, other),
             _ => Ok(()),
         }
     })?;

@@ -13,7 +13,7 @@ use ads_cnc_vectors::ids::*;
 use super::parameters::{PARAMETERS_MAX, each, first, names_of, number, prefix, rejects_steadily};
 use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
-use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};
+use crate::suite::kit::{PendingCheck, Probe, is_sendable, rules_by_index, steadily};
 use crate::text::hex::spaced;
 
 /// Longer names are judged by the requirement on the length of names too.
@@ -159,7 +159,8 @@ fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> 
         let by_number = answers.first().map(Vec::as_slice);
         let expected = || format!("{}, by number", spaced(by_number.unwrap_or_default()));
         let same = exchange.success() == by_number;
-        Ok(vec![PendingCheck::new(probe, [ADR_1, ADR_12], same, expected, &exchange)])
+        let rules = rules_by_index(ADR_1, one, other, exchange.success().is_some())?;
+        Ok(vec![PendingCheck::new(probe, &rules, same, expected, &exchange)])
     })
 }
 

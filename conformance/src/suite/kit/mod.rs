@@ -48,7 +48,9 @@ pub(crate) use raw_call::{IntoRawCall, RawCall};
 pub use sample::Sample;
 pub(crate) use sample::{ItemKind, SampleSizes};
 pub(crate) use service_channels::service_channels;
-pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
+pub(crate) use steady::{
+    Compared, PendingCheck, Steady, between, compare, rules_by_index, steadily,
+};
 pub(crate) use stream_write::{StreamWrite, send};
 pub use target_state::TargetState;
 pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};

@@ -40,6 +40,8 @@ pub struct Probe<'s> {
     pub target: &'s mut TargetState,
     record: Record,
     last: Option<Evidence>,
+    /// The functions called since the previous check.
+    compared: Vec<Function>,
     /// The variable or object that the next checks are about.
     subject: Option<String>,
     requests: usize,
@@ -58,6 +60,7 @@ impl<'s> Probe<'s> {
             target,
             record: Record::default(),
             last: None,
+            compared: Vec::new(),
             subject: None,
             requests: 0,
             interrupted: false,
@@ -276,7 +279,11 @@ impl<'s> Probe<'s> {
             let evidence = || Some(evidence.clone());
             state.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
         }
-        self.last = Some(Evidence { subject: self.subject.clone(), ..evidence });
+        if let Some(function) = evidence.function.filter(|one| !self.compared.contains(one)) {
+            self.compared.push(function);
+        }
+        let (subject, compared) = (self.subject.clone(), self.compared.clone());
+        self.last = Some(Evidence { subject, compared, ..evidence });
         Ok(())
     }
 
@@ -297,7 +304,10 @@ impl<'s> Probe<'s> {
             rules.iter_mut().for_each(|rule| rule.level = Some(Level::Must));
         }
         let data = exchange.success();
+        let compared = self.compared.clone();
         self.require(&rules[..], data.is_some(), "an answer", &exchange)?;
+        // A later check may still compare this reply.
+        self.compared = compared;
         Ok(data.unwrap_or_default().to_vec())
     }
 
@@ -364,6 +374,7 @@ impl Checks for Probe<'_> {
         if !self.interrupted {
             self.record.add_all(rules, kept, expected, found, || self.last.clone());
         }
+        self.compared.clear();
         kept
     }
 }

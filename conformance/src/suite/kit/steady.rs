@@ -2,11 +2,13 @@
 
 use std::fmt::Display;
 
+use ads_cnc::address::Group;
 use ads_cnc::operation::Request;
-use ads_cnc_vectors::Hex;
+use ads_cnc_vectors::ids::ADR_12;
+use ads_cnc_vectors::{ClauseId, Hex};
 
 use crate::judge::{Checks as _, Describe, Evidence, Rule, Rules, Step, Stop};
-use crate::suite::kit::Probe;
+use crate::suite::kit::{Probe, RawCall};
 
 /// How often a value that changes is read again.
 const TRIES: usize = 3;
@@ -84,6 +86,32 @@ impl Steady {
         Ok(())
     }
 
+    /// Compares the value that a request by index reads with the one that `logical` reads.
+    ///
+    /// `clause` fails if they differ.
+    pub(crate) fn by_index<'a, 'b>(
+        &mut self,
+        probe: &mut Probe<'_>,
+        clause: ClauseId,
+        what: impl Display,
+        logical: impl Into<Request<'a>>,
+        by_index: impl Into<Request<'b>>,
+    ) -> Step {
+        let (logical, by_index) = (logical.into(), by_index.into());
+        let compared = compare(
+            probe,
+            |probe| probe.try_ask(logical),
+            |probe, _| probe.try_ask(by_index),
+            |before, read| before == read,
+        )?;
+        let is_answered = !matches!(compared, Compared::NoAnswer);
+        let rules = rules_by_index(clause, logical, by_index, is_answered)?;
+        self.judge(probe, &rules, &what, compared, |probe, _, (before, read, _)| {
+            probe.check(clause, false, || format!("{} of {what}", Hex(before)), || Hex(read));
+        });
+        Ok(())
+    }
+
     /// Judges the result of a comparison; `differs` describes a difference.
     pub(crate) fn judge<B, R>(
         &mut self,
@@ -116,6 +144,24 @@ impl Steady {
             _ => Ok(()),
         }
     }
+}
+
+/// The clauses that a request by index is judged by: an error for an index that equals the logical number
+/// shows that the function is not answered by index at all.
+pub(crate) fn rules_by_index(
+    clause: ClauseId,
+    logical: Request<'_>,
+    by_index: Request<'_>,
+    is_answered: bool,
+) -> Step<Vec<ClauseId>> {
+    let instance = |request| -> Step<Option<u8>> {
+        Ok(RawCall::new(request)?.index_group.parts().map(|group| match group {
+            Group::Com(com) => com.instance,
+            Group::Class(class) => class.instance,
+        }))
+    };
+    let is_same = instance(logical)? == instance(by_index)?;
+    Ok(if is_same && !is_answered { vec![ADR_12] } else { vec![clause, ADR_12] })
 }
 
 /// The result of `act` between two equal readings of a guard; `None` if the guard changed or could

@@ -64,7 +64,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let mut steady = Steady::default();
             let what = format!("the number of elements of the {} of channel {number}", class);
             let (one, other) = (CountElements::new(first)?, CountElements::new(by_index)?);
-            steady.same(probe, [ADR_1, ADR_12], what, one, other)?;
+            steady.by_index(probe, ADR_1, what, one, other)?;
             steady.finish()?;
         }
     }
