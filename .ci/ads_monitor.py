@@ -1,8 +1,8 @@
-"""Makes of a TCP capture a pcap file of the same AMS frames, each in an EtherCAT frame, as ADS Monitor records.
+"""Convert a TCP capture to a pcap file with each AMS frame in an EtherCAT frame, as ADS Monitor records them.
 
     .ci/ads_monitor.py <FIELDS >PCAP
 
-FIELDS is what tshark prints of each packet: time, TCP stream, source port and payload in hexadecimal digits.
+FIELDS has a line of tshark for each packet: time, TCP stream, source port and payload in hexadecimal digits.
 """
 import struct
 import sys

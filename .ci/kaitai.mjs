@@ -1,7 +1,7 @@
 // Compiles the description of the streams, and reads golden vectors with the reader in JavaScript.
 //
 //     node kaitai.mjs compile FOLDER               FOLDER/ads_cnc.ksy to FOLDER/ads_cnc.py, FOLDER/AdsCnc.js
-//     node kaitai.mjs read FOLDER VECTORS.json …   prints what the reader finds, by the ID of the vector
+//     node kaitai.mjs read FOLDER VECTORS.json …   prints the fields that the reader finds, by vector ID
 import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,8 +1,8 @@
-"""Reads golden vectors with the reader in Python that Kaitai Struct made, and judges what a reader found.
+"""Read golden vectors with the Python reader made by Kaitai Struct, and judge the fields that a reader found.
 
-    .ci/kaitai.py read VECTORS.json …               prints what the reader finds, by the ID of the vector
+    .ci/kaitai.py read VECTORS.json …               prints the fields that the reader finds, by vector ID
     .ci/kaitai.py judge FOUND.json TABLES.json VECTORS.json …
-                                                    compares that with each accepted vector
+                                                    compares these fields with each accepted vector
 """
 
 import json
@@ -54,24 +54,24 @@ def read(files):
 
 
 def is_same(expected, value, is_text=False):
-    """Whether a value that was read is that of these bytes."""
+    """Whether a value that a reader found is the value of these bytes."""
     if isinstance(value, dict):
-        # A text is read without its NUL.
+        # A reader finds a text without its NUL.
         return value["hex"] == expected.hex() or (is_text and value["hex"] == expected.split(b"\0")[0].hex())
     if isinstance(value, list):
         size = len(expected) // max(len(value), 1)
-        items = [expected[size * place : size * (place + 1)] for place in range(len(value))]
+        items = [expected[size * index : size * (index + 1)] for index in range(len(value))]
         return b"".join(items) == expected and all(map(is_same, items, value))
     if len(expected) == 8:
         number = struct.unpack("<d", expected)[0]
         # JSON has no NaN.
         return value is None or value != value if number != number else struct.pack("<d", value) == expected
-    # A field that may be absent is not read.
+    # An absent field has no value.
     return value == int.from_bytes(expected, "little") if expected else value is None
 
 
 def fields(vector):
-    """The bytes of each field; of a field with several items, together."""
+    """The bytes of each field; the items of a field are joined."""
     found = {}
     for segment in vector["segments"]:
         record, name = re.fullmatch(r"(?:descriptors\[(\d+)\]\.)?(\w+)(?:\[\d+\])?", segment["field"]).groups()

@@ -1,4 +1,4 @@
-"""What has to be in a packed crate, and what must not: `packed.py CRATE UNPACKED SOURCE`."""
+"""Check the contents of a packed crate: `packed.py CRATE UNPACKED SOURCE`."""
 
 import os
 import pathlib
@@ -9,30 +9,30 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
 FIELDS = ("description", "documentation", "license", "readme", "rust-version")
-# As crates.io takes them.
+# The keywords that crates.io accepts.
 KEYWORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_+-]{0,19}")
-# Several times what the largest has: more is something that got in by mistake.
+# Several times the size of the largest crate: a larger one contains files by mistake.
 PACKED_MAX = 1 << 20
-# What cargo writes anew, or adds.
+# The files that cargo rewrites or adds.
 CARGOS = ("Cargo.toml", "Cargo.toml.orig", "Cargo.lock", ".cargo_vcs_info.json")
-# Homes, and places of this machine; a path such as /tmp/a in an example says nothing about it.
+# Home folders and other paths of this machine. A path such as /tmp/a in an example is permitted.
 HOMES = (r"/home/\w", r"/root/", r"/Users/\w", r"[A-Z]:\\\\?Users")
-PLACES = (str(ROOT), os.environ.get("CARGO_HOME"), os.environ.get("CARGO_TARGET_DIR"))
-MACHINE = re.compile("|".join([*HOMES, *(re.escape(place) for place in PLACES if place)]).encode())
+PATHS = (str(ROOT), os.environ.get("CARGO_HOME"), os.environ.get("CARGO_TARGET_DIR"))
+MACHINE = re.compile("|".join([*HOMES, *(re.escape(path) for path in PATHS if path)]).encode())
 
 
 def metadata(package):
     yield from (f"no {field}" for field in FIELDS if not package.get(field))
     keywords, categories = package.get("keywords", []), package.get("categories", [])
     if not 1 <= len(keywords) <= 5 or not 1 <= len(categories) <= 5:
-        yield "one to five keywords, and categories"
+        yield "the manifest needs one to five keywords and one to five categories"
     yield from (f"keyword {word}" for word in keywords if not KEYWORD.fullmatch(word))
     if package["license"] != "MIT OR Apache-2.0":
         yield f"licence {package['license']}"
 
 
 def dependencies(manifest):
-    """A packed crate finds nothing beside it."""
+    """A packed crate can only use dependencies from a registry."""
     for kind in ("dependencies", "dev-dependencies", "build-dependencies"):
         for name, what in manifest.get(kind, {}).items():
             if "path" in what or "git" in what or "version" not in what:
@@ -42,16 +42,16 @@ def dependencies(manifest):
 def files(folder, version, source):
     for name in LICENCES:
         if not (folder / name).exists() or (folder / name).read_bytes() != (ROOT / name).read_bytes():
-            yield f"{name} is not that of the workspace"
+            yield f"{name} differs from that of the workspace"
     changelog = folder / "CHANGELOG.md"
     if not changelog.exists() or f"\n## {version}\n" not in changelog.read_text(encoding="utf-8"):
         yield f"CHANGELOG.md has no {version}"
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         name, given = path.relative_to(folder), path.read_bytes()
         if found := MACHINE.search(given):
-            yield f"{name} names {found[0].decode(errors='replace')}"
+            yield f"{name} contains the path {found[0].decode(errors='replace')}"
         if str(name) not in CARGOS and given != (source / name).read_bytes():
-            yield f"{name} is not that of {source}"
+            yield f"{name} differs from that in {source}"
 
 
 def main(crate, folder, source):
@@ -62,7 +62,7 @@ def main(crate, folder, source):
     if not (folder / package.get("readme", "README.md")).exists():
         faults.append("no README")
     if packed > PACKED_MAX:
-        faults.append(f"{packed} bytes, more than {PACKED_MAX}")
+        faults.append(f"{packed} bytes exceed the maximum of {PACKED_MAX}")
     sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()]
     print(f"{crate.name}: {packed / 1024:.0f} KiB, {len(sizes)} files of {sum(sizes) / 1024:.0f} KiB")
     return [f"{crate.name}: {fault}" for fault in faults]

@@ -1,39 +1,39 @@
 # shellcheck shell=bash disable=SC2154 # the variables are those of fuzz/nightly
-# Read by fuzz/nightly: how a target is built and run, what its log says, tables.
+# The library of fuzz/nightly: building and running targets, evaluating logs, printing tables.
 
-# Builds the targets for a sanitizer, each in a folder of its own: they would undo one another.
+# Builds the targets with a sanitizer. Each sanitizer has its own folder, so that builds do not replace each other.
 build() {
     local sanitizer="$1" names=("")
     [ ${#chosen[@]} -eq 0 ] || names=("${chosen[@]}")
     for name in "${names[@]}"; do
-        # Lines in a backtrace are worth their size.
+        # With lines in backtraces.
         CARGO_PROFILE_RELEASE_DEBUG=line-tables-only \
             RUSTFLAGS="${RUSTFLAGS:-}${FUZZ_RUSTFLAGS:+ $FUZZ_RUSTFLAGS}" cargo "+$toolchain" fuzz build \
             --fuzz-dir fuzz --features libfuzzer --release --debug-assertions \
             --sanitizer "$sanitizer" --target-dir "$target_dir/fuzz-$sanitizer" ${name:+"$name"} ||
-            broken "the targets don't build (sanitizer: $sanitizer)"
+            broken "building the targets failed (sanitizer: $sanitizer)"
     done
 }
 
 binary() { echo "$target_dir/fuzz-$2/$triple/release/$1"; }
 
-# Calls a function for each target, so many at once as there are jobs.
+# Calls a function for each target, in parallel up to the number of jobs.
 each() {
     local running=0
     for target in "${targets[@]}"; do
         if [ "$running" -ge "$jobs" ]; then
-            wait -n || broken "$1 gave up"
+            wait -n || broken "$1 failed"
             running=$((running - 1))
         fi
         "$1" "$target" &
         running=$((running + 1))
     done
     for ((; running > 0; running--)); do
-        wait -n || broken "$1 gave up"
+        wait -n || broken "$1 failed"
     done
 }
 
-# The folders there are of those that hold inputs for a target, the committed ones first.
+# The existing folders with inputs of a target, the committed ones first.
 inputs() {
     local folder
     for folder in "fuzz/corpus/$1" "fuzz/regressions/$1" "$corpus/$1"; do
@@ -41,7 +41,7 @@ inputs() {
     done | awk '!seen[$0]++'
 }
 
-# What depends on the target alone: its dictionary, and how large an input gets.
+# The options of a target: its dictionary, and the maximum length of an input.
 options() {
     local dictionary="fuzz/dictionaries/${1%%_*}.dict" folders
     if [ -f "$dictionary" ]; then echo "-dict=$dictionary"; fi
@@ -50,7 +50,7 @@ options() {
         sort -n | sed -n '$s/^/-max_len=/p'
 }
 
-# libFuzzer with what holds for every run, stopped if it doesn't stop by itself.
+# Runs libFuzzer with the options of every run, and a timeout in case it does not stop.
 libfuzzer() {
     local program="$1" bound="$2"
     shift 2
@@ -61,7 +61,7 @@ libfuzzer() {
 
 files() { find "$@" -type f 2>/dev/null | wc -l; }
 statistic() { sed -n "s/^stat::$2: *//p" "$1" | tail -n 1; }
-# Edges (cov) or features (ft): how many at the end, and how many more than the inputs had reached.
+# Edges (cov) or features (ft): the number at the end, and the increase over the initial inputs.
 covered() {
     awk -v what="$2:" '/^#[0-9]+\t/ {
         for (i = 2; i < NF; i++) if ($i == what) { last = $(i + 1); if ($2 == "INITED") first = last }
@@ -92,7 +92,7 @@ fuzz() {
     elif [ "$status" -ne 0 ]; then
         result="exit code $status"
     elif [ "${executions:-0}" -eq 0 ]; then
-        result="tried nothing"
+        result="executed nothing"
     fi
     row "$target" "$target" "$sanitizer" "$bound" "${executions:-0}" "${rate:-0}" \
         "$(covered "$log" cov)" "$(covered "$log" ft)" "${new:-0}" "$(files "$findings")" "$result"
@@ -105,12 +105,12 @@ row() {
     (IFS=$'\t'; echo "$*") >>"$output/rows/$name"
 }
 rows() { for target in "${targets[@]}"; do cat "$output/rows/$target"; done; }
-# How many rows have something else in a column.
+# The number of rows with a different value in a column.
 other_than() {
     rows | awk -F'\t' -v column="$1" -v wanted="^($2)\$" '$column !~ wanted { n++ } END { print n + 0 }'
 }
 
-# Rows with a head as Markdown, as wide as they have to be.
+# A Markdown table of rows with a header, with aligned columns.
 markdown() {
     awk -F'\t' '{
         for (i = 1; i <= NF; i++) { cell[NR, i] = $i; if (length($i) > width[i]) width[i] = length($i) }
@@ -129,7 +129,7 @@ markdown() {
     }'
 }
 
-# What failed and where, as far as a log tells: the same for other inputs that run into the same.
+# The failure and its location from a log. It is the same for all inputs that cause this failure.
 signature() {
     local what place
     what="$(basename "$3")"
@@ -138,7 +138,7 @@ signature() {
     echo "$1 ${what%%-*} ${place:-somewhere}"
 }
 
-# One finding a line: target, sanitizer, path, signature. What both runs found is named once.
+# One finding per line: target, sanitizer, path, signature. A finding of both runs is listed once.
 list_findings() {
     local target sanitizer path
     for target in "${targets[@]}"; do
@@ -152,7 +152,7 @@ list_findings() {
     done
 }
 
-# The table on the screen and in two files, and how to see each finding again.
+# Prints the table and writes it to two files, with the commands that repeat each finding.
 summary() {
     { printf 'target\tsanitizer\tseconds\texecutions\texec/s\tedges\tfeatures\tnew inputs\tfindings\tresult\n'
       rows; } >"$output/summary.tsv"
@@ -168,14 +168,14 @@ summary() {
             printf '    cargo +%s fuzz tmin %s %q\n' "$toolchain" "$fuzz" "$path"
         done <"$output/findings.tsv"
     } | tee "$output/summary.md"
-    echo "left in $output"
+    echo "results in $output"
 }
 
-# A name that libFuzzer gave: the digest of the bytes. All others were given by hand.
+# The inputs named by libFuzzer with the digest of their bytes. All other names were given by hand.
 digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
 
-# What adds something to the committed inputs, of those kept and those found. Committed inputs with
-# a name of their own stay in any case: seeds, and what somebody thought worth one.
+# Collects the kept and new inputs that add coverage to the committed ones. Committed inputs with a name
+# given by hand always stay.
 minimise() {
     local target="$1" base into="$output/corpus/$1" path before options folders status=0
     base="$(mktemp -d)"
@@ -196,12 +196,12 @@ minimise() {
     find "$base" -type f -printf '%f\n' | sort | comm -13 <(echo "$before") - |
         while read -r path; do mv "$base/$path" "$into/"; done
     rm -rf "$base"
-    say "$target: $(files "$into") inputs beside the committed ones"
+    say "$target: $(files "$into") inputs in addition to the committed ones"
 }
 
 committed() { [ "$(realpath -m "$corpus")" = "$PWD/fuzz/corpus" ]; }
 
-# New inputs into the corpus; minimised ones take the place of what was there.
+# Copies new inputs to the corpus; minimised inputs replace the previous ones.
 keep_inputs() {
     local from="$output/found/$1"
     mkdir -p "$corpus/$1"
@@ -213,7 +213,7 @@ keep_inputs() {
     cp -r "$from/." "$corpus/$1"
 }
 
-# How many defects are seeded for each target, as the library says: name, family, number.
+# The number of seeded defects of each target: name, family, number.
 seeded_defects() { cargo run --quiet --locked -p ads-cnc-fuzz --example targets; }
 
 prove_target() {
@@ -223,8 +223,8 @@ prove_target() {
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# One target against one defect. What it finds has to be a broken law, not an input that took long,
-# and to pass without the defect, or it would be no proof of anything.
+# Runs one target with one defect. A finding proves the target only if it is a broken law, not a timeout,
+# and passes without the defect.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))

@@ -1,5 +1,5 @@
-//! Writes the IDs of the requirements and of their parts as constants, so that a program that cites one
-//! compiles only if there is one, and the lists of the files that the loader includes.
+//! Writes a constant for each ID of a requirement or a part, so that a program that cites an unknown ID
+//! fails to compile, and the lists of the files that the loader embeds.
 
 use std::path::Path;
 use std::{env, fs, io};
@@ -17,7 +17,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// A constant for each ID, with the title of the requirement or the text of the part, and the list of all.
+/// A constant for each ID, documented by the title of the requirement or the text of the part, and `EVERY`.
 fn constants(requirements: &str) -> String {
     let (mut items, mut names) = (String::new(), Vec::new());
     for entry in requirements.split("\"id\": \"").skip(1) {
@@ -25,7 +25,7 @@ fn constants(requirements: &str) -> String {
         let id = entry.split('"').next().unwrap_or_default();
         // The ID of a part has a dot.
         let doc = text_after(if id.contains('.') { "\"text\": \"" } else { "\"title\": \"" });
-        // No bracket is a link.
+        // rustdoc would take a bracket for a link.
         let doc = doc.unwrap_or_default().replace('[', r"\\[");
         let name = id.replace(['-', '.'], "_");
         let item = format!("pub const {name}: ClauseId = ClauseId::new(\"{id}\");");
@@ -36,12 +36,12 @@ fn constants(requirements: &str) -> String {
     format!("{items}pub(crate) const EVERY: &[ClauseId] = &[{names}];\n")
 }
 
-/// The path and the text of each file of a folder, in the order of their names.
+/// The path and the text of each JSON file in a folder, sorted by name.
 fn included(folder: &str) -> io::Result<String> {
     println!("cargo::rerun-if-changed={folder}");
     let files = fs::read_dir(folder)?.map(|file| Ok(file?.file_name()));
     let mut files = files.collect::<io::Result<Vec<_>>>()?;
-    // An editor may leave other files there.
+    // An editor may leave other files in the folder.
     files.retain(|file| Path::new(file).extension().is_some_and(|extension| extension == "json"));
     files.sort();
     let files = files.iter().map(|file| {

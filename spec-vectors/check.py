@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Judge the vectors without any codec.
+"""Verify the vectors and sequences without any codec.
 
-The bytes of every accepted vector are derived again from its value, and its value from its bytes, with
-the tables in `checker` and `struct` alone. Every rejected vector is decoded too and must be refused with
-the class, offset and field it states. Sequences are gone through step by step by the models there.
+For every accepted vector, derive the bytes from the value and the value from the bytes, using only the
+tables in `checker` and `struct`. Decode every rejected vector, which must fail with the stated class,
+offset and field. The models in `checker` execute the sequences step by step.
 
     python3 check.py [--data DIR]
 
@@ -17,7 +17,7 @@ from checker import files, sequences, vectors
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Judge the vectors without any codec.")
+    parser = argparse.ArgumentParser(description="Verify the vectors and sequences without any codec.")
     parser.add_argument("--data", type=Path, default=Path(__file__).resolve().parent / "data")
     data = parser.parse_args().data
     listed = {}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Print what there is, as Markdown: counts by area, and the vector of every printed example.
+"""Print Markdown tables of the counts by area and of the printed examples with their vectors.
 
     python3 tables.py
 """
@@ -18,7 +18,7 @@ def entries():
 
 
 def areas(requirements, listed):
-    """By area: requirements, those not judged, and what bears on them."""
+    """For each area, the numbers of its requirements and of the vectors and sequences that cite them."""
     rows = []
     for area in dict.fromkeys(requirement["area"] for requirement in requirements):
         own = [requirement for requirement in requirements if requirement["area"] == area]
@@ -38,15 +38,15 @@ def section_order(section):
 
 
 def examples(listed):
-    """By document and section: the example, and what transcribes it."""
+    """By document and section: each printed example, and the IDs of the entries that transcribe it."""
     found = {}
     for entry in listed:
         if entry["provenance"]["kind"] == "manual":
             for source in entry["provenance"]["sources"]:
-                place = (source["document"], source["section"], source["example"])
-                found.setdefault(place, []).append("`%s`" % entry["id"])
-    order = sorted(found, key=lambda place: (place[0], section_order(place[1])))
-    return [[*place, " ".join(found[place])] for place in order]
+                example = (source["document"], source["section"], source["example"])
+                found.setdefault(example, []).append("`%s`" % entry["id"])
+    order = sorted(found, key=lambda example: (example[0], section_order(example[1])))
+    return [[*example, " ".join(found[example])] for example in order]
 
 
 def table(head, rows):

@@ -1,7 +1,7 @@
-//! Replays the corpora and prints for each target how many inputs there are and what they led to,
-//! as one number. Two builds of the codec print the same for the targets that both have.
+//! Replays the corpora and prints, for each target, the number of inputs and a digest of their
+//! outcomes. Two builds of the codec print the same lines for the targets that both have.
 //!
-//! With a number, so many inputs of each folder are replayed, from one end of it to the other.
+//! An argument limits the number of inputs of each folder; they are evenly distributed over it.
 
 use std::hash::{Hash as _, Hasher as _};
 

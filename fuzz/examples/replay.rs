@@ -1,4 +1,4 @@
-//! Replays folders of inputs, each with a folder for a target, and prints how many there were.
+//! Replays folders of inputs, each with a subfolder for each target, and prints the number of inputs.
 //!
 //! ```sh
 //! cargo run -p ads-cnc-fuzz --example replay -- fuzz/corpus fuzz/regressions
@@ -28,6 +28,6 @@ fn main() -> ExitCode {
         all += inputs;
     }
     println!("{all} inputs in all, {failed} failed");
-    // Without any there is nothing that could fail.
+    // Without inputs, nothing could fail.
     ExitCode::from(u8::from(all == 0 || failed > 0))
 }

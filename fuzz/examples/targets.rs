@@ -1,4 +1,4 @@
-//! Prints a line for each target: its name, its family, how many seeded defects it has.
+//! Prints a line for each target: its name, its family, and the number of its seeded defects.
 
 fn main() {
     for target in ads_cnc_fuzz::TARGETS {

@@ -2,26 +2,26 @@
 
 use std::sync::OnceLock;
 
-/// Which seeded defect a target has to find, if any.
+/// The seeded defect that a target has to find, if any.
 ///
-/// A body that is given one works on a codec that is wrong in one thing, so a law that cannot fail
-/// is found out. The first is 1.
+/// With a defect, the body behaves as if the code had one fault. A law that does not detect the
+/// defect is too weak. The numbers start at 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Defect(u8);
 
 impl Defect {
-    /// The code as it is.
+    /// No defect.
     pub const NONE: Self = Self(0);
 
-    /// The defect of that number.
+    /// The defect with this number.
     pub const fn new(number: u8) -> Self {
         Self(number)
     }
 
-    /// The one that the environment names in `ADS_CNC_SEEDED_DEFECT`.
+    /// The defect whose number is in the environment variable `ADS_CNC_SEEDED_DEFECT`, or none.
     ///
     /// # Panics
-    /// If that is no number.
+    /// If the variable is not a number.
     pub fn from_environment() -> Self {
         static CHOSEN: OnceLock<Defect> = OnceLock::new();
         *CHOSEN.get_or_init(|| match std::env::var("ADS_CNC_SEEDED_DEFECT") {
@@ -30,7 +30,7 @@ impl Defect {
         })
     }
 
-    /// Whether it is the defect of that number.
+    /// Whether it is the defect with this number.
     pub const fn is(self, number: u8) -> bool {
         self.0 == number
     }

@@ -1,4 +1,4 @@
-//! Dictionaries: what a fuzzer would not guess, a file for each family.
+//! Dictionaries: words that a fuzzer would not guess, in one file for each family.
 
 use std::collections::BTreeSet;
 
@@ -7,16 +7,16 @@ use ads_cnc_vectors::vectors;
 use crate::bodies::bytes::FAMILIES;
 use crate::common;
 
-/// Longer entries are what a corpus is for.
+/// Longer words belong in the corpus.
 const LONGEST: usize = 64;
 
-/// Family and content of every dictionary, in libFuzzer's and AFL's common format.
+/// The family and the text of every dictionary, in the common format of libFuzzer and AFL.
 pub fn dictionaries() -> Vec<(&'static str, String)> {
     let families =
         FAMILIES.iter().map(|&(family, _)| family).chain(["operation", "service", "text"]);
     #[cfg(feature = "tools")]
     let families = families.chain(["tools", "cnc"]);
-    families.map(|family| (family, written(&entries(family)))).collect()
+    families.map(|family| (family, to_text(&entries(family)))).collect()
 }
 
 fn entries(family: &str) -> BTreeSet<Vec<u8>> {
@@ -37,7 +37,7 @@ fn entries(family: &str) -> BTreeSet<Vec<u8>> {
         "text" => entries.extend(HIGH.chars().map(|character| character.to_string().into_bytes())),
         "service" => entries.extend(EVENTS.iter().map(|events| events.to_vec())),
         _ => {
-            // The fields of the vectors: codes, texts, types.
+            // The fields of the vectors, such as codes, texts and types.
             let streams =
                 FAMILIES.iter().find(|(name, _)| *name == family).map_or(&[][..], |f| f.1);
             for vector in vectors() {
@@ -57,11 +57,11 @@ fn entries(family: &str) -> BTreeSet<Vec<u8>> {
     entries
 }
 
-/// Characters of CP1252 that have more than a byte of UTF-8, some from each corner.
+/// Characters of CP1252 that take several bytes in UTF-8, from all parts of the code page.
 const HIGH: &str =
     "\u{81}\u{9D}\u{A0}\u{E4}\u{FF}\u{152}\u{178}\u{192}\u{2C6}\u{2013}\u{20AC}\u{2122}\u{3A9}";
 
-/// A request that a host finds, an answer, writes; what the program and hosts do in turn.
+/// Events of a host that finds a request, answers and writes, and of the program and hosts in turn.
 const EVENTS: &[&[u8]] = &[
     b"\x00\x0A\x00\x03\x00\x1D",
     b"\x0E\x01\x0D",
@@ -71,7 +71,7 @@ const EVENTS: &[&[u8]] = &[
     b"\x0D\x1A\x0E\x1A",
 ];
 
-/// What the checks of a program know.
+/// Words that the checks of an NC program detect.
 const WORDS: &[&[u8]] = &[
     b"$FOR",
     b"$ENDFOR",
@@ -99,7 +99,7 @@ const WORDS: &[&[u8]] = &[
     b"\r\nN10 G01 X200 F1000\r\n",
 ];
 
-/// Pieces of names.
+/// Parts of names.
 const NAMES: &[&[u8]] = &[
     b"V.A.",
     b"V.E.",
@@ -115,7 +115,7 @@ const NAMES: &[&[u8]] = &[
     b"..",
 ];
 
-fn written(entries: &BTreeSet<Vec<u8>>) -> String {
+fn to_text(entries: &BTreeSet<Vec<u8>>) -> String {
     entries.iter().map(|entry| format!("\"{}\"\n", escaped(entry))).collect()
 }
 

@@ -1,24 +1,24 @@
 //! Fuzz targets of `ads-cnc`, and the replay of their corpora without a fuzzer.
 //!
-//! A target is a law that holds for any bytes, or a few laws that go together. Their bodies are
-//! here, so that `cargo test` replays the corpora on stable Rust; the binaries that need libFuzzer
-//! are one line each. The laws of the codec are those of its own tests, which feed them samples,
-//! cuts and random values.
+//! A target checks a law that holds for any bytes, or a few related laws. The bodies of the targets
+//! are in this library, so that `cargo test` replays the corpora on stable Rust; the binaries, which
+//! need libFuzzer, are one line each. The laws of the codec are those of its own tests, which apply
+//! them to samples, truncated samples and random values.
 //!
-//! | module | what it has |
+//! | module | contents |
 //! |---|---|
 //! | [`targets`] | every target: its name, its body, what it proves, its seeded defects |
-//! | [`Outcome`] | what an input led to, as one number: two builds are compared by it |
-//! | [`Defect`] | how a target shows that it can fail |
-//! | [`seeds`], [`dictionary`] | what a fuzzer starts from, made of vectors and samples |
-//! | [`replay`] | a corpus through a target's body |
+//! | [`Outcome`] | the result of an input as one number, with which two builds are compared |
+//! | [`Defect`] | the seeded defects, which show that a target can fail |
+//! | [`seeds`], [`dictionary`] | initial inputs and words for a fuzzer, from vectors and samples |
+//! | [`replay`] | runs the body of a target on its corpus |
 
 // The codec's minimum supported Rust version is older than that of this crate.
 #[allow(clippy::manual_is_multiple_of, clippy::collapsible_if)]
 #[path = "../../codec/tests/common/mod.rs"]
 mod common;
 
-// The simulated CNC's side of streaming and services, as its own tests check it.
+// The interfaces of the simulated CNC for streaming and services, with the checks of its own tests.
 #[cfg(feature = "tools")]
 #[path = "../../conformance/tests/program/machines.rs"]
 mod machines;
@@ -39,7 +39,7 @@ pub use outcome::{Digest, Outcome};
 pub use replay::{Folder, corpus, dictionaries, regressions, replay};
 pub use targets::{TARGETS, Target};
 
-// Here, as this crate is never packed without the files beside it.
+// Tested here, because this crate is never packaged without the rest of the repository.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;

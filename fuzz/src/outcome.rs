@@ -1,33 +1,33 @@
-//! What an input led to.
+//! The result of an input.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// What an input led to: the same for every build of the codec that reads it.
+/// The result of an input, which is the same in every build of the codec.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// Whether the input got behind the first checks.
+    /// Whether the input passed the first checks.
     pub accepted: bool,
-    /// Everything that came of it, errors with their numbers included.
+    /// A digest of the result, including errors with their numbers.
     pub digest: u64,
 }
 
 impl Outcome {
-    /// The input was taken, and this came of it.
+    /// An input that passed the first checks, and its result.
     pub fn accepted(what: impl Hash) -> Self {
         Self { accepted: true, digest: digest(what) }
     }
 
-    /// The input was refused for this.
+    /// An input that was rejected, and the reason.
     pub fn refused(why: impl Hash) -> Self {
         Self { accepted: false, digest: digest(why) }
     }
 
-    /// The input is none of this target's.
+    /// An input without a meaning for this target.
     pub fn unread() -> Self {
         Self::refused("unread")
     }
 
-    /// The one or the other.
+    /// [`Outcome::accepted`] for `Ok`, [`Outcome::refused`] for `Err`.
     pub fn of<T: Hash, E: Hash>(result: Result<T, E>) -> Self {
         match result {
             Ok(what) => Self::accepted(what),
@@ -42,8 +42,8 @@ fn digest(what: impl Hash) -> u64 {
     digest.finish()
 }
 
-/// A hash that is the same on every machine, whatever its byte order and the size of its words; but
-/// for slices of numbers, which are hashed as they lie in memory.
+/// A hash that does not depend on the byte order and word size of the machine, except for slices of
+/// numbers, which are hashed as they are in memory.
 ///
 /// It has no random key, so two programs of one toolchain agree.
 #[derive(Clone, Debug, Default)]
@@ -71,7 +71,7 @@ impl Hasher for Digest {
         self.write_u64(number as u64);
     }
 
-    /// Which variant of an enum it is.
+    /// Discriminants of enums.
     fn write_isize(&mut self, number: isize) {
         self.write_u64(number as u64);
     }

@@ -1,4 +1,4 @@
-//! What fuzzers start from: the vectors, and the samples of the codec's own tests.
+//! The initial inputs of fuzzers: vectors, samples of the codec's tests, and inputs made by hand.
 
 #[cfg(feature = "tools")]
 mod connections;
@@ -16,13 +16,13 @@ use crate::bodies::bytes::FAMILIES;
 use crate::bodies::{Family, operation};
 use crate::{Target, common};
 
-/// Name and bytes of an input.
+/// The name and the bytes of an input.
 pub type Seed = (String, Vec<u8>);
 
-/// A vector that is longer is no place to start from.
+/// Longer vectors are unsuitable as initial inputs.
 const LONGEST: usize = 2048;
 
-/// The inputs of a target that are made by hand or by vectors, in order.
+/// The initial inputs of a target, in a fixed order.
 ///
 /// # Panics
 /// If the target has none.
@@ -47,7 +47,7 @@ pub fn seeds(target: &Target) -> Vec<Seed> {
             let family = family_of(family);
             samples(family).chain(of_vectors(family)).collect()
         }
-        // Any bytes make a value: these are as good as others.
+        // Values are made from any bytes, so these inputs fit too.
         (family, "value") => samples(family_of(family)).collect(),
         _ => panic!("{} has no seeds", target.name),
     };
@@ -62,7 +62,7 @@ fn family_of(name: &str) -> Family {
     found.unwrap_or_else(|| panic!("no family {name}")).1
 }
 
-/// Samples of a family's streams, behind the byte that picks the stream.
+/// Samples of the streams of a family, after the byte that selects the stream.
 fn samples(family: Family) -> impl Iterator<Item = Seed> {
     common::each_sample().filter_map(move |(stream, sample)| {
         let name = format!("{stream}-{}", sample.slug);
@@ -70,7 +70,7 @@ fn samples(family: Family) -> impl Iterator<Item = Seed> {
     })
 }
 
-/// The same of vectors, good and bad.
+/// Accepted and rejected vectors in the same form.
 fn of_vectors(family: Family) -> impl Iterator<Item = Seed> {
     let short = vectors()
         .iter()
@@ -93,7 +93,7 @@ fn calls() -> Vec<Seed> {
     common::CALLS.iter().map(write).collect()
 }
 
-/// Type, dimensions, indices, size (0: what there is), value.
+/// Type, dimensions, indices, size (0: the actual size), value.
 fn values() -> Vec<Seed> {
     let of = |name: &str, before: &[u8], value: &[u8]| (name.to_string(), [before, value].concat());
     let mut seeds: Vec<_> = (0..)

@@ -1,4 +1,4 @@
-//! Every target.
+//! The table of all targets.
 
 #[cfg(feature = "alloc")]
 use crate::bodies::checker;
@@ -9,19 +9,19 @@ use crate::bodies::{bytes, frames, names, operation, shapes, streaming, text};
 use crate::bodies::{ends, service, tools};
 use crate::{Defect, Outcome};
 
-/// A target: named `<family>_<law>`, as its binary and its corpus are.
+/// A target. Its name is `<family>_<law>`, which is also the name of its binary and its corpus.
 pub struct Target {
     /// Its name.
     pub name: &'static str,
-    /// What holds for any input.
+    /// The law that holds for any input.
     pub proves: &'static str,
-    /// What its seeded defects get wrong, the first being number 1.
+    /// A description of each seeded defect; the first is number 1.
     pub defects: &'static [&'static str],
     body: fn(&[u8], Defect) -> Outcome,
 }
 
 impl Target {
-    /// The part of its name before the underscore: targets of a family share a dictionary.
+    /// The part of its name before the underscore. The targets of a family share a dictionary.
     pub fn family(&self) -> &'static str {
         self.name.split('_').next().unwrap_or(self.name)
     }
@@ -29,15 +29,15 @@ impl Target {
     /// Runs the body.
     ///
     /// # Panics
-    /// If a law is broken, be it by a defect.
+    /// If the input breaks a law, whether or not a defect causes it.
     pub fn run(&self, data: &[u8], defect: Defect) -> Outcome {
         (self.body)(data, defect)
     }
 
-    /// Runs the body for a fuzzer, with the defect that the environment names.
+    /// Runs the body for a fuzzer, with the defect of [`Defect::from_environment`].
     ///
     /// # Panics
-    /// If a law is broken.
+    /// If the input breaks a law.
     pub fn fuzz(&self, data: &[u8]) {
         self.run(data, Defect::from_environment());
     }

@@ -1,4 +1,4 @@
-//! The seeded defects, on stable Rust and without a fuzzer.
+//! Detects the seeded defects on stable Rust, without a fuzzer.
 
 // Without these features a target is missing or checks fewer laws.
 #![cfg(all(feature = "arbitrary", feature = "binrw", feature = "tools"))]
@@ -8,18 +8,18 @@ use std::panic::{catch_unwind, set_hook, take_hook};
 
 use ads_cnc_fuzz::{Defect, Folder, TARGETS, corpus};
 
-/// Defects that no input of the corpus of some target shows: `fuzz/nightly --prove` finds those inputs.
+/// Defects that the corpus of some target does not detect; `fuzz/nightly --prove` finds inputs for them.
 const NOT_IN_EVERY_CORPUS: [&str; 6] = [
-    "a vector has a byte too much if the last is 0",
-    "an element that is another function is refused for something else",
-    "no frame comes out as long as there are just three bytes behind it",
-    "of more than 16 bytes one of 0xB5 becomes 0xB4 when it is encoded",
+    "a vector has an extra byte if its last byte is 0",
+    "an element at the offset of a function is rejected with a different error",
+    "no frame is found while exactly three bytes follow it",
+    "a byte 0xB5 is encoded as 0xB4 if there are more than 16 bytes",
     "the last byte loses its top bit when it is encoded",
     "the readings differ if the last byte is odd",
 ];
 
-/// Each other defect of a target makes an input of its corpus break a law. Without a defect none does:
-/// `corpora_keep_the_laws`.
+/// With any other defect of a target, an input of its corpus breaks a law. Without a defect, no input
+/// does: `corpora_keep_the_laws`.
 #[test]
 #[cfg_attr(miri, ignore = "too many inputs for an interpreter")]
 fn corpora_detect_the_seeded_defects() {

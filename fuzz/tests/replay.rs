@@ -1,4 +1,4 @@
-//! The corpora, on stable Rust and without a fuzzer.
+//! Replays the corpora on stable Rust, without a fuzzer.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -7,13 +7,13 @@ use ads_cnc_fuzz::{
     Defect, Folder, TARGETS, corpus, dictionaries, dictionary, regressions, replay, seeds,
 };
 
-/// What was asked for when this is set: to write what else is compared.
+/// Whether to write the generated files instead of comparing them.
 fn write() -> bool {
     std::env::var_os("ADS_CNC_WRITE_SEEDS").is_some()
 }
 
-/// Every input of every corpus keeps the laws of its target, and there are some that got behind
-/// its first checks.
+/// Every input of every corpus keeps the laws of its target, and at least one input passes its first
+/// checks.
 #[test]
 fn corpora_keep_the_laws() {
     for target in TARGETS {
@@ -23,11 +23,11 @@ fn corpora_keep_the_laws() {
             accepted += usize::from(outcome.accepted);
         });
         assert!(inputs >= seeds::seeds(target).len(), "{}: {inputs} inputs", target.name);
-        assert!(accepted > 0, "{}: nothing is accepted of {inputs} inputs", target.name);
+        assert!(accepted > 0, "{}: none of {inputs} inputs is accepted", target.name);
     }
 }
 
-/// An input leads to the same whenever it is tried.
+/// An input has the same outcome in every run.
 #[test]
 fn outcomes_are_repeatable() {
     for target in TARGETS {
@@ -38,8 +38,8 @@ fn outcomes_are_repeatable() {
     }
 }
 
-/// Every vector and sample is an input of its corpus, under its own name; dictionaries are those
-/// that are made of them.
+/// Every vector and sample is an input of its corpus, with its own name, and the dictionaries match
+/// the vectors and samples.
 #[test]
 fn corpora_and_dictionaries_are_up_to_date() {
     let mut stale = Vec::new();
@@ -54,7 +54,7 @@ fn corpora_and_dictionaries_are_up_to_date() {
     for target in TARGETS {
         let seeds = seeds::seeds(target);
         let names: HashSet<_> = seeds.iter().map(|(name, _)| name).collect();
-        assert_eq!(names.len(), seeds.len(), "{}: two seeds of one name", target.name);
+        assert_eq!(names.len(), seeds.len(), "{}: two seeds have the same name", target.name);
         for (name, bytes) in &seeds {
             compare(&corpus(target.name).join(name), bytes);
         }
@@ -66,9 +66,9 @@ fn corpora_and_dictionaries_are_up_to_date() {
     assert!(stale.is_empty(), "run with ADS_CNC_WRITE_SEEDS=1 to rewrite {stale:#?}");
 }
 
-/// Nothing lies about that no target reads, and a family's targets have its dictionary.
+/// Every folder of inputs belongs to a target, and every family has a dictionary.
 #[test]
-fn folders_are_those_of_the_targets() {
+fn folders_match_the_targets() {
     let names = |folder: &Path| -> Vec<String> {
         let entries = std::fs::read_dir(folder).into_iter().flatten();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
@@ -85,7 +85,7 @@ fn folders_are_those_of_the_targets() {
     }
 }
 
-/// Corpora stay small enough to be kept beside the sources.
+/// The corpora are small enough for the repository.
 #[test]
 fn corpora_are_small() {
     let files = |target: &str| {
@@ -96,9 +96,9 @@ fn corpora_are_small() {
     assert!(sum <= 2 << 20, "{sum} bytes");
 }
 
-/// Every target has its binary, of one line, and `cargo fuzz` knows it.
+/// Every target has a binary of one line and a `[[bin]]` for `cargo fuzz`.
 #[test]
-fn binaries_are_those_of_the_targets() {
+fn binaries_match_the_targets() {
     let manifest = include_str!("../Cargo.toml");
     assert_eq!(manifest.matches("[[bin]]").count(), TARGETS.len());
     for target in TARGETS {
@@ -111,9 +111,9 @@ fn binaries_are_those_of_the_targets() {
     }
 }
 
-/// The targets that the suite's matrix names are there.
+/// Every target that the matrix of the suite names exists.
 #[test]
-fn the_matrix_names_targets_that_there_are() {
+fn the_matrix_names_existing_targets() {
     let rows = ads_cnc_conformance::matrix::matrix();
     let named: HashSet<_> = rows.iter().flat_map(|row| &row.fuzz_targets).copied().collect();
     assert!(named.len() > 10);
@@ -122,15 +122,15 @@ fn the_matrix_names_targets_that_there_are() {
     }
 }
 
-/// The table of the README has every target with what it proves, and nothing else.
+/// The table of the README has exactly the targets, with their laws.
 #[test]
-fn the_readme_has_the_targets() {
+fn the_readme_lists_the_targets() {
     let readme = include_str!("../README.md");
     // Its other tables have fewer columns.
     let rows = readme.lines().filter(|line| line.matches(" | ").count() == 4);
     let rows = rows.filter_map(|line| {
-        let (name, behind) = line.strip_prefix("| `")?.split_once("` | ")?;
-        Some((name, behind.split(" | ").next()?))
+        let (name, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
+        Some((name, rest.split(" | ").next()?))
     });
     let wanted: Vec<_> = TARGETS.iter().map(|target| (target.name, target.proves)).collect();
     assert_eq!(rows.collect::<Vec<_>>(), wanted);

@@ -1,1 +1,1 @@
-"""The parts of `check.py`: tables of the streams, area by area, and models that go through the sequences."""
+"""The parts of `check.py`: tables of the streams by area, and models that execute the sequences."""

@@ -1,39 +1,39 @@
-"""Names by their parts, index groups and index offsets."""
+"""The parts of names, index groups and index offsets."""
 import re
 
-from .scalars import Bad, Refuse, TEXT_MAX, end, plain, read_fields, text, text_bytes, u32
+from .scalars import Bad, Malformed, TEXT_MAX, end, plain, read_fields, text, text_bytes, u32
 
 INDEX_LAST = 0xFFFFFFFE
 
 
 def characters(data):
-    """A text that has no NUL and needs none."""
+    """A text that no NUL ends."""
     return dict(text(data), open=True)
 
 
 def path_write(value, _context):
     parts = [("kind", text_bytes(value["kind"]))]
-    for place, part in enumerate(value["parts"]):
-        parts.append(("parts[%d].name" % place, b"." + text_bytes(part["name"])))
+    for number, part in enumerate(value["parts"]):
+        parts.append(("parts[%d].name" % number, b"." + text_bytes(part["name"])))
         indices = b"".join(b"[%d]" % plain(index) for index in part["indices"])
-        parts.append(("parts[%d].indices" % place, indices))
+        parts.append(("parts[%d].indices" % number, indices))
     return parts
 
 
 def path_plain(data):
-    """Without the zeros in front of an index, which a value does not keep."""
+    """The path without the leading zeros of its indices, which a value does not keep."""
     return re.sub(rb"(?<=\[)0+(?=[0-9])", b"", data)
 
 
 def path_read(data, _context):
     if len(data) >= TEXT_MAX:
-        raise Refuse("too-long", TEXT_MAX - 1, "name")
+        raise Malformed("too-long", TEXT_MAX - 1, "name")
     if 0 in data:
-        raise Refuse("not-text", data.index(0), "name")
+        raise Malformed("not-text", data.index(0), "name")
     at = 0
 
     def fault(field):
-        raise Refuse("unexpected" if at < len(data) else "truncated", at, field)
+        raise Malformed("unexpected" if at < len(data) else "truncated", at, field)
 
     def expect(byte, field):
         nonlocal at
@@ -64,7 +64,7 @@ def path_read(data, _context):
             start = at
             index = int(take(bytes.isdigit, "indices"))
             if index > INDEX_LAST:
-                raise Refuse("out-of-range", start, "indices")
+                raise Malformed("out-of-range", start, "indices")
             expect(b"]", "indices")
             indices.append({"type": "UNS32", "value": str(index)})
         parts.append({"name": characters(name), "indices": indices})
@@ -111,7 +111,7 @@ def group_write(value, _context):
             total += 0x300 + 0x1000 * CLASSES.index(text_of["class"]) + 0x100 * ATTRIBUTES.index(text_of["attribute"])
         total += int(text_of["instance"])
         if total != group:
-            raise Bad("the parts add up to 0x%x, the group is 0x%x" % (total, group))
+            raise Bad("the parts add up to 0x%x, but the group is 0x%x" % (total, group))
     return [("index_group", u32(group))]
 
 
@@ -120,7 +120,7 @@ def group_read(data, context):
     end(data, at, "index_group")
     group = plain(value["index_group"])
     if "base" in context and not 0 <= group - int(context["base"], 16) <= 0xFF:
-        raise Refuse("out-of-range", 0, "instance")
+        raise Malformed("out-of-range", 0, "instance")
     return dict(value, **group_split(group))
 
 
@@ -137,7 +137,7 @@ def offset_read(data, context):
     end(data, at, "index_offset")
     axis, element = divmod(plain(value["index_offset"]), int(context["stride"], 16))
     if axis >= 0x10000:
-        raise Refuse("out-of-range", 0, "axis")
+        raise Malformed("out-of-range", 0, "axis")
     return {key: {"type": "UNS16", "value": str(part)} for key, part in (("axis", axis), ("element", element))}
 
 

@@ -1,6 +1,6 @@
-"""The ADS services, the headers in front of them, and whole frames."""
+"""The ADS services, the headers before them, and whole frames."""
 from .scalars import (
-    Bad, Refuse, end, fixed_stream, from_hex, join, plain, read_fields, to_hex, u32, write_fields,
+    Bad, Malformed, end, fixed_stream, from_hex, join, plain, read_fields, to_hex, u32, write_fields,
 )
 
 TCP_HEADER = [("reserved", "UNS16"), ("length", "UNS32")]
@@ -13,7 +13,7 @@ ADDRESS = [("index_group", "UNS32"), ("index_offset", "UNS32")]
 
 
 def counted_data(head, length_field, result_first):
-    """Fixed fields, a length, and as much data as it says."""
+    """Fixed fields, a length, and data of this length."""
     layout = head + [(length_field, "UNS32")]
 
     def write(value, _context):
@@ -23,7 +23,7 @@ def counted_data(head, length_field, result_first):
                 raise Bad("success without data")
             return parts
         if value["data"]["type"] != "BYTES":
-            raise Bad("data is no BYTES")
+            raise Bad("data is not of type BYTES")
         data = from_hex(value["data"]["hex"])
         return parts + [(length_field, u32(len(data))), ("data", data)]
 
@@ -35,7 +35,7 @@ def counted_data(head, length_field, result_first):
         value, at = read_fields(layout, data)
         length = plain(value.pop(length_field))
         if len(data) - at < length:
-            raise Refuse("truncated", at, "data")
+            raise Malformed("truncated", at, "data")
         end(data, at + length, "data")
         value["data"] = {"type": "BYTES", "hex": to_hex(data[at:at + length])}
         return value
@@ -50,7 +50,7 @@ HEADERS = 6 + AMS_HEADER
 
 
 def part_name(header):
-    """The stream that follows an AMS header; just data for what this table has no stream of."""
+    """The stream that follows an AMS header: that of a service, or otherwise data."""
     service = SERVICES.get(plain(header["command"]))
     direction = DIRECTIONS.get(plain(header["state_flags"]))
     return "%s_%s" % (service, direction) if service and direction else "data"
@@ -73,27 +73,27 @@ def frame_write(value, context):
 
 
 def within(prefix, at, read):
-    """Reads a part, and says of a fault where in the whole it is."""
+    """Decode a part, with the position of a fault relative to the whole stream."""
     try:
         return read()
-    except Refuse as why:
-        raise Refuse(why.cls, at + why.offset, "%s.%s" % (prefix, why.field)) from None
+    except Malformed as why:
+        raise Malformed(why.cls, at + why.offset, "%s.%s" % (prefix, why.field)) from None
 
 
 def frame_read(data, context):
     tcp, at = within("ams_tcp_header", 0, lambda: read_fields(TCP_HEADER, data))
     if plain(tcp["reserved"]) != 0:
-        raise Refuse("mismatch", 0, "ams_tcp_header.reserved")
+        raise Malformed("mismatch", 0, "ams_tcp_header.reserved")
     length = plain(tcp.pop("length"))
     if length < AMS_HEADER:
-        raise Refuse("out-of-range", 2, "ams_tcp_header.length")
+        raise Malformed("out-of-range", 2, "ams_tcp_header.length")
     header, _ = within("ams_header", at, lambda: read_fields(HEADER, data[at:]))
     if plain(header.pop("data_length")) != length - AMS_HEADER:
-        raise Refuse("mismatch", 26, "ams_header.data_length")
+        raise Malformed("mismatch", 26, "ams_header.data_length")
     value = {"ams_tcp_header": tcp, "ams_header": header}
     rest, name = data[HEADERS:], part_name(header)
     if len(rest) < length - AMS_HEADER:
-        raise Refuse("truncated", HEADERS, name)
+        raise Malformed("truncated", HEADERS, name)
     end(data, 6 + length, name)
     if not rest and plain(header["error"]) != 0:
         return value

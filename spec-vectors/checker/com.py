@@ -1,5 +1,5 @@
 """Streams of the COM task: the number of objects, and their descriptors."""
-from .scalars import Refuse, fixed_stream, read_fields, write_fields
+from .scalars import Malformed, fixed_stream, read_fields, write_fields
 
 DESCRIPTOR = 84
 LAYOUT = [
@@ -10,14 +10,14 @@ LAYOUT = [
 
 def descriptors_write(value, _context):
     parts = []
-    for place, item in enumerate(value["descriptors"]):
-        parts += write_fields(LAYOUT, item, "descriptors[%d]." % place)
+    for index, item in enumerate(value["descriptors"]):
+        parts += write_fields(LAYOUT, item, "descriptors[%d]." % index)
     return parts
 
 
 def descriptors_read(data, _context):
     if not data or len(data) % DESCRIPTOR:
-        raise Refuse("bad-length", len(data) - len(data) % DESCRIPTOR, "descriptors")
+        raise Malformed("bad-length", len(data) - len(data) % DESCRIPTOR, "descriptors")
     steps = range(0, len(data), DESCRIPTOR)
     return {"descriptors": [read_fields(LAYOUT, data, at)[0] for at in steps]}
 

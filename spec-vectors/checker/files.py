@@ -1,4 +1,4 @@
-"""Files of vectors and of sequences: each of them judged, one by one."""
+"""Check the files of vectors and sequences, entry by entry."""
 import json
 import struct
 
@@ -6,7 +6,7 @@ from .pieces import Bad
 
 
 def check_all(folder, key, check):
-    """Counts of what is listed under a key, of what is accepted and rejected, and what is wrong."""
+    """The number of entries under a key, the numbers of accepted and rejected ones, and the failures."""
     files = {path: json.loads(path.read_text(encoding="utf-8"))[key] for path in sorted(folder.glob("*.json"))}
     listed = [one for found in files.values() for one in found]
     by_id = {one["id"]: one for one in listed}
@@ -14,7 +14,7 @@ def check_all(folder, key, check):
     if not listed:
         failures.append("no %s in %s" % (key, folder))
     if len(by_id) != len(listed):
-        failures.append("%d %s share an id with another" % (len(listed) - len(by_id), key))
+        failures.append("%d %s have the id of another one" % (len(listed) - len(by_id), key))
     for path, found in files.items():
         counts = {"accepted": 0, "rejected": 0}
         if not found:

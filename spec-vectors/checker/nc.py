@@ -1,4 +1,4 @@
-"""NC text: its packets, and what streaming does not permit in it."""
+"""NC text: its division into packets, and the constructs that streaming does not permit."""
 import re
 
 from .pieces import Bad, agree, to_bytes
@@ -8,13 +8,13 @@ LINE_MAX = PACKET_MAX - len(b"\r\n")
 
 
 def split(data):
-    """The lines of a text, without their ends."""
+    """The lines of a text, without their line ends."""
     lines = re.split(rb"\r\n|\r|\n", data)
     return lines[:-1] if lines[-1] == b"" else lines
 
 
 def packets(data):
-    """Whole lines, as many to a packet as fit."""
+    """Packets of whole lines; a packet takes as many lines as fit."""
     made = []
     for line in split(data):
         line += b"\r\n"
@@ -26,7 +26,7 @@ def packets(data):
 
 
 def fault_of(data):
-    """The first thing for which a text cannot be sent."""
+    """The first fault because of which a text cannot be sent; None if it can be sent."""
     for number, line in enumerate(split(data), 1):
         for column, byte in enumerate(line, 1):
             if column > LINE_MAX:
@@ -43,12 +43,12 @@ def check_text(case):
         agree("fault", expect["reject"], fault)
         return
     if fault:
-        raise Bad("accepted, but %s" % fault)
+        raise Bad("to be accepted, but it has the fault %s" % fault)
     stated = [to_bytes(packet) for packet in expect["accept"]["packets"]]
     agree("packets", stated, packets(data))
 
 
-# ---------------------------------------------------------------- what is not permitted
+# ---------------------------------------------------------------- constructs that are not permitted
 
 LOOPS = ("FOR", "ENDFOR", "DO", "ENDDO", "REPEAT", "UNTIL", "WHILE", "ENDWHILE")
 CLAUSES = {"loop": "STM-8", "backward-jump": "STM-8", "open-comment": "STM-9", "behind-end": "STM-10"}
@@ -58,12 +58,12 @@ BLOCK_END = re.compile(HEAD + r"#COMMENT\s+END(?![\w.])", re.I)
 LABEL = re.compile(r"\s*(?:/\d*\s*)?N\s*0*(\d+)\s*:", re.I)
 COMMAND = re.compile(r"\$([A-Z]+)", re.I)
 GOTO = re.compile(r"\$GOTO\s*N\s*0*(\d+)\s*(?![-+*/.\[_=\d])", re.I)
-# not a part of a name, as in V.E.M30
+# but not as a part of a name, as in V.E.M30
 PROGRAM_END = re.compile(r"(?<![A-Z_])(?<![A-Z_\]]\.)M0*(2|30|17|29)(?![\d._])", re.I)
 
 
 def masked(line):
-    """The line with blanks in place of comments and quoted text."""
+    """The line with spaces in place of comments and quoted text."""
     out, depth, at = "", 0, 0
     while at < len(line):
         quoted = re.match(r'"[^"]*"', line[at:]) if depth == 0 else None
@@ -85,7 +85,7 @@ def masked(line):
 
 
 class Program:
-    """A text read line by line: its code, labels, jumps, loops and ends."""
+    """A text, parsed line by line: its code, labels, jumps, loop keywords and program ends."""
 
     def __init__(self, data):
         self.labels, self.jumps, self.loops, self.ends, self.code = [], [], [], [], []
@@ -122,13 +122,13 @@ class Program:
     def findings(self):
         found = [("loop", line, column, None) for line, column in self.loops]
         for line, column, label in self.jumps:
-            places = [place for name, place in self.labels if name == label]
-            if places and max(places) <= line:
-                found.append(("backward-jump", line, column, max(places)))
+            targets = [target for name, target in self.labels if name == label]
+            if targets and max(targets) <= line:
+                found.append(("backward-jump", line, column, max(targets)))
         for end in sorted({line for line, _ in self.ends}):
-            behind = [place for place in self.code if place[0] > end]
-            if behind:
-                found.append(("behind-end", *behind[0], end))
+            after = [position for position in self.code if position[0] > end]
+            if after:
+                found.append(("behind-end", *after[0], end))
         if self.open_block:
             found.append(("open-comment", *self.open_block, None))
         return sorted(found, key=lambda one: one[1:3])
@@ -137,7 +137,7 @@ class Program:
 def check_program(case):
     data = b"".join(to_bytes(packet) for packet in case["given"]["nc-check"])
     if fault_of(data) or not data.endswith(b"\r\n"):
-        raise Bad("not a text of whole lines")
+        raise Bad("the packets are not a text of whole lines")
     derived = []
     for cls, line, column, refers_to in Program(data).findings():
         derived.append({"class": cls, "clause": CLAUSES[cls], "line": line, "column": column})

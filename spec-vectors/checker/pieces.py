@@ -1,4 +1,4 @@
-"""Bytes written as pieces (ASCII text, hex, a text repeated), and how much two of them differ."""
+"""Bytes written as pieces (ASCII text, hex, repeated text), and the difference between two streams."""
 
 
 class Bad(Exception):
@@ -15,7 +15,7 @@ def to_bytes(pieces):
         elif set(piece) == {"fill", "count"}:
             part = piece["fill"].encode("ascii") * piece["count"]
         else:
-            raise Bad("no such piece: %r" % piece)
+            raise Bad("unknown kind of piece: %r" % piece)
         if not part:
             raise Bad("a piece without bytes: %r" % (piece,))
         data += part
@@ -27,11 +27,11 @@ def agree(what, stated, derived):
         raise Bad("%s: stated %r, derived %r" % (what, stated, derived))
 
 
-EDIT_MAX = 8  # a count and the item it adds
+EDIT_MAX = 8  # a count and the additional item
 
 
 def edit(good, bad):
-    """Bytes in the one place where two streams differ; 0 if one of them is the other, cut or continued."""
+    """The length of the part in which two streams differ; 0 if one of them begins with the other."""
     short = min(len(good), len(bad))
     front = 0
     while front < short and good[front] == bad[front]:

@@ -1,4 +1,4 @@
-"""Numbers, texts and fixed fields, and how a malformed stream is refused."""
+"""Numbers, texts and fixed fields, and the error of a malformed stream."""
 import struct
 
 from .pieces import Bad
@@ -6,14 +6,14 @@ from .pieces import Bad
 NUMBERS = {
     "BOOLEAN": "<B", "UNS08": "<B", "SGN08": "<b", "UNS16": "<H", "SGN16": "<h",
     "UNS32": "<I", "SGN32": "<i", "REAL32": "<f", "REAL64": "<d",
-    # the names of the COM task
+    # type names of the COM task
     "BOOL": "<B", "BYTE": "<B", "SINT": "<b", "WORD": "<H", "INT": "<h", "DWORD": "<I", "DINT": "<i",
     "LWORD": "<Q", "LINT": "<q", "REAL": "<f", "LREAL": "<d",
 }
-# the integer that shows a float's bits
+# the unsigned integer with the bits of a float
 REALS = {"REAL32": "<I", "REAL64": "<Q", "REAL": "<I", "LREAL": "<Q"}
 
-# CP1252 where it differs from Latin-1. 81 8d 8f 90 9d have no character and read as U+0081 and so on.
+# CP1252 where it differs from Latin-1. 81 8d 8f 90 9d have no character and decode as U+0081 and so on.
 CP1252 = dict(zip(
     b"\x80\x82\x83\x84\x85\x86\x87\x88\x89\x8a\x8b\x8c\x8e\x91\x92\x93\x94\x95\x96\x97\x98\x99\x9a\x9b\x9c\x9e\x9f",
     "€‚ƒ„…†‡ˆ‰Š‹ŒŽ‘’“”•–—˜™š›œžŸ",
@@ -23,8 +23,8 @@ TEXT_MAX = 256
 STREAM_MAX = 2048
 
 
-class Refuse(Exception):
-    """What a decoder says of a malformed stream."""
+class Malformed(Exception):
+    """The error that a decoder raises for a malformed stream."""
 
     def __init__(self, cls, offset, field):
         super().__init__("%s at %d in %s" % (cls, offset, field))
@@ -42,7 +42,7 @@ def from_hex(text):
     return data
 
 
-def text_reading(data):
+def cp1252_text(data):
     return "".join(CP1252.get(byte, chr(byte)) for byte in data)
 
 
@@ -64,15 +64,15 @@ def number_bytes(tagged):
     data = struct.pack(REALS[kind], int(tagged["bits"], 16))
     value = float(tagged["value"])
     (stored,) = struct.unpack(NUMBERS[kind], data)
-    # the bits of a NaN say more than its name
+    # a NaN has many bit patterns, so its value does not determine the bits
     same = stored != stored if value != value else struct.pack(NUMBERS[kind], value) == data
     if not same:
-        raise Bad("%s and %s are two numbers" % (tagged["value"], tagged["bits"]))
+        raise Bad("%s and %s are different numbers" % (tagged["value"], tagged["bits"]))
     return data
 
 
 def count_of(context):
-    """How many elements the dimensions make."""
+    """The number of elements: the product of the dimensions."""
     count = 1
     for dimension in context["dimensions"]:
         count *= dimension
@@ -84,9 +84,9 @@ def size_of(kind):
 
 
 def text(data):
-    """A text, what stands behind its first NUL, or that it has none."""
+    """A text with the bytes after its first NUL as `tail`, or with `open` if it has no NUL."""
     body, nul, tail = data.partition(b"\0")
-    tagged = {"type": "STRING", "value": text_reading(body), "hex": to_hex(body)}
+    tagged = {"type": "STRING", "value": cp1252_text(body), "hex": to_hex(body)}
     if not nul:
         tagged["open"] = True
     elif tail:
@@ -96,8 +96,8 @@ def text(data):
 
 def text_bytes(tagged):
     body = from_hex(tagged["hex"])
-    if text_reading(body) != tagged["value"]:
-        raise Bad("%s reads %r, not %r" % (tagged["hex"], text_reading(body), tagged["value"]))
+    if cp1252_text(body) != tagged["value"]:
+        raise Bad("%s decodes as %r, not %r" % (tagged["hex"], cp1252_text(body), tagged["value"]))
     if 0 in body:
         raise Bad("a NUL inside the text %r" % tagged["hex"])
     if tagged.get("open"):
@@ -106,14 +106,14 @@ def text_bytes(tagged):
 
 
 def texts(data, at, count, field):
-    """The texts that take the rest of a stream: a single one all of it, several the same share each."""
+    """The texts in the rest of a stream: a single text takes all bytes, several texts take equal shares."""
     size = len(data) - at
     if count > size and count > 1:
-        raise Refuse("truncated", at, field)
+        raise Malformed("truncated", at, field)
     share = size // count
     if share * count != size:
-        raise Refuse("bad-length", at + share * count, field)
-    return [text(data[at + share * place:at + share * place + share]) for place in range(count)]
+        raise Malformed("bad-length", at + share * count, field)
+    return [text(data[at + share * index:at + share * index + share]) for index in range(count)]
 
 
 def text_field(data):
@@ -132,17 +132,17 @@ def text_field_bytes(tagged, size):
 
 
 def request_text(data, at, field, may_be_absent=False):
-    """A text of a request: one NUL at its end, then at most more NULs."""
+    """A text of a request: a NUL ends it, and only NULs may follow."""
     if len(data) > TEXT_MAX:
-        raise Refuse("too-long", at, field)
+        raise Malformed("too-long", at, field)
     if not data and may_be_absent:
         return text(data)
     if b"\0" not in data:
-        raise Refuse("missing-nul", at, field)
+        raise Malformed("missing-nul", at, field)
     body, _, tail = data.partition(b"\0")
-    for place, byte in enumerate(tail):
+    for index, byte in enumerate(tail):
         if byte:
-            raise Refuse("trailing", at + len(body) + 1 + place, field)
+            raise Malformed("trailing", at + len(body) + 1 + index, field)
     return text(data)
 
 
@@ -162,19 +162,19 @@ def read_field(kind, data):
 
 def write_field(kind, tagged):
     if tagged["type"] != ("STRING" if kind in TEXTS else kind):
-        raise Bad("type %s where %s stands" % (tagged["type"], kind))
+        raise Bad("type %s instead of %s" % (tagged["type"], kind))
     if kind == "NETID":
         return bytes(int(part) for part in tagged["value"].split("."))
     return text_field_bytes(tagged, TEXTS[kind]) if kind in TEXTS else number_bytes(tagged)
 
 
 def read_fields(layout, data, at=0):
-    """The fields from `at` on, and the offset behind them."""
+    """The fields from `at` on, and the offset after them."""
     value = {}
     for field, kind in layout:
         part = data[at:at + field_size(kind)]
         if len(part) < field_size(kind):
-            raise Refuse("truncated", at, field)
+            raise Malformed("truncated", at, field)
         value[field] = read_field(kind, part)
         at += len(part)
     return value, at
@@ -186,7 +186,7 @@ def write_fields(layout, value, prefix=""):
 
 def end(data, at, field):
     if len(data) > at:
-        raise Refuse("trailing", at, field)
+        raise Malformed("trailing", at, field)
 
 
 def plain(tagged):

@@ -1,6 +1,6 @@
 """Streams of SDA and GEO, of the dynamic parameters, of content, and the description by name."""
 from .scalars import (
-    Bad, NUMBERS, Refuse, STREAM_MAX, count_of, end, fixed_stream, from_hex, number, number_bytes, plain, read_fields,
+    Bad, NUMBERS, Malformed, STREAM_MAX, count_of, end, fixed_stream, from_hex, number, number_bytes, plain, read_fields,
     size_of, text, text_bytes, texts, to_hex, u32, write_field, write_fields,
 )
 
@@ -11,7 +11,7 @@ DIMENSIONS_MAX = (STREAM_MAX - 20) // 4
 
 
 def open_text(field, shortest, longest):
-    """A text that its first NUL or the end of the stream ends; what follows the NUL is kept."""
+    """A text that ends at its first NUL or with the stream; the bytes after the NUL are kept."""
     def write(value, _context):
         data = text_bytes(value[field])
         if not shortest <= len(data) <= longest:
@@ -20,24 +20,24 @@ def open_text(field, shortest, longest):
 
     def read(data, _context):
         if len(data) < shortest:
-            raise Refuse("truncated", 0, field)
+            raise Malformed("truncated", 0, field)
         if len(data) > longest:
-            raise Refuse("too-long", 0, field)
+            raise Malformed("too-long", 0, field)
         return {field: text(data)}
 
     return write, read
 
 
 def name_request():
-    """A name that a NUL may end and only NULs may pad."""
+    """A name that a NUL may end; only NULs may follow it."""
     write, read_open = open_text("name", 1, DYNAMIC_NAME_MAX)
 
     def read(data, context):
         value = read_open(data, context)
         body, _, tail = data.partition(b"\0")
-        for place, byte in enumerate(tail):
+        for index, byte in enumerate(tail):
             if byte:
-                raise Refuse("trailing", len(body) + 1 + place, "name")
+                raise Malformed("trailing", len(body) + 1 + index, "name")
         return value
 
     return write, read
@@ -54,16 +54,16 @@ def length_write(value, _context):
 
 def length_read(data, _context):
     if len(data) > 4:
-        raise Refuse("trailing", 4, "length")
+        raise Malformed("trailing", 4, "length")
     if len(data) not in WIDTHS:
-        raise Refuse("truncated", 0, "length")
+        raise Malformed("truncated", 0, "length")
     return {"length": number(WIDTHS[len(data)], data)}
 
 
 def index_read(data, _context):
     value, at = read_fields([("index", "UNS32")], data)
     if plain(value["index"]) == 0:
-        raise Refuse("out-of-range", 0, "index")
+        raise Malformed("out-of-range", 0, "index")
     end(data, at, "index")
     return value
 
@@ -82,7 +82,7 @@ def content_write(value, context):
         return [("content", from_hex(items["hex"]))]
     count = count_of(context)
     if len(items) != count or any(item["type"] != kind for item in items):
-        raise Bad("%s where %d of %s stand" % ([item["type"] for item in items], count, kind))
+        raise Bad("%s instead of %d items of %s" % ([item["type"] for item in items], count, kind))
     encode = text_bytes if kind == "STRING" else number_bytes
     return [("content[%d]" % i, encode(item)) for i, item in enumerate(items)]
 
@@ -90,16 +90,16 @@ def content_write(value, context):
 def content_read(data, context):
     kind = context.get("type")
     if len(data) > CONTENT_MAX:
-        raise Refuse("too-long", 0, "content")
+        raise Malformed("too-long", 0, "content")
     if kind is None:
         return {"content": {"type": "BYTES", "hex": to_hex(data)}}
     if kind == "STRING":
         return {"content": texts(data, 0, count_of(context), "content")}
     if kind not in NUMBERS:
-        raise Bad("no content is a %s" % kind)
+        raise Bad("a content cannot have the type %s" % kind)
     step, size = size_of(kind), size_of(kind) * count_of(context)
     if len(data) < size:
-        raise Refuse("truncated", 0, "content")
+        raise Malformed("truncated", 0, "content")
     end(data, size, "content")
     return {"content": [number(kind, data[at:at + step]) for at in range(0, size, step)]}
 
@@ -119,9 +119,9 @@ def by_name_read(data, _context):
     value, at = read_fields(BY_NAME + [("dimension_count", "UNS32")], data)
     count = plain(value.pop("dimension_count"))
     if len(data) > STREAM_MAX:
-        raise Refuse("too-long", at, "dimensions")
+        raise Malformed("too-long", at, "dimensions")
     if count > DIMENSIONS_MAX or 4 * count > len(data) - at:
-        raise Refuse("too-many", 16, "dimension_count")
+        raise Malformed("too-many", 16, "dimension_count")
     end(data, at + 4 * count, "dimension_count")
     value["dimensions"] = [number("UNS32", data[at + 4 * i:at + 4 * i + 4]) for i in range(count)]
     return value
@@ -150,12 +150,12 @@ def plain_truth(tagged):
 
 
 def plain_content(value):
-    """The length of a content is the object's, so of a text nothing can be left out."""
+    """A content keeps the length of its object, so its texts stay complete."""
     content = value["content"]
     return {"content": [plain_truth(item) for item in content] if isinstance(content, list) else content}
 
 
-# What a careful writer makes of a value, where that is not a matter of texts.
+# The canonical form of a value, for streams in which it differs not only in the ends of texts.
 CANONICAL = {
     "element-length": lambda value: {"length": dict(value["length"], type="UNS32")},
     "element-write-flag": lambda value: {"flag": plain_truth(value["flag"])},

@@ -1,4 +1,4 @@
-"""One sequence: by itself, and if it is rejected beside its sibling."""
+"""Check one sequence, and compare a rejected one with its sibling."""
 from . import nc, service, streaming
 from .pieces import EDIT_MAX, Bad, edit, to_bytes
 
@@ -15,13 +15,13 @@ def text_of(case):
     return to_bytes(given) if kind_of(case) == "nc-text" else b"".join(to_bytes(packet) for packet in given)
 
 
-def asked(step, given):
-    """What a step puts in, without what only follows from that."""
+def inputs(step, given):
+    """The inputs of a step, without the fields that follow from the inputs."""
     action, actor = step["action"], step.get("actor")
     services = given.get("services", {})
     keys = ["id", "actor", "action", "at", "channel"]
     if action in ("ask", "answer"):
-        # what a known service answers follows from the request
+        # the answer of a known service follows from the request
         if action == "ask" or "does" not in services.get(actor, {}):
             keys += ["uuid", "request", "request_state", "wait", "response", "response_state"]
     elif action == "write" and actor in (None, "other") and "text" not in given:
@@ -33,11 +33,11 @@ def bytes_of(step):
     return b"".join(to_bytes(step[key]) for key in ("bytes", "request", "response") if key in step)
 
 
-def left_out(good, bad):
-    """Whether one step of the good ones is left out and nothing else differs."""
-    for place, (one, other) in enumerate(zip(good, bad)):
+def lacks_one_step(good, bad):
+    """Whether the bad steps are the good steps without one of them."""
+    for index, (one, other) in enumerate(zip(good, bad)):
         if one["id"] != other["id"]:
-            return good[:place] + good[place + 1:] == bad
+            return good[:index] + good[index + 1:] == bad
     return False
 
 
@@ -52,22 +52,22 @@ def check_sibling(case, cases):
         return
     good, bad = sibling["given"][kind_of(case)], case["given"][kind_of(case)]
     if any(good.get(key) != bad.get(key) for key in ("text", "services")):
-        raise Bad("sibling %s is about something else" % sibling["id"])
+        raise Bad("sibling %s has a different text or different services" % sibling["id"])
     if len(good["steps"]) < len(bad["steps"]):
         raise Bad("sibling %s has fewer steps" % sibling["id"])
-    if left_out(good["steps"], bad["steps"]):
+    if lacks_one_step(good["steps"], bad["steps"]):
         return
     pairs = list(zip(good["steps"], bad["steps"]))
-    changed = [pair for pair in pairs if asked(pair[0], good) != asked(pair[1], bad)]
+    changed = [pair for pair in pairs if inputs(pair[0], good) != inputs(pair[1], bad)]
     if not changed and pairs[-1][0] == pairs[-1][1]:
-        raise Bad("sibling %s does the same" % sibling["id"])
+        raise Bad("sibling %s has the same steps" % sibling["id"])
     if len(changed) > 1:
         ids = ", ".join(step["id"] for _, step in changed)
         raise Bad("sibling %s differs by more than one fault: %s" % (sibling["id"], ids))
-    # these faults are in the step itself, so nothing in front of it may differ as well
+    # these faults are in the last step itself, so no earlier step may differ
     inner = case["expect"]["reject"]["class"] in ("order", "outcome", "overfull")
     if inner and any(pair is not pairs[-1] for pair in changed):
-        raise Bad("sibling %s differs in front of the fault too: %s" % (sibling["id"], changed[0][1]["id"]))
+        raise Bad("sibling %s also differs before the fault: %s" % (sibling["id"], changed[0][1]["id"]))
     for one, other in changed:
         if one["action"] == other["action"] and edit(bytes_of(one), bytes_of(other)) > EDIT_MAX:
             raise Bad("sibling %s: %d bytes differ in %s" % (sibling["id"], edit(bytes_of(one), bytes_of(other)), other["id"]))
@@ -79,7 +79,7 @@ def check(case, cases):
     if isinstance(given, dict):
         ids = [step["id"] for step in given["steps"]]
         if len(set(ids)) != len(ids):
-            raise Bad("two steps share an id")
+            raise Bad("two steps have the same id")
     if "reject" in case["expect"]:
         check_sibling(case, cases)
         return "rejected"

@@ -1,4 +1,4 @@
-"""The five variables of the Service Interface, the program that asks and the services that answer."""
+"""The five variables of the Service Interface, the program that sends requests, and the services."""
 import math
 import re
 
@@ -13,7 +13,7 @@ NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.I)
 
 
 def square_root(request):
-    """The example's C code: atof, sqrt and %f."""
+    """The C code of the example: atof, sqrt and %f."""
     number = NUMBER.match(request.decode("latin-1"))
     x = float(number.group()) if number else 0.0
     if x >= 0:
@@ -55,7 +55,7 @@ class Interface:
 
 
 class Actor:
-    """A program or a service: what it has to write next, and what it is at."""
+    """A program or a service: its next writes and its state."""
 
     def __init__(self, service=None):
         self.service, self.to_write = service, []
@@ -71,20 +71,20 @@ class Model:
         self.now = 0
 
     def step(self, step):
-        """Does a step; gives the class of its fault, if it has one."""
+        """Execute a step, and return the class of its fault, or None."""
         self.now, before = step.get("at", self.now), self.now
         if self.now < before:
-            raise Bad("%s: time goes back" % step["id"])
+            raise Bad("%s: its time is before that of the previous step" % step["id"])
         interface = self.interfaces.setdefault(step.get("channel", 1), Interface())
         if step["actor"] == "other":
             actor = None
         elif step["actor"] in self.actors:
             actor = self.actors[step["actor"]]
         else:
-            raise Bad("%s: nobody is called %s" % (step["id"], step["actor"]))
+            raise Bad("%s: no such actor: %s" % (step["id"], step["actor"]))
         return getattr(self, step["action"])(step, actor, interface)
 
-    # anybody
+    # actions of any actor
 
     def read(self, step, _actor, interface):
         return None if interface.values[variable(step)] == to_bytes(step["bytes"]) else "outcome"
@@ -102,7 +102,7 @@ class Model:
             actor.since = self.now
         return cls
 
-    # the program
+    # actions of the program
 
     def ask(self, step, program, _interface):
         request, state = to_bytes(step["request"]), int(step.get("request_state", "1"))
@@ -123,7 +123,7 @@ class Model:
 
     def waits_on(self, program, interface):
         if program.since is None or program.to_write:
-            raise Bad("the program has not asked")
+            raise Bad("the program has not sent a request")
         return interface.state("RESPONSE_STATE") == program.keep_waiting
 
     def over(self, program):
@@ -143,7 +143,7 @@ class Model:
         got = (interface.text("RESPONSE"), interface.state("RESPONSE_STATE"))
         return None if got == response(step) else "outcome"
 
-    # a service
+    # actions of a service
 
     def is_asked(self, service, interface):
         own = service.service["uuid"].encode().lower()
@@ -182,7 +182,7 @@ def response(step):
 def variable(step):
     name = step["variable"]
     if not name.startswith(PREFIX) or name[len(PREFIX):] not in TEXTS + STATES:
-        raise Bad("%s: no variable %s" % (step["id"], name))
+        raise Bad("%s: no such variable: %s" % (step["id"], name))
     name = name[len(PREFIX):]
     if "value" in step:
         agree("%s: value" % step["id"], step["value"], str(int.from_bytes(to_bytes(step["bytes"]), "little")))
@@ -196,4 +196,4 @@ def check(case):
         return
     for name, actor in model.actors.items():
         if actor.to_write or actor.serving is not None:
-            raise Bad("%s is not finished" % name)
+            raise Bad("%s has not finished its writes or its task" % name)

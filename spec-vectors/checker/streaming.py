@@ -3,7 +3,7 @@ import re
 
 from . import nc
 from .pieces import Bad, agree, to_bytes
-from .scalars import Refuse, from_hex, to_hex
+from .scalars import Malformed, from_hex, to_hex
 from .steps import follow
 
 STREAM_MAX = 4094
@@ -15,11 +15,11 @@ def program_stream_write(value, _context):
 
 
 def program_stream_read(data, _context):
-    """Whatever is written, up to a packet."""
+    """Any bytes, at least one and at most a packet."""
     if len(data) > nc.PACKET_MAX:
-        raise Refuse("too-long", 0, "data")
+        raise Malformed("too-long", 0, "data")
     if not data:
-        raise Refuse("truncated", 0, "data")
+        raise Malformed("truncated", 0, "data")
     return {"data": {"type": "BYTES", "hex": to_hex(data)}}
 
 
@@ -32,15 +32,15 @@ class Model:
         self.to_send = None if text is None else nc.packets(text)
 
     def step(self, step):
-        """Does a step and compares what comes of it; gives the class of its fault, if it has one."""
+        """Execute a step and compare its outcome; return the class of its fault, or None."""
         outcome = {"error": None, "discarded": None, "ends": None}
         cls = getattr(self, step["action"])(step, outcome)
         if cls == "not-started":
-            return cls  # what it states to come of it is a part of the fault
+            return cls  # the stated outcome is part of the fault
         for key in outcome:
             agree("%s: %s" % (step["id"], key), step.get(key), outcome[key])
         if cls in ("outcome", "overfull"):
-            return cls  # what it states to hold is a part of the fault
+            return cls  # the stated `held` is part of the fault
         agree("%s: held" % step["id"], step["held"], len(self.held))
         return cls
 
@@ -90,22 +90,22 @@ class Model:
             self.running = False
             line, outcome["ends"] = program.ends[0]
             lines = [one + b"\r\n" for one in nc.split(data)]
-            behind = b"".join(lines[line - before:])
-            if behind:
-                outcome["discarded"] = text_of(step["discarded"], behind)
-            if any(place > line for place, _ in program.code):
+            after = b"".join(lines[line - before:])
+            if after:
+                outcome["discarded"] = text_of(step["discarded"], after)
+            if any(position > line for position, _ in program.code):
                 return "lost"
         return None
 
 
 def text_of(pieces, data):
-    """The pieces, if they are these bytes."""
+    """The pieces, which must be these bytes."""
     agree("discarded", to_bytes(pieces), data)
     return pieces
 
 
 def missing_end(data):
-    """The first line that does not end in CR LF."""
+    """The end of the first line that does not end with CR LF, or None."""
     line = 1
     for end in re.finditer(rb"\r\n|\r|\n|\Z", data):
         start = max(data.rfind(b"\n", 0, end.start()), data.rfind(b"\r", 0, end.start())) + 1

@@ -1,6 +1,6 @@
 """Streams of the variables with flexible data type."""
 from .scalars import (
-    Bad, Refuse, STREAM_MAX, TEXT_MAX, count_of, end, fixed_stream, join, number, number_bytes, plain, read_fields,
+    Bad, Malformed, STREAM_MAX, TEXT_MAX, count_of, end, fixed_stream, join, number, number_bytes, plain, read_fields,
     request_text, size_of, text, text_bytes, texts, u32, write_field, write_fields,
 )
 
@@ -33,13 +33,13 @@ def description_read(data, _context):
     value, at = read_fields(DESCRIPTION + [("dimension_count", "UNS32")], data)
     count = plain(value.pop("dimension_count"))
     if count > 506 or 4 * count > len(data) - at:
-        raise Refuse("too-many", 16, "dimension_count")
+        raise Malformed("too-many", 16, "dimension_count")
     value["dimensions"] = [number("UNS32", data[at + 4 * i:at + 4 * i + 4]) for i in range(count)]
     at += 4 * count
     if len(data) == at:
-        raise Refuse("truncated", at, "name")
+        raise Malformed("truncated", at, "name")
     if len(data) - at > TEXT_MAX or len(data) > STREAM_MAX:
-        raise Refuse("too-long", at, "name")
+        raise Malformed("too-long", at, "name")
     value["name"] = text(data[at:])
     return value
 
@@ -51,11 +51,11 @@ def handle_read_write(value, _context):
 
 
 def read_indices(data):
-    """Handle, count and indices, and the offset behind them."""
+    """Handle, count and indices, and the offset after them."""
     value, at = read_fields([("handle", "UNS32"), ("index_count", "UNS32")], data)
     count = plain(value.pop("index_count"))
     if count > 510 or 4 * count > len(data) - at:
-        raise Refuse("too-many", 4, "index_count")
+        raise Malformed("too-many", 4, "index_count")
     value["indices"] = [number("UNS32", data[at + 4 * i:at + 4 * i + 4]) for i in range(count)]
     return value, at + 4 * count
 
@@ -76,7 +76,7 @@ def value_write(value, context):
     items = value["value"]
     kind = context["type"]
     if any(item["type"] != kind for item in items):
-        raise Bad("an element is no %s" % kind)
+        raise Bad("an element is not of type %s" % kind)
     if len(items) != count_of(context):
         raise Bad("%d elements for %s%s" % (len(items), kind, context["dimensions"]))
     encode = text_bytes if kind == "STRING" else number_bytes
@@ -84,20 +84,20 @@ def value_write(value, context):
 
 
 def value_items(data, at, context):
-    """The elements that take the rest of a stream from `at` on."""
+    """The elements, which take the rest of the stream from `at` on."""
     kind = context["type"]
     if kind == "STRING":
         return texts(data, at, count_of(context), "value")
     step, size = size_of(kind), size_of(kind) * count_of(context)
     if len(data) - at < size:
-        raise Refuse("truncated", at, "value")
+        raise Malformed("truncated", at, "value")
     end(data, at + size, "value")
-    return [number(kind, data[place:place + step]) for place in range(at, at + size, step)]
+    return [number(kind, data[start:start + step]) for start in range(at, at + size, step)]
 
 
 def value_read(data, context):
     if len(data) > STREAM_MAX:
-        raise Refuse("too-long", 0, "value")
+        raise Malformed("too-long", 0, "value")
     return {"value": value_items(data, 0, context)}
 
 
@@ -108,7 +108,7 @@ def handle_write_write(value, context):
 def handle_write_read(data, context):
     value, at = read_indices(data)
     if len(data) > STREAM_MAX:
-        raise Refuse("too-long", at, "value")
+        raise Malformed("too-long", at, "value")
     value["value"] = value_items(data, at, context)
     return value
 
@@ -116,17 +116,17 @@ def handle_write_read(data, context):
 def name_write_write(value, context):
     name = text_bytes(value["name"])
     if name[-1:] != b"\0" or len(name) > TEXT_MAX or "tail" in value["name"]:
-        raise Bad("the name before a value ends with its one NUL, at most 256 bytes")
+        raise Bad("the name before a value must end with exactly one NUL, and have at most 256 bytes")
     return fitting([("name", name)] + value_write(value, context))
 
 
 def name_write_read(data, context):
     name, nul, _ = data[:TEXT_MAX].partition(b"\0")
     if not nul:
-        raise Refuse("missing-nul", 0, "name")
+        raise Malformed("missing-nul", 0, "name")
     at = len(name) + 1
     if len(data) > STREAM_MAX:
-        raise Refuse("too-long", at, "value")
+        raise Malformed("too-long", at, "value")
     return {"name": text(data[:at]), "value": value_items(data, at, context)}
 
 

@@ -1,7 +1,7 @@
-"""One vector: its segments, its bytes from its value and its value from its bytes, its sibling."""
+"""Check one vector: its segments, its bytes against its value in both directions, and its sibling."""
 from . import addresses, ads, com, sda, streaming, variables
 from .pieces import EDIT_MAX, edit
-from .scalars import Bad, Refuse, count_of, from_hex, join, number_bytes, text_bytes, text_field_bytes, to_hex, write_field
+from .scalars import Bad, Malformed, count_of, from_hex, join, number_bytes, text_bytes, text_field_bytes, to_hex, write_field
 
 STREAMS = {}
 for area in (ads, addresses, com, sda, streaming, variables):
@@ -9,7 +9,7 @@ for area in (ads, addresses, com, sda, streaming, variables):
 
 
 def canonical_value(value):
-    """The value without what a careful writer leaves out: tails, open ends, odd TRUEs."""
+    """The canonical form of a value: no tails, no open ends, TRUE as 1."""
     if isinstance(value, list):
         return [canonical_value(item) for item in value]
     if isinstance(value.get("type"), str):
@@ -23,28 +23,28 @@ def canonical_value(value):
 
 
 def canonical_bytes(stream, write, value, context, given):
-    """None where the canonical form is the stream itself, or would not fit."""
-    # the texts of a name's parts end with the part
+    """The canonical bytes; None if they are the given bytes, or would not fit."""
+    # no NUL ends the texts of a variable-path
     canonical = sda.CANONICAL.get(stream, canonical_value)
-    # and those of an array with their share of the bytes
+    # and the texts of an array keep their shares of the bytes
     several = context.get("type") == "STRING" and count_of(context) != 1
     plain_value = value if stream == "variable-path" or several else canonical(value)
     try:
         data = join(write(plain_value, context))
     except Bad:
-        # a text that fills its field has no room for a NUL, so its only form is the open one
+        # a text that fills its field has no room for a NUL, so it has only the open form
         return None
     return None if data == given else data
 
 
 def segment_bytes(segment, width):
-    """The bytes a segment's own value stands for; `width` is the length of its hex."""
+    """The bytes of the value of a segment; `width` is the length of its hex."""
     value = segment["value"]
     if isinstance(value, list):
         return b"".join(number_bytes(item) for item in value)
     kind = value["type"]
     if kind == "STRING":
-        # in fields of fixed size the zeros behind the text are left out of the value
+        # in fields of fixed size, the value omits the zeros after the text
         is_field = segment["field"].split(".")[-1] in ("name", "type") and width in (16, 32) and "tail" not in value
         return text_field_bytes(value, width) if is_field else text_bytes(value)
     if kind == "BYTES":
@@ -58,17 +58,17 @@ def check_segments(vector):
         if "value" in segment:
             own = segment_bytes(segment, len(data))
             if own != data:
-                raise Bad("segment %s: hex %s, its value gives %s" % (segment["field"], to_hex(data), to_hex(own)))
+                raise Bad("segment %s: hex %s, but its value gives %s" % (segment["field"], to_hex(data), to_hex(own)))
     if not vector["segments"]:
         raise Bad("no segments")
 
 
-# What of the bytes a value does not keep.
+# Streams whose value does not keep all bytes: a function that removes the bytes that are lost.
 PLAIN = {"variable-path": addresses.path_plain}
 
 
 def check_order(vector, parts):
-    """The segments are the stream's fields, in order; one segment may take a whole list."""
+    """Check that the segments are the fields of the stream, in order; a segment may cover a whole list."""
     plain = PLAIN.get(vector["stream"], bytes)
     rest = [part for part in parts if part[1]]
     for segment in vector["segments"]:
@@ -78,21 +78,21 @@ def check_order(vector, parts):
         if not data and (field, b"") not in parts:
             raise Bad("segment %s: the stream has no such field here" % field)
         if data != plain(from_hex(segment["hex"])):
-            raise Bad("segment %s: hex %s, the value gives %s" % (field, segment["hex"], to_hex(data)))
+            raise Bad("segment %s: hex %s, but the value gives %s" % (field, segment["hex"], to_hex(data)))
     if rest:
         raise Bad("field %s has no segment" % rest[0][0])
 
 
 def differing(path, stated, derived):
-    """The innermost field in which two values differ, and both readings."""
+    """The innermost field in which two values differ, and both values of this field."""
     if isinstance(stated, dict) and isinstance(derived, dict):
         for key in list(stated) + [key for key in derived if key not in stated]:
             if stated.get(key) != derived.get(key):
                 return differing(path + "." + key, stated.get(key), derived.get(key))
     if isinstance(stated, list) and isinstance(derived, list) and len(stated) == len(derived):
-        for place, (one, other) in enumerate(zip(stated, derived)):
+        for index, (one, other) in enumerate(zip(stated, derived)):
             if one != other:
-                return differing("%s[%d]" % (path, place), one, other)
+                return differing("%s[%d]" % (path, index), one, other)
     return path.lstrip("."), stated, derived
 
 
@@ -106,8 +106,8 @@ def check_accept(vector, write, read):
         raise Bad("bytes: stated %s, from the value %s" % (to_hex(data), to_hex(join(parts))))
     try:
         derived = read(data, context)
-    except Refuse as why:
-        raise Bad("accepted, but its bytes are refused: %s" % why) from None
+    except Malformed as why:
+        raise Bad("to be accepted, but its bytes are rejected: %s" % why) from None
     if derived != accept["value"]:
         raise Bad("value %s: stated %s, from the bytes %s" % differing("", accept["value"], derived))
     canonical = canonical_bytes(vector["stream"], write, accept["value"], context, data)
@@ -116,8 +116,8 @@ def check_accept(vector, write, read):
         raise Bad("canonical: stated %s, derived %s" % tuple(None if x is None else to_hex(x) for x in (stated, canonical)))
 
 
-def told(vector):
-    """What a decoder is told beside the bytes. Which vector is answered or carried tells it nothing."""
+def decoder_context(vector):
+    """The context that a decoder uses: without the references to other vectors."""
     return {key: item for key, item in vector.get("context", {}).items() if key not in ("request", "carries")}
 
 
@@ -126,12 +126,12 @@ def check_reject(vector, read, vectors):
     stated = vector["expect"]["reject"]
     try:
         derived = read(data, vector.get("context", {}))
-    except Refuse as why:
+    except Malformed as why:
         for key, found in (("class", why.cls), ("offset", why.offset), ("field", why.field)):
             if stated[key] != found:
                 raise Bad("%s: stated %s, derived %s" % (key, stated[key], found)) from None
     else:
-        raise Bad("to be refused as %s, but its bytes read as %s" % (stated["class"], derived))
+        raise Bad("to be rejected as %s, but its bytes decode as %s" % (stated["class"], derived))
     if "sibling" in vector:
         sibling = vectors.get(vector["sibling"])
         if sibling is None:
@@ -140,8 +140,8 @@ def check_reject(vector, read, vectors):
             raise Bad("sibling %s is not accepted" % vector["sibling"])
         if sibling["stream"] != vector["stream"]:
             raise Bad("sibling: stream %s, not %s" % (sibling["stream"], vector["stream"]))
-        if told(sibling) != told(vector):
-            raise Bad("sibling %s: a decoder is told %s, not %s" % (vector["sibling"], told(sibling), told(vector)))
+        if decoder_context(sibling) != decoder_context(vector):
+            raise Bad("sibling %s: its context is %s, not %s" % (vector["sibling"], decoder_context(sibling), decoder_context(vector)))
         good = join((s["field"], from_hex(s["hex"])) for s in sibling["segments"])
         if good == data:
             raise Bad("sibling %s has the same bytes" % vector["sibling"])

@@ -1,9 +1,9 @@
-//! Documents, requirements and errata, one type for each shape of their JSON. Unknown fields are errors.
+//! Documents, requirements and errata: one type for each JSON object. Unknown fields are errors.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A manual, or the vendors' public help pages, under the short name that sources use.
+/// A manual, or the public help pages of the vendors, with the short name that sources use.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Document {
@@ -19,7 +19,7 @@ pub struct Document {
     pub sections: Vec<String>,
 }
 
-/// A place in a document.
+/// A section of a document, cited as a source.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
@@ -27,9 +27,9 @@ pub struct Source {
     pub document: String,
     /// Its edition; empty if none is printed.
     pub edition: String,
-    /// Section number, or a description where there are no numbers.
+    /// Section number, or a description if the document has no numbers.
     pub section: String,
-    /// Which example of the section; only in the provenance of a vector.
+    /// The example within the section; only in the provenance of a vector or sequence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub example: Option<String>,
 }
@@ -38,19 +38,19 @@ pub struct Source {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Basis {
-    /// Every edition that covers the subject says so.
+    /// Every edition that covers the subject states it.
     Stated,
-    /// The editions differ, and the text says how.
+    /// The editions differ; the text states how.
     Edition,
-    /// It follows from something stated or from a printed example.
+    /// It follows from a statement or from a printed example.
     Derived,
     /// From the vendors' public help pages.
     Online,
-    /// Nobody says; decided by this project.
+    /// No document states it; this project decided.
     Assumed,
 }
 
-/// What not doing it means, from the gravest to the least.
+/// The consequence of violating a clause, from the most to the least severe.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
@@ -58,7 +58,7 @@ pub enum Level {
     Must,
     /// A warning.
     Should,
-    /// A difference worth naming, no more.
+    /// A difference, which never counts as a failure.
     Info,
 }
 
@@ -70,17 +70,17 @@ pub enum Observable {
     Codec,
     /// In traffic.
     Wire,
-    /// By asking a running CNC.
+    /// By querying a running CNC.
     Live,
 }
 
-/// A part of a requirement that stands on a basis of its own.
+/// A statement that belongs to a requirement but has its own basis and level.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// ID of its requirement, a dot and a number, such as `VAR-4.2`. Never reused.
+    /// The ID of the requirement, a dot and a number, such as `VAR-4.2`. Never reused.
     pub id: String,
-    /// What it says.
+    /// The statement.
     pub text: String,
     /// Its own basis.
     pub basis: Basis,
@@ -88,7 +88,7 @@ pub struct Part {
     pub level: Level,
 }
 
-/// One thing an implementation has to do.
+/// One obligation of an implementation.
 ///
 /// ```
 /// use ads_cnc_vectors::{Level, requirement};
@@ -102,33 +102,33 @@ pub struct Part {
 pub struct Requirement {
     /// Area and number, such as `VAR-4`. Never reused.
     pub id: String,
-    /// The part of the ID in front of the number.
+    /// The part of the ID before the number.
     pub area: String,
     /// A few words.
     pub title: String,
-    /// What is required, complete with offsets and limits.
+    /// The obligation, with its offsets and limits.
     pub text: String,
-    /// Where it stands; empty if it stands nowhere.
+    /// The sections that state it; empty if no document does.
     pub sources: Vec<Source>,
     /// Basis of the text.
     pub basis: Basis,
     /// Level of the text.
     pub level: Level,
-    /// Why it binds although no manual states it: a ruling of this project.
+    /// Why it is binding although no manual states it: a ruling of this project.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ruling: Option<String>,
-    /// What belongs to the requirement on another basis.
+    /// Statements that belong to the requirement but have another basis.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Part>,
     /// How it can be judged; at least one way.
     pub observable: Vec<Observable>,
-    /// IDs of the errata that touch it.
+    /// IDs of the errata that affect it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
-    /// The vectors for it are still to come.
+    /// Its vectors have still to be added.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub pending: bool,
-    /// Why no vector is refused for it although it can be judged from bytes.
+    /// Why no bytes break it, although it can be judged from bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_reject: Option<String>,
     /// Why nothing judges it.
@@ -136,7 +136,7 @@ pub struct Requirement {
     pub excluded: Option<String>,
 }
 
-/// What a vector or a sequence cites: a requirement, or one of its parts.
+/// A requirement or a part of one, as vectors and sequences cite it.
 ///
 /// ```
 /// use ads_cnc_vectors::{Level, clause};
@@ -159,17 +159,17 @@ impl Clause {
         self.part.map_or(&self.requirement.id, |part| &part.id)
     }
 
-    /// What it says.
+    /// The text of the cited requirement or part.
     pub fn text(&self) -> &'static str {
         self.part.map_or(&self.requirement.text, |part| &part.text)
     }
 
-    /// Where it comes from.
+    /// The basis of the cited requirement or part.
     pub fn basis(&self) -> Basis {
         self.part.map_or(self.requirement.basis, |part| part.basis)
     }
 
-    /// What not doing it means.
+    /// The level of the cited requirement or part.
     pub fn level(&self) -> Level {
         self.part.map_or(self.requirement.level, |part| part.level)
     }
@@ -201,18 +201,18 @@ impl fmt::Display for ClauseId {
     }
 }
 
-/// What no document says but a vector or a sequence needs.
+/// An assumption that a vector or a sequence needs and that no document states.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Assumption {
     /// The assumption.
     pub text: String,
-    /// Whether the expected outcome rests on it; otherwise it only sets the scene.
+    /// Whether the expected outcome rests on it. If not, it only supplies a circumstance.
     pub decides: bool,
-    /// Whether the bytes that an encoder writes rest on it, though what a decoder reads does not.
+    /// Whether only the bytes that an encoder writes rest on it, and not the value that a decoder reads.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub encodes: bool,
-    /// What alone rests on it; `None` for the whole outcome.
+    /// The only part of the outcome that rests on it; `None` for the whole outcome.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<About>,
 }
@@ -222,14 +222,14 @@ pub struct Assumption {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum About {
-    /// How texts end: whether a NUL ends them, and what follows it. Characters do not rest on it.
+    /// How a text ends: whether a NUL ends it, and the bytes that follow. Its characters do not rest on this.
     End,
-    /// Whether the bytes are accepted, and how many are written for a value: a number may have another width.
-    /// The value of bytes that are accepted does not rest on it.
+    /// Whether the bytes are accepted, and how many bytes are written for a value: a number may have
+    /// another width. The value of accepted bytes does not rest on this.
     Acceptance,
 }
 
-/// The weakest level of these clauses; [`Level::Info`] if an assumption decides.
+/// The weakest level among these clauses; [`Level::Info`] if an assumption decides.
 pub(crate) fn level(cited: &[String], assumed: &[Assumption]) -> Level {
     if assumed.iter().any(|one| one.decides) {
         return Level::Info;
@@ -237,7 +237,7 @@ pub(crate) fn level(cited: &[String], assumed: &[Assumption]) -> Level {
     levels(cited).max().unwrap_or(Level::Info)
 }
 
-/// The weakest level of those of these clauses that a document states.
+/// The weakest level among the clauses that a document states.
 pub(crate) fn stated_level(cited: &[String]) -> Level {
     levels(cited).filter(|level| *level != Level::Info).max().unwrap_or(Level::Info)
 }
@@ -257,7 +257,7 @@ pub(crate) fn requirements_of(cited: &[String]) -> Vec<&'static Requirement> {
     all
 }
 
-/// One reading of a place that contradicts another, or itself.
+/// One of the readings that contradict each other.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reading {
@@ -267,21 +267,21 @@ pub struct Reading {
     pub edition: String,
     /// Section, or several.
     pub section: String,
-    /// The fact in question, as that place has it.
+    /// The fact in question, as this section states it.
     pub reading: String,
 }
 
-/// How firm a ruling is.
+/// Whether a ruling is final.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// Decided for the time being: only a running CNC can tell.
+    /// Decided provisionally: only a running CNC can answer the question.
     Open,
     /// Decided.
     Ruled,
 }
 
-/// A contradiction in the documents, and what was decided.
+/// A contradiction in the documents, and the ruling on it.
 ///
 /// ```
 /// use ads_cnc_vectors::{Status, erratum};
@@ -298,13 +298,13 @@ pub struct Erratum {
     pub id: String,
     /// A few words.
     pub title: String,
-    /// Each reading with its place.
+    /// Each reading with its section.
     pub readings: Vec<Reading>,
-    /// What was decided.
+    /// The decision.
     pub ruling: String,
-    /// How firmly.
+    /// Whether the ruling is final.
     pub status: Status,
-    /// What a running CNC has to be asked; for those that are open.
+    /// The question for a running CNC; only for an open erratum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub question: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! The two ways numbers are written as text: bytes as `02 00 00 02`, addresses as `0x122301`.
+//! The text forms of bytes (`02 00 00 02`) and of addresses (`0x122301`).
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -27,8 +27,8 @@ impl Deref for Hex {
 
 impl fmt::Display for Hex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (place, byte) in self.0.iter().enumerate() {
-            let gap = if place == 0 { "" } else { " " };
+        for (index, byte) in self.0.iter().enumerate() {
+            let gap = if index == 0 { "" } else { " " };
             write!(f, "{gap}{byte:02x}")?;
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! The IDs of all requirements and of their parts, as constants.
 //!
-//! A program that cites a requirement which does not exist fails to compile:
+//! A program that cites a requirement that does not exist fails to compile:
 //!
 //! ```
 //! use ads_cnc_vectors::{clause, ids};

@@ -1,15 +1,15 @@
 //! Golden vectors, errata and a requirement catalogue for the ADS interface of ISG and TwinCAT CNCs.
 //!
-//! The data is JSON under `data/`, with a JSON Schema for each file under `schema/`; it is meant for any
-//! language, and `README.md` describes it field by field. This crate embeds the files and reads them:
+//! The data is JSON in `data/`, for any language, with a JSON Schema for each file in `schema/`.
+//! `README.md` describes it field by field. This crate embeds the files and parses them:
 //!
-//! - a [`Requirement`] says what an implementation has to do, in which edition of which manual that
-//!   stands, and how firmly;
-//! - an [`Erratum`] holds what contradicts itself in the manuals, each reading with its place, and what
-//!   was decided;
-//! - a [`Vector`] is one stream, cut into annotated [`Segment`]s, with the value it stands for or the
-//!   fault it has to be refused for;
-//! - a [`Sequence`] is what takes a whole text or several steps to show: data streaming and the Service
+//! - a [`Requirement`] states an obligation of an implementation, its sources in the manuals, and its
+//!   level;
+//! - an [`Erratum`] records a contradiction in the manuals: each reading with its section, and the
+//!   ruling;
+//! - a [`Vector`] is one stream, divided into annotated [`Segment`]s, with its value or with the fault
+//!   for which it has to be rejected;
+//! - a [`Sequence`] is a case that needs a whole text or several steps: data streaming and the Service
 //!   Interface.
 //!
 //! ```
@@ -23,8 +23,8 @@
 //! assert_eq!(handle.integer(), Some(0x0200_0004));
 //! ```
 //!
-//! Nothing here encodes or decodes: the vectors judge codecs, so they are derived from no codec.
-//! `check.py` derives them a second time, with nothing but Python's `struct`.
+//! This crate neither encodes nor decodes: the vectors judge codecs, so none of them is derived from a
+//! codec. `check.py` verifies them independently, using only Python's `struct`.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,4 +1,4 @@
-//! The files of `data/`, part of the program, parsed once.
+//! The files of `data/`, embedded in the crate and parsed once.
 
 use crate::catalogue::{Clause, Document, Erratum, Requirement};
 use crate::sequence::Sequence;
@@ -9,13 +9,13 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// Version of the data, which every file states and the crate has too.
+/// Version of the data. Every file states it, and it is the version of the crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Everything the crate holds.
+/// All data of the crate.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Catalogue {
-    /// Documents that sources and readings name.
+    /// The documents that sources and readings cite.
     pub documents: Vec<Document>,
     /// Requirements, by area and number.
     pub requirements: Vec<Requirement>,
@@ -27,12 +27,12 @@ pub struct Catalogue {
     pub sequences: Vec<Sequence>,
 }
 
-/// A file of `data/` is not what this crate's types expect.
+/// A file of `data/` does not match the types of this crate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LoadError {
     /// Path of the file in the crate.
     pub file: &'static str,
-    /// What is wrong with it, and where.
+    /// The fault, with its line and column.
     pub message: String,
 }
 
@@ -44,10 +44,10 @@ impl fmt::Display for LoadError {
 
 impl std::error::Error for LoadError {}
 
-/// Everything the crate holds, or what is wrong with a file.
+/// All data of the crate.
 ///
-/// The other functions give nothing where this one gives an error. The crate's own tests make sure that
-/// it doesn't.
+/// If a file does not match its types, this function returns the error, and the other functions return
+/// empty lists or `None`. The tests of the crate verify that all files load.
 ///
 /// ```
 /// let catalogue = ads_cnc_vectors::catalogue()?;
@@ -59,7 +59,7 @@ pub fn catalogue() -> Result<&'static Catalogue, &'static LoadError> {
     CATALOGUE.get_or_init(read).as_ref()
 }
 
-/// The documents that sources and readings name.
+/// The documents that sources and readings cite.
 ///
 /// ```
 /// assert!(ads_cnc_vectors::documents().iter().any(|d| d.document == "ads-en" && d.edition == "1.05"));
@@ -84,13 +84,13 @@ pub fn requirements() -> &'static [Requirement] {
 /// assert!(ads_cnc_vectors::requirement("VAR-0").is_none());
 /// ```
 pub fn requirement(id: &str) -> Option<&'static Requirement> {
-    // The suite asks with every check.
+    // The suite looks up a requirement in every check.
     static BY_ID: OnceLock<HashMap<&str, &Requirement>> = OnceLock::new();
     let by_id = || requirements().iter().map(|item| (item.id.as_str(), item)).collect();
     BY_ID.get_or_init(by_id).get(id).copied()
 }
 
-/// The requirement with this ID, or the part with it and its requirement.
+/// The requirement with this ID, or the part with this ID and its requirement.
 ///
 /// ```
 /// assert_eq!(ads_cnc_vectors::clause("VAR-7").unwrap().part, None);
@@ -274,7 +274,7 @@ mod tests {
         assert!(error.message.contains("extra"), "{error}");
     }
 
-    /// Nor is anything of a sequence.
+    /// The types neither lose nor change any field of a sequence: serializing it gives the same JSON.
     #[test]
     fn sequences_survive_a_round_trip() {
         for &(file, text) in SEQUENCES {
@@ -289,7 +289,7 @@ mod tests {
         }
     }
 
-    /// Nothing of a vector is lost or changed by the types: what is read writes the same JSON.
+    /// The types neither lose nor change any field of a vector: serializing it gives the same JSON.
     #[test]
     fn vectors_survive_a_round_trip() {
         for &(file, text) in VECTORS {

@@ -1,4 +1,4 @@
-//! Sequences: what takes a text or several steps to show. Unknown fields are errors.
+//! Sequences: cases that need a text or several steps. Unknown fields are errors.
 
 use crate::catalogue::{self, Assumption, Level, Requirement};
 use crate::hex::Hex;
@@ -14,7 +14,7 @@ pub enum Piece {
     Text(String),
     /// Bytes.
     Hex(HexPiece),
-    /// ASCII characters so many times.
+    /// Repeated ASCII characters.
     Fill(FillPiece),
 }
 
@@ -32,11 +32,11 @@ pub struct HexPiece {
 pub struct FillPiece {
     /// The characters, mostly one.
     pub fill: String,
-    /// How often.
+    /// How many times they are repeated.
     pub count: usize,
 }
 
-/// Bytes that a person can read: long ones and those that are no ASCII are written short.
+/// Bytes in a readable form: long repetitions and bytes outside ASCII have their own pieces.
 ///
 /// ```
 /// use ads_cnc_vectors::Pieces;
@@ -61,32 +61,32 @@ impl Pieces {
     }
 }
 
-/// How a write to the stream is answered.
+/// The answer to a write to the stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StreamAck {
-    /// It was taken.
+    /// The interface accepted the write.
     Accepted,
-    /// Refused for now; the same has to come again.
+    /// The interface rejected the write for now; the client has to write the same bytes again.
     Later,
-    /// Refused for good.
+    /// The interface rejected the write permanently.
     Refused,
 }
 
-/// Where the CNC finds fault with what it has read.
+/// Where the CNC finds a fault in the data that it has read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StreamError {
-    /// Number of the CNC's error, if it is printed.
+    /// Number of the CNC error, if it is printed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub number: Option<u32>,
-    /// Line since the start of the program, from 1.
+    /// Line, counted from the start of the program, from 1.
     pub line: u32,
     /// Column, from 1.
     pub column: u32,
 }
 
-/// What happens at the streaming interface.
+/// An action at the streaming interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StreamAction {
@@ -94,7 +94,7 @@ pub enum StreamAction {
     Start,
     /// The client writes.
     Write,
-    /// The CNC takes what is there.
+    /// The CNC takes all bytes that the interface holds.
     Take,
     /// NC reset.
     Reset,
@@ -106,24 +106,24 @@ pub enum StreamAction {
 pub struct StreamStep {
     /// A slug; never a number.
     pub id: String,
-    /// Milliseconds; those of the step before if there are none.
+    /// Time in milliseconds; `None` for the time of the previous step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<u64>,
-    /// What happens.
+    /// The action.
     pub action: StreamAction,
-    /// What is written or taken.
+    /// The bytes that are written or taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bytes: Option<Pieces>,
-    /// Of a write: the answer.
+    /// For a write: the answer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ack: Option<StreamAck>,
-    /// Of a take: the fault that the CNC finds in it.
+    /// For a take: the fault that the CNC finds in the bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<StreamError>,
-    /// Of a take: the program end in it.
+    /// For a take: the program end in the bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<String>,
-    /// Of a take: the lines behind the program end, which are not run.
+    /// For a take: the lines after the program end, which are discarded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub discarded: Option<Pieces>,
     /// Bytes that the interface holds after the step.
@@ -134,10 +134,10 @@ pub struct StreamStep {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Streaming {
-    /// The text that the client streams; without it, writes just happen.
+    /// The text that the client streams; `None` if the case does not test a client.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub text: Option<Pieces>,
-    /// What happens.
+    /// The steps, in their order.
     pub steps: Vec<StreamStep>,
 }
 
@@ -147,12 +147,12 @@ pub struct Streaming {
 pub struct ExternalService {
     /// Its UUID.
     pub uuid: String,
-    /// What it does, if that is known: `square-root`.
+    /// The task of the service, if it is known: `square-root`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub does: Option<String>,
 }
 
-/// What somebody does at the Service Interface.
+/// An action at the Service Interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ServiceAction {
@@ -160,11 +160,11 @@ pub enum ServiceAction {
     Read,
     /// Writes a variable.
     Write,
-    /// The program decides to ask; its writes follow.
+    /// The program decides to send a request; its writes follow.
     Ask,
-    /// The program looks, and goes on waiting.
+    /// The program checks for the response and continues to wait.
     Wait,
-    /// The program has the response and goes on.
+    /// The program continues with the response.
     Done,
     /// The program gives up.
     Timeout,
@@ -172,7 +172,7 @@ pub enum ServiceAction {
     Serve,
     /// The service has finished its task; its writes follow.
     Answer,
-    /// The service looks, and has nothing to do.
+    /// The service checks for a request and has nothing to do.
     Idle,
 }
 
@@ -180,13 +180,13 @@ pub enum ServiceAction {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WaitParameters {
-    /// `@P1`: the response state in which it goes on waiting.
+    /// `@P1`: the response state in which the program continues to wait.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub p1: Option<String>,
-    /// `@P2`: the longest wait in milliseconds.
+    /// `@P2`: the maximum wait in milliseconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub p2: Option<String>,
-    /// `@P3`: the timer's ID.
+    /// `@P3`: the ID of the timer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub p3: Option<String>,
 }
@@ -197,44 +197,44 @@ pub struct WaitParameters {
 pub struct ServiceStep {
     /// A slug; never a number.
     pub id: String,
-    /// Milliseconds; those of the step before if there are none.
+    /// Time in milliseconds; `None` for the time of the previous step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<u64>,
-    /// Channel; 1 if there is none.
+    /// Channel; `None` for channel 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<u32>,
-    /// `program`, a service by its name, or `other`: anybody, with no role to keep.
+    /// `program`, the name of a service, or `other`: any other party, which has no prescribed role.
     pub actor: String,
-    /// What is done.
+    /// The action.
     pub action: ServiceAction,
     /// Variable that is read or written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variable: Option<String>,
-    /// Its bytes, a text's NUL included.
+    /// Its bytes, including the NUL of a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bytes: Option<Pieces>,
-    /// Of a state: the number, in decimal.
+    /// For a state: its number, in decimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<String>,
-    /// Service that is asked.
+    /// UUID of the service to which the request is sent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uuid: Option<String>,
-    /// What it is asked, without a NUL.
+    /// The request, without a NUL.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub request: Option<Pieces>,
-    /// Request state, in decimal; 1 if there is none.
+    /// Request state, in decimal; `None` for 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub request_state: Option<String>,
-    /// How the program waits; for ever if there is none.
+    /// How the program waits; `None` if it waits without a limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wait: Option<WaitParameters>,
-    /// What is answered, without a NUL.
+    /// The response, without a NUL.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response: Option<Pieces>,
     /// Response state, in decimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response_state: Option<String>,
-    /// A service may leave this write out, or do it after the steps that follow.
+    /// A service may omit this write, or perform it after later steps.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub optional: bool,
 }
@@ -245,17 +245,17 @@ pub struct ServiceStep {
 pub struct ServiceSequence {
     /// The services by name.
     pub services: BTreeMap<String, ExternalService>,
-    /// What happens.
+    /// The steps, in their order.
     pub steps: Vec<ServiceStep>,
 }
 
-/// What a case is about.
+/// The input of a case; its variant is the kind of the case.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Given {
-    /// A text to be put into packets.
+    /// A text to be divided into packets.
     NcText(Pieces),
-    /// A text, in packets, to be looked through for what streaming does not permit.
+    /// A text, in packets, to be checked for constructs that streaming does not permit.
     NcCheck(Vec<Pieces>),
     /// Steps at the streaming interface.
     Streaming(Streaming),
@@ -263,49 +263,49 @@ pub enum Given {
     Service(ServiceSequence),
 }
 
-/// The case holds.
+/// The text can be sent, the check finds no fault, or all steps proceed as stated.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SequenceAccept {
-    /// Of a text to be put into packets: these.
+    /// For a text to be divided into packets: the packets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packets: Option<Vec<Pieces>>,
 }
 
-/// The case does not hold: why, and where.
+/// The fault of a case, and its position.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SequenceReject {
-    /// Sort of fault.
+    /// Class of the fault.
     pub class: String,
-    /// Of a finding: the requirement it is about.
+    /// For a fault that a check finds: the violated requirement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clause: Option<String>,
-    /// Of a text: the line at fault, from 1.
+    /// For a text: the faulty line, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
-    /// Of a text: the column at fault, from 1.
+    /// For a text: the faulty column, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<u32>,
-    /// Of a finding: the line of the label or of the program end it has to do with.
+    /// For a fault that a check finds: the line of the label or program end to which it refers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refers_to: Option<u32>,
-    /// Of steps: the one at fault, which is the last.
+    /// For steps: the faulty step, which is the last one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<String>,
 }
 
-/// What has to come of a case.
+/// The expected outcome of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SequenceExpect {
-    /// It holds.
+    /// The case has no fault.
     Accept(SequenceAccept),
-    /// It does not.
+    /// The case has a fault.
     Reject(SequenceReject),
 }
 
-/// A text or a sequence of steps, and what has to come of it.
+/// A text or a sequence of steps, and the expected outcome.
 ///
 /// ```
 /// use ads_cnc_vectors::{Given, sequence};
@@ -326,34 +326,34 @@ pub struct Sequence {
     /// IDs of the requirements, or of parts of them, that its texts, steps or outcome exercise; at
     /// least one.
     pub requirements: Vec<String>,
-    /// IDs of the errata it bears on.
+    /// IDs of the errata that affect it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
-    /// Short names of the documents whose edition says so, if others say otherwise.
+    /// Documents that state the expected outcome, if another edition contradicts it or omits it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub editions: Vec<String>,
     /// The text or the steps.
     pub given: Given,
-    /// What has to come of it.
+    /// The expected outcome.
     pub expect: SequenceExpect,
-    /// For a rejected one: the accepted case from which it differs by this fault alone.
+    /// For a rejected case: an accepted case that differs only in lacking this fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<String>,
-    /// Where it comes from.
+    /// Its origin.
     pub provenance: Provenance,
-    /// What no document says but the case needs.
+    /// The assumptions that the case needs and that no document states.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<Assumption>,
 }
 
 impl Sequence {
-    /// Whether it holds.
+    /// Whether the expected outcome is [`SequenceExpect::Accept`].
     pub fn is_accepted(&self) -> bool {
         matches!(self.expect, SequenceExpect::Accept(_))
     }
 
-    /// What failing it means: the weakest level of what it cites, and [`Level::Info`] if an
-    /// assumption decides the outcome.
+    /// The level of the case: [`Level::Info`] if an assumption decides the outcome, otherwise the
+    /// weakest level among the cited clauses.
     ///
     /// ```
     /// use ads_cnc_vectors::{Level, sequence};
@@ -365,12 +365,12 @@ impl Sequence {
         catalogue::level(&self.requirements, &self.assumed)
     }
 
-    /// The requirements of what it cites, each once.
+    /// The cited requirements, and those of the cited parts, each once.
     pub fn cited(&self) -> Vec<&'static Requirement> {
         catalogue::requirements_of(&self.requirements)
     }
 
-    /// Word for what it is about, as in its JSON.
+    /// The kind of the case, as in its JSON.
     pub fn kind(&self) -> &'static str {
         match self.given {
             Given::NcText(_) => "nc-text",

@@ -1,11 +1,11 @@
-//! Vectors, one type for each shape of their JSON. Unknown fields are errors.
+//! Vectors: one type for each JSON object. Unknown fields are errors.
 
 use crate::catalogue::{self, Assumption, Level, Requirement, Source};
 use crate::hex::{Hex, address};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Which way a stream goes.
+/// Direction of a stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
@@ -13,7 +13,7 @@ pub enum Direction {
     Request,
     /// From the CNC.
     Reply,
-    /// Either way.
+    /// In both directions.
     Both,
 }
 
@@ -76,14 +76,14 @@ pub enum Type {
     String,
     /// AMS NetId, 6 bytes.
     NetId,
-    /// Bytes without a meaning of their own.
+    /// Bytes without a further structure.
     Bytes,
-    /// A word of this project for a part of an address; not on the wire.
+    /// A word for a part of an address; defined by this project, and not in the stream.
     Name,
 }
 
 impl Type {
-    /// The name in the files; of a type of the manuals, the manuals' name.
+    /// The name in the files; for a type of the manuals, its name in the manuals.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Boolean => "BOOLEAN",
@@ -114,7 +114,7 @@ impl Type {
     }
 }
 
-/// What is known beside the bytes.
+/// Information that is known in addition to the bytes.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Context {
@@ -130,13 +130,13 @@ pub struct Context {
     /// Type of the elements of a value, or of the items of a content.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<Type>,
-    /// Dimensions of a value or content; none of them for a single element.
+    /// Dimensions of a value or content; an empty list for a single element.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dimensions: Option<Vec<u32>>,
-    /// What an axis counts in an index offset.
+    /// Stride of an axis in an index offset.
     #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
     pub stride: Option<u32>,
-    /// Index group without its channel, axis or spindle, which are added to it.
+    /// Base of an index group, to which a channel, axis or spindle was added.
     #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
     pub base: Option<u32>,
     /// Vector of the stream that is the data of a frame's service.
@@ -165,16 +165,16 @@ pub struct Tagged {
     /// Type.
     #[serde(rename = "type")]
     pub kind: Type,
-    /// The number in decimal, the NetId, the name, or the CP1252 reading of a text; none for bytes.
+    /// The number in decimal, the NetId, the name, or a text decoded as CP1252; `None` for bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<String>,
-    /// The bytes of a text in front of its NUL, or plain bytes.
+    /// The bytes of a text before its NUL, or plain bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hex: Option<Hex>,
     /// Bits of a float, as `0x…`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<String>,
-    /// Bytes behind the first NUL of a text.
+    /// Bytes after the first NUL of a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tail: Option<Hex>,
     /// The text has no NUL.
@@ -183,7 +183,7 @@ pub struct Tagged {
 }
 
 impl Tagged {
-    /// The value of an integer type, BOOLEAN and BOOL included.
+    /// The value of an integer type, including BOOLEAN and BOOL. `None` for other types.
     pub fn integer(&self) -> Option<i128> {
         match self.kind {
             Type::Boolean | Type::Uns08 | Type::Uns16 | Type::Uns32 => {}
@@ -195,7 +195,7 @@ impl Tagged {
         self.value.as_deref()?.parse().ok()
     }
 
-    /// The bits of a float, those of a REAL32 or REAL in the low half.
+    /// The bits of a float; those of a REAL32 or REAL are in the low half. `None` for other types.
     pub fn real_bits(&self) -> Option<u64> {
         let digits = self.bits.as_deref()?.strip_prefix("0x")?;
         u64::from_str_radix(digits, 16).ok()
@@ -205,7 +205,7 @@ impl Tagged {
 /// The fields of a stream under their names.
 pub type Fields = BTreeMap<String, Value>;
 
-/// What a stream or one of its fields stands for.
+/// The value of a stream or of one of its fields.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {
@@ -213,12 +213,12 @@ pub enum Value {
     One(Tagged),
     /// A list: dimensions, indices, elements, descriptors.
     List(Vec<Value>),
-    /// A record with fields of its own.
+    /// A record with its own fields.
     Record(Fields),
 }
 
 impl Value {
-    /// The single value, if it is one.
+    /// The single value, or `None` for a list or a record.
     pub fn tagged(&self) -> Option<&Tagged> {
         match self {
             Value::One(tagged) => Some(tagged),
@@ -226,7 +226,7 @@ impl Value {
         }
     }
 
-    /// The items, if it is a list.
+    /// The items of a list, or `None` for a single value or a record.
     pub fn list(&self) -> Option<&[Value]> {
         match self {
             Value::List(items) => Some(items),
@@ -235,15 +235,15 @@ impl Value {
     }
 }
 
-/// A piece of a stream that a person can hold beside the manual.
+/// A part of a stream, at most one field or list, so that a reader can compare it with the manual.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Segment {
-    /// Field it belongs to, such as `dimensions[0]`, or `trailing` and the like for a fault.
+    /// The field, such as `dimensions[0]`; for a fault also a name such as `trailing`.
     pub field: String,
-    /// Its bytes; none for a field that takes no room.
+    /// Its bytes; empty for a field without bytes.
     pub hex: Hex,
-    /// What these bytes alone stand for.
+    /// The value of these bytes, if they have a value of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
 }
@@ -252,9 +252,9 @@ pub struct Segment {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accept {
-    /// What it stands for, without the numbers that only count something else in it.
+    /// Its value, without the numbers that only count something else in the stream.
     pub value: Fields,
-    /// How a careful writer puts the same value, if that is another stream.
+    /// The canonical bytes of the value, if they differ from the stream.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub canonical: Option<Hex>,
 }
@@ -263,51 +263,51 @@ pub struct Accept {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reject {
-    /// Sort of fault; advice for a codec that has its own.
+    /// Class of the fault. Advisory: a codec may classify faults differently.
     pub class: String,
-    /// First byte of the field at fault, or the first byte too many; advice likewise.
+    /// Offset of the faulty field, or of the first extra byte. Advisory.
     pub offset: usize,
-    /// Field at fault; advice likewise.
+    /// The faulty field. Advisory.
     pub field: String,
 }
 
-/// What a codec has to make of a stream.
+/// The expected outcome of decoding a stream.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Expect {
-    /// Decode it to the value.
+    /// A codec has to decode it to the value.
     Accept(Accept),
-    /// Refuse it.
+    /// A codec has to reject it.
     Reject(Reject),
 }
 
-/// Sort of origin.
+/// Kind of origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ProvenanceKind {
     /// An example printed in the manuals.
     Manual,
-    /// Made up for a reason.
+    /// Made for a reason.
     Derived,
     /// Found by fuzzing.
     Fuzz,
 }
 
-/// Where a vector comes from.
+/// The origin of a vector or a sequence.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// Sort of origin.
+    /// Kind of origin.
     pub kind: ProvenanceKind,
-    /// Why it was made; only for those that are not printed.
+    /// Why it was made; only if it is not a printed example.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The printed example, or what the vector is derived from.
+    /// The printed example, or the examples from which the vector is derived.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sources: Vec<Source>,
 }
 
-/// One stream, and what a codec has to make of it.
+/// One stream and the expected outcome of decoding it.
 ///
 /// ```
 /// use ads_cnc_vectors::{Expect, vector, vectors};
@@ -328,46 +328,46 @@ pub struct Vector {
     /// IDs of the requirements, or of parts of them, that its bytes or its outcome exercise; at
     /// least one.
     pub requirements: Vec<String>,
-    /// IDs of the errata it bears on.
+    /// IDs of the errata that affect it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
-    /// Sort of stream.
+    /// Kind of stream.
     pub stream: String,
-    /// Which way it goes.
+    /// Direction of the stream.
     pub direction: Direction,
-    /// Short names of the documents whose edition says so, if others say otherwise.
+    /// Documents that state the expected outcome, if another edition contradicts it or omits it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub editions: Vec<String>,
-    /// What is known beside the bytes.
+    /// Information that is known in addition to the bytes.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub context: Context,
-    /// The bytes, piece by piece.
+    /// The bytes, field by field.
     pub segments: Vec<Segment>,
-    /// What a codec has to make of them.
+    /// The expected outcome.
     pub expect: Expect,
-    /// For a rejected one: the accepted vector from which it differs by this fault alone.
+    /// For a rejected vector: an accepted vector that differs only in lacking this fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<String>,
-    /// Where it comes from.
+    /// Its origin.
     pub provenance: Provenance,
-    /// What no document says but the vector needs.
+    /// The assumptions that the vector needs and that no document states.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<Assumption>,
 }
 
 impl Vector {
-    /// The stream: all segments, one behind the other.
+    /// The stream: the bytes of all segments, concatenated.
     pub fn bytes(&self) -> Vec<u8> {
         self.segments.iter().flat_map(|segment| segment.hex.iter().copied()).collect()
     }
 
-    /// Whether a codec has to accept it.
+    /// Whether a codec has to accept the stream.
     pub fn is_accepted(&self) -> bool {
         matches!(self.expect, Expect::Accept(_))
     }
 
-    /// What failing it means: the weakest level of what it cites, and [`Level::Info`] if an
-    /// assumption decides the outcome.
+    /// The level of the vector: [`Level::Info`] if an assumption decides the outcome, otherwise the
+    /// weakest level among the cited clauses.
     ///
     /// ```
     /// use ads_cnc_vectors::{Level, vector};
@@ -379,28 +379,28 @@ impl Vector {
         catalogue::level(&self.requirements, &self.assumed)
     }
 
-    /// What writing other bytes means: [`Vector::level`], and [`Level::Info`] if an assumption
-    /// decides what an encoder writes.
+    /// The level for encoding the value: [`Level::Info`] if an assumption decides which bytes an
+    /// encoder writes, otherwise [`Vector::level`].
     ///
     /// ```
     /// use ads_cnc_vectors::{Level, vector};
     ///
     /// let description = vector("description-printed-boolean-array").unwrap();
     /// assert_eq!(description.level(), Level::Must);
-    /// // No manual says whether a NUL follows the name.
+    /// // No manual states whether a NUL follows the name.
     /// assert_eq!(description.encoding_level(), Level::Info);
     /// ```
     pub fn encoding_level(&self) -> Level {
         if self.assumed.iter().any(|one| one.encodes) { Level::Info } else { self.level() }
     }
 
-    /// What a difference means that no assumption is about: the weakest level of what it cites and a
-    /// document states.
+    /// The level of a difference that no assumption covers: the weakest level among the cited clauses
+    /// that a document states.
     ///
     /// ```
     /// use ads_cnc_vectors::{Level, vector};
     ///
-    /// // No manual says that the number has four bytes; that it is 16 is not assumed.
+    /// // The width of four bytes is assumed; the value, 16, is not.
     /// let count = vector("object-count").unwrap();
     /// assert_eq!((count.level(), count.stated_level()), (Level::Info, Level::Must));
     /// ```
@@ -408,7 +408,7 @@ impl Vector {
         catalogue::stated_level(&self.requirements)
     }
 
-    /// The requirements of what it cites, each once.
+    /// The cited requirements, and those of the cited parts, each once.
     pub fn cited(&self) -> Vec<&'static Requirement> {
         catalogue::requirements_of(&self.requirements)
     }

@@ -1,24 +1,24 @@
-//! What requirements and errata say of their places and of their vectors is so.
+//! Requirements and errata cite existing sections, and have the vectors that they claim.
 
 use ads_cnc_vectors::{
     Basis, ClauseId, Observable, Requirement, documents, errata, requirement, requirements, vectors,
 };
 use std::collections::BTreeSet;
 
-/// Sections of `document` that `sources` cite.
+/// The sections of `document` that the requirement cites.
 fn sections<'a>(requirement: &'a Requirement, document: &str) -> BTreeSet<&'a str> {
     let cited = requirement.sources.iter().filter(|s| s.document == document);
     cited.map(|s| s.section.as_str()).collect()
 }
 
 #[test]
-fn every_area_is_there() {
+fn every_area_has_requirements() {
     let areas: BTreeSet<&str> = requirements().iter().map(|r| r.area.as_str()).collect();
     let all = ["ADR", "ADS", "COM", "DYN", "GEN", "OBJ", "SDA", "STM", "SVC", "VAR"];
     assert_eq!(areas, BTreeSet::from(all));
 }
 
-/// What the build script reads line by line is what the JSON has.
+/// The build script, which does not parse JSON, finds the IDs that the JSON has.
 #[test]
 fn ids_known_to_the_compiler_are_those_of_the_requirements() {
     let parts = |one: &'static Requirement| one.parts.iter().map(|part| part.id.as_str());
@@ -34,7 +34,7 @@ fn errata_are_numbered_without_gaps() {
     }
 }
 
-/// A section that is cited is one of its document. Requirements cite one at a time.
+/// Every cited section is a section of its document. A requirement cites one section per source.
 #[test]
 fn cited_sections_exist() {
     let exists = |id: &str, document: &str, section: &str| {
@@ -77,11 +77,11 @@ fn nothing_is_cited_twice() {
     }
 }
 
-/// The two editions of a manual have the same sections, so what one says is looked up in the other
-/// too. Where only one says it, the basis says so, or it is listed here.
+/// The two editions of a manual have the same sections, so a requirement cites both. If only one
+/// edition states it, its basis is `edition`, or it is listed here.
 #[test]
 fn both_editions_are_cited() {
-    // The note on the HLD and the chapter on cycles are in one edition only.
+    // Only one edition has the note on the HLD and the chapter on cycles.
     const ONE_ONLY: [&str; 3] = ["SDA-13", "SVC-8", "SVC-12"];
     for r in requirements() {
         let same = sections(r, "ads-en") == sections(r, "ads-de")
@@ -94,22 +94,22 @@ fn both_editions_are_cited() {
     }
 }
 
-/// As soon as there is a vector for what is pending, it is pending no more.
+/// A requirement that has a vector is not pending.
 #[test]
 fn pending_requirements_have_no_vectors() {
     for r in requirements().iter().filter(|r| r.pending) {
         assert!(r.observable.contains(&Observable::Codec), "{} is not about bytes", r.id);
         let citing = vectors().iter().find(|v| v.requirements.contains(&r.id));
-        assert_eq!(citing.map(|v| &v.id), None, "{} is pending no more", r.id);
+        assert_eq!(citing.map(|v| &v.id), None, "{} has a vector and is pending", r.id);
     }
 }
 
 #[test]
-fn nothing_judges_what_is_excluded() {
+fn excluded_requirements_have_no_vectors() {
     for r in requirements().iter().filter(|r| r.excluded.is_some()) {
         assert!(!r.pending, "{}", r.id);
         let citing = vectors().iter().find(|v| v.requirements.contains(&r.id));
-        assert_eq!(citing.map(|v| &v.id), None, "{} is excluded", r.id);
+        assert_eq!(citing.map(|v| &v.id), None, "{} has a vector and is excluded", r.id);
     }
     assert!(requirement("DYN-8").is_some_and(|r| r.excluded.is_some()));
 }

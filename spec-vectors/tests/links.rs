@@ -1,4 +1,4 @@
-//! What refers to something else refers to something that is there.
+//! Every reference between the data files names an existing entry.
 
 use ads_cnc_vectors::{
     Basis, Direction, Expect, Level, Observable, ProvenanceKind, Sequence, Value, Vector,
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 #[test]
-fn data_is_there() {
+fn every_list_has_entries() {
     assert_eq!(catalogue().err(), None);
     for (what, count) in [
         ("documents", documents().len()),
@@ -28,7 +28,7 @@ fn ids_are_unique() {
     let unique = |what: &str, ids: Vec<&str>| {
         let mut seen = BTreeSet::new();
         for id in ids {
-            assert!(seen.insert(id), "{what} {id} is there twice");
+            assert!(seen.insert(id), "{what} {id} exists twice");
         }
     };
     unique("document", documents().iter().map(|x| x.document.as_str()).collect());
@@ -45,12 +45,12 @@ fn vector_ids_are_slugs() {
         };
         assert!(v.id.split('-').all(slug), "{}", v.id);
         let words = v.id.split('-').any(|part| part.bytes().any(|c| c.is_ascii_lowercase()));
-        assert!(words, "{} is nothing but a number", v.id);
+        assert!(words, "{} is only a number", v.id);
     }
 }
 
 #[test]
-fn areas_are_complete() {
+fn requirements_are_numbered_without_gaps() {
     let mut found: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
     for r in requirements() {
         let (area, number) = r.id.split_once('-').expect("area and number");
@@ -88,11 +88,11 @@ fn sources_name_known_editions() {
     }
 }
 
-/// Must for what the documents say or what follows from it, should for the help pages, info for what
-/// is assumed. What binds all the same is marked as a ruling; what binds less is listed here.
+/// `must` for statements of the documents and their consequences, `should` for the help pages, `info`
+/// for assumptions. Stricter levels are marked as rulings; weaker levels are listed here.
 #[test]
 fn levels_follow_the_basis() {
-    // The manual says "should"; a sample program obliges nobody.
+    // The manual says "should"; the behaviour of a sample program is not binding.
     const WEAKER: [(&str, Level); 2] = [("STM-17", Level::Should), ("STM-6.1", Level::Info)];
     let level = |id: &str, basis| match basis {
         _ if WEAKER.iter().any(|(one, _)| *one == id) => {
@@ -115,13 +115,13 @@ fn levels_follow_the_basis() {
             assert_eq!(part.level, level(&part.id, part.basis), "{}", part.id);
         }
         if matches!(r.basis, Basis::Stated | Basis::Edition) {
-            assert!(!r.sources.is_empty(), "{} is stated nowhere", r.id);
+            assert!(!r.sources.is_empty(), "{} has no source", r.id);
         }
     }
 }
 
 #[test]
-fn vectors_cite_what_exists() {
+fn vectors_cite_existing_entries() {
     for v in vectors() {
         assert!(!v.requirements.is_empty(), "{} cites no requirement", v.id);
         for id in &v.requirements {
@@ -141,7 +141,7 @@ fn vectors_cite_what_exists() {
     }
 }
 
-/// Group and offset a request goes to: from its context, or its own fields if it is a whole ADS request.
+/// Group and offset of a request: from its context, or from its own fields if it is a whole ADS request.
 fn address(request: &Vector) -> (Option<u32>, Option<u32>) {
     if request.context.service.is_some() {
         return (request.context.index_group, request.context.index_offset);
@@ -149,7 +149,7 @@ fn address(request: &Vector) -> (Option<u32>, Option<u32>) {
     let Expect::Accept(accept) = &request.expect else {
         return (None, None);
     };
-    // In a frame they are in the part that is the request.
+    // In a frame, the request has them.
     let part = accept.value.iter().find_map(|(name, value)| match value {
         Value::Record(fields) if name.ends_with("_request") => Some(fields),
         _ => None,
@@ -209,12 +209,12 @@ fn every_stream_has_both_verdicts() {
 fn streams_have_segments() {
     for v in vectors() {
         assert!(!v.segments.is_empty(), "{}", v.id);
-        // Only a field at the end can be there without a byte.
+        // Only the last field may be empty.
         let (_, before) = v.segments.split_last().expect("not empty");
         for segment in before {
             assert!(!segment.hex.is_empty(), "{}: {}", v.id, segment.field);
         }
-        // Two accepted vectors with one stream of bytes would have to be one.
+        // Two accepted vectors of the same stream and bytes would be duplicates.
         if v.is_accepted() {
             let same = |w: &&Vector| {
                 w.id != v.id && w.is_accepted() && w.stream == v.stream && w.bytes() == v.bytes()
@@ -226,8 +226,8 @@ fn streams_have_segments() {
     }
 }
 
-/// What can be judged from bytes has bytes that show it, and bytes that break it unless there is a
-/// reason why none can. What is said to be missing is.
+/// A requirement that can be judged from bytes has accepted vectors, and rejected vectors unless it
+/// states why no bytes break it. A pending requirement lacks vectors.
 #[test]
 fn requirements_about_bytes_have_both_verdicts() {
     let cited = |accepted: bool| -> BTreeSet<&str> {
@@ -242,7 +242,7 @@ fn requirements_about_bytes_have_both_verdicts() {
         let about_bytes = r.observable.contains(&Observable::Codec);
         let (shown, broken) = (accepted.contains(id), rejected.contains(id));
         assert!(about_bytes || r.no_reject.is_none(), "{id} is not about bytes");
-        assert!(!broken || r.no_reject.is_none(), "{id} says that nothing breaks it");
+        assert!(!broken || r.no_reject.is_none(), "{id} has `no_reject` and a rejected vector");
         assert!(!(shown || broken) || r.excluded.is_none(), "{id} is excluded and has vectors");
         let is_complete = shown && (broken || r.no_reject.is_some());
         if r.pending {
@@ -254,9 +254,9 @@ fn requirements_about_bytes_have_both_verdicts() {
     }
 }
 
-/// A frame around another vector's stream holds that stream, and goes where that goes.
+/// A frame that carries another vector ends with the stream of that vector, and has its address.
 #[test]
-fn frames_carry_what_they_name() {
+fn frames_carry_the_named_vector() {
     for v in vectors() {
         let Some(id) = &v.context.carries else { continue };
         assert_eq!(v.stream, "ams-frame", "{}", v.id);
@@ -281,7 +281,7 @@ fn frames_carry_what_they_name() {
 }
 
 #[test]
-fn printed_examples_name_their_place() {
+fn printed_examples_name_their_source() {
     for v in vectors() {
         let place = &v.provenance;
         match place.kind {
@@ -320,7 +320,7 @@ fn readme_shows_real_entries() {
         } else if let Some(found) = requirement(id) {
             serde_json::to_value(found)
         } else {
-            serde_json::to_value(erratum(id).unwrap_or_else(|| panic!("{id} is nowhere")))
+            serde_json::to_value(erratum(id).unwrap_or_else(|| panic!("{id} does not exist")))
         };
         assert_eq!(example, real.expect("serializes"), "{id}");
     }

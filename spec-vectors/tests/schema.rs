@@ -1,4 +1,4 @@
-//! Every data file obeys its schema, and the schemas refuse what they should.
+//! Every data file conforms to its schema, and the schemas reject malformed files.
 
 use jsonschema::Validator;
 use serde_json::{Value, json};
@@ -37,24 +37,24 @@ fn assert_valid(validator: &Validator, path: &Path) {
         .map(|error| format!("{} at {}", error, error.instance_path()))
         .collect();
     assert!(errors.is_empty(), "{}: {errors:#?}", path.display());
-    // the file names the schema it was judged by
+    // The file names the schema with which it was validated.
     let named = document["$schema"].as_str().expect("a schema");
     let target = path.parent().expect("a folder").join(named);
     assert!(target.is_file(), "{} names {named}", path.display());
 }
 
 #[test]
-fn requirements_obey() {
+fn requirements_conform() {
     assert_valid(&schema("requirements"), &root().join("data/requirements.json"));
 }
 
 #[test]
-fn errata_obey() {
+fn errata_conform() {
     assert_valid(&schema("errata"), &root().join("data/errata.json"));
 }
 
 #[test]
-fn vectors_obey() {
+fn vectors_conform() {
     let validator = schema("vectors");
     let files = files_of("vectors");
     assert!(!files.is_empty());
@@ -64,7 +64,7 @@ fn vectors_obey() {
 }
 
 #[test]
-fn sequences_obey() {
+fn sequences_conform() {
     let validator = schema("sequences");
     let files = files_of("sequences");
     assert!(!files.is_empty());
@@ -73,9 +73,9 @@ fn sequences_obey() {
     }
 }
 
-/// Each change makes a good document bad, so a schema that accepts everything fails here.
+/// Each change makes a valid document invalid, so a schema that accepts everything fails this test.
 #[test]
-fn wrong_documents_are_refused() {
+fn invalid_documents_are_rejected() {
     type Change = fn(&mut Value);
     type Changes = &'static [(&'static str, Change)];
     let cases: [(&str, &str, Changes); 6] = [
@@ -100,7 +100,7 @@ fn wrong_documents_are_refused() {
                 ("open without a question", |d| {
                     d["errata"][1]["status"] = json!("open");
                 }),
-                ("question though it is ruled", |d| {
+                ("question of a ruled erratum", |d| {
                     d["errata"][1]["question"] = json!("x?");
                 }),
             ],

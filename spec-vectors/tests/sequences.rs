@@ -1,4 +1,4 @@
-//! What holds for the sequences beyond their schema.
+//! Properties of the sequences that their schema cannot express.
 
 use ads_cnc_vectors::{
     Given, ProvenanceKind, Sequence, SequenceExpect, clause, documents, erratum, requirement,
@@ -10,13 +10,13 @@ use std::collections::{BTreeMap, BTreeSet};
 fn ids_are_unique() {
     let mut seen = BTreeSet::new();
     for case in sequences() {
-        assert!(seen.insert(&case.id), "{} is there twice", case.id);
+        assert!(seen.insert(&case.id), "{} exists twice", case.id);
         assert!(vector(&case.id).is_none(), "{} is a vector too", case.id);
         let words = case.id.split('-').any(|part| part.bytes().any(|c| c.is_ascii_lowercase()));
-        assert!(words, "{} is nothing but a number", case.id);
+        assert!(words, "{} is only a number", case.id);
         let mut steps = BTreeSet::new();
         for id in step_ids(case) {
-            assert!(steps.insert(id), "{}: {id} is there twice", case.id);
+            assert!(steps.insert(id), "{}: {id} exists twice", case.id);
         }
     }
 }
@@ -30,7 +30,7 @@ fn step_ids(case: &Sequence) -> Vec<&str> {
 }
 
 #[test]
-fn sequences_cite_what_exists() {
+fn sequences_cite_existing_entries() {
     let known: BTreeSet<_> =
         documents().iter().map(|d| (d.document.as_str(), d.edition.as_str())).collect();
     for case in sequences() {
@@ -75,7 +75,7 @@ fn rejected_sequences_have_a_sibling() {
     }
 }
 
-/// A sibling that differs by one fault has the same steps before it, or the one that is left out.
+/// A sibling has the same steps before the fault, or one additional step.
 #[test]
 fn siblings_have_the_same_steps() {
     for case in sequences() {
@@ -101,20 +101,20 @@ fn every_kind_has_both_verdicts() {
     }
 }
 
-/// Requirements that no case shows though the catalogue has not excluded them, and why.
+/// Requirements without a case although the catalogue does not exclude them, and why.
 const UNSHOWN: [(&str, &str); 2] = [
-    ("STM-21", "which other errors there are is for the NC language to say"),
-    ("SVC-11", "a version, which no stream of these areas carries"),
+    ("STM-21", "the NC language defines the other errors"),
+    ("SVC-11", "no stream of these areas has a version"),
 ];
 
-/// Requirements of which there is no way to be at fault that a text or steps could show, and why.
+/// Requirements whose violation no text or step can show, and why.
 const ONLY_ACCEPTED: [(&str, &str); 2] = [
-    ("STM-16", "motion stops, which no stream shows"),
-    ("STM-18", "whether the subroutine is run, no stream shows"),
+    ("STM-16", "no stream shows that motion stops"),
+    ("STM-18", "no stream shows whether the subroutine is executed"),
 ];
 
-/// Both areas are about texts and order, so what can be judged has a case that holds and one that
-/// does not.
+/// Both areas are about texts and order, so a requirement that can be judged has an accepted and a
+/// rejected case.
 #[test]
 fn requirements_have_both_verdicts() {
     let (mut accepted, mut rejected) = (BTreeSet::new(), BTreeSet::new());
@@ -131,10 +131,14 @@ fn requirements_have_both_verdicts() {
         if shown {
             assert!(accepted.contains(id), "{id} has no accepted case");
         }
-        let refusable = shown && !listed(&ONLY_ACCEPTED) && r.no_reject.is_none();
-        assert_eq!(rejected.contains(id), refusable, "{id}: rejected cases, or a reason why none");
+        let can_be_broken = shown && !listed(&ONLY_ACCEPTED) && r.no_reject.is_none();
+        assert_eq!(
+            rejected.contains(id),
+            can_be_broken,
+            "{id}: a rejected case or a reason, not both"
+        );
     }
     for (id, _) in UNSHOWN.iter().chain(&ONLY_ACCEPTED) {
-        assert!(requirement(id).is_some(), "{id} is nowhere");
+        assert!(requirement(id).is_some(), "{id} does not exist");
     }
 }

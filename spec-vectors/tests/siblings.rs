@@ -1,22 +1,22 @@
-//! A rejected vector differs from its sibling in what it is rejected for, and in nothing else.
+//! A rejected vector differs from its sibling only in the fault for which it is rejected.
 
 use ads_cnc_vectors::{Context, Vector, vector, vectors};
 
-/// A count and the item it adds.
+/// A count and the additional item.
 const EDIT_MAX: usize = 8;
 
-/// Bytes in the one place where two streams differ; 0 if one of them is the other, cut or continued.
+/// The length of the part in which two streams differ; 0 if one of them begins with the other.
 fn edit(good: &[u8], bad: &[u8]) -> usize {
     let front = good.iter().zip(bad).take_while(|(one, other)| one == other).count();
     if front == good.len().min(bad.len()) {
         return 0;
     }
-    let behind = good[front..].iter().rev().zip(bad[front..].iter().rev());
-    good.len().max(bad.len()) - front - behind.take_while(|(one, other)| one == other).count()
+    let back = good[front..].iter().rev().zip(bad[front..].iter().rev());
+    good.len().max(bad.len()) - front - back.take_while(|(one, other)| one == other).count()
 }
 
 #[test]
-fn the_place_that_differs_is_found() {
+fn edit_measures_the_differing_part() {
     assert_eq!(edit(b"abcd", b"abcd"), 0);
     assert_eq!(edit(b"abcd", b"ab"), 0);
     assert_eq!(edit(b"ab", b"abcd"), 0);
@@ -26,16 +26,16 @@ fn the_place_that_differs_is_found() {
     assert_eq!(edit(b"aaaa", b"aab"), 2);
 }
 
-/// What a decoder is told. Which vector is answered or carried tells it nothing.
-fn told(v: &Vector) -> Context {
+/// The context that a decoder uses: without the references to other vectors.
+fn decoder_context(v: &Vector) -> Context {
     Context { request: None, carries: None, ..v.context.clone() }
 }
 
 #[test]
-fn siblings_differ_in_one_place() {
+fn siblings_differ_in_one_part() {
     for v in vectors() {
         let Some(sibling) = v.sibling.as_deref().and_then(vector) else { continue };
-        assert_eq!(told(v), told(sibling), "{} is told something else than {}", v.id, sibling.id);
+        assert_eq!(decoder_context(v), decoder_context(sibling), "{} and {}", v.id, sibling.id);
         let differing = edit(&sibling.bytes(), &v.bytes());
         assert!(differing <= EDIT_MAX, "{}: {differing} bytes from {}", v.id, sibling.id);
     }

@@ -6,25 +6,25 @@ use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
 use crate::common::{self, Bend, Fault};
 use crate::{Defect, Outcome};
 
-/// The streams of a family. An input picks one by its place with its first byte: add at the end.
+/// The streams of a family. The first byte of an input is an index here, so add new streams at the end.
 pub(crate) type Family = &'static [Stream];
 
-/// The first byte picks the stream, the rest are its bytes.
+/// Input: an index of the stream (1 byte), then the bytes of the stream.
 ///
-/// Borrowed reading, owned reading and the walk by the field table agree, errors included; what
-/// they accept encodes to the same bytes, as many as announced, and into no smaller buffer.
-/// `decode_prefix`, `BinRead` and `BinWrite` agree with them.
+/// The borrowed reading, the owned reading and the walk by the field table agree, errors included;
+/// bytes that they accept encode to the same bytes, to as many as announced, and into no smaller
+/// buffer. `decode_prefix`, `BinRead` and `BinWrite` agree with them.
 pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&stream) = family.get(usize::from(pick)) else { return Outcome::unread() };
     match common::check_bent(stream, bytes, &bend(defect)) {
-        // They encode to themselves.
+        // Accepted bytes encode to themselves.
         Ok(()) => Outcome::accepted((pick, bytes)),
         Err(error) => Outcome::refused(shown(error)),
     }
 }
 
-/// The parts of an error that mean the same in every build.
+/// The parts of an error that do not depend on the build.
 pub(crate) fn shown(error: Error) -> (String, u32, u32, u32) {
     (
         format!("{:?} {}", error.kind(), error.field()),
@@ -40,41 +40,41 @@ pub(crate) const DEFECTS: &[&str] = match VARIABLE_DEFECTS {
     [] => &[],
 };
 
-/// A program stream ends where its bytes end: no bytes follow it.
+/// The defects for program streams, which take all bytes, so that no bytes can follow them.
 pub(crate) const STREAMING_DEFECTS: &[&str] = match DEFECTS {
     [of_all @ .., _, _, _, _, _] => of_all,
     _ => &[],
 };
 
-/// Values are read by a type too.
+/// The defects for variables, whose values are also read by a type.
 pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "the last byte loses its top bit when it is encoded",
-    "an error is one byte off if it is behind the first eight bytes",
-    "the length of what has eight bytes or more is announced one too long",
+    "the offset of an error after the first eight bytes is off by one",
+    "the announced length is one too high if it is eight or more",
     "the readings differ if the last byte is odd",
-    "of more than 16 bytes one of 0xB5 becomes 0xB4 when it is encoded",
+    "a byte 0xB5 is encoded as 0xB4 if there are more than 16 bytes",
     "a buffer that is too small is written into",
-    "an error is of another kind",
-    "an error names no field",
-    "an error has found one more than there is if that is more than eight",
-    "a vector has a byte too much if the last is 0",
-    "a segment of more than four bytes is shown as one byte less",
-    "a stream that no byte follows has one byte less by `decode_prefix`",
+    "an error has a different kind",
+    "an error lacks its field",
+    "the number that an error found is one too high if it is more than eight",
+    "a vector has an extra byte if its last byte is 0",
+    "a segment of more than four bytes is shown without its last byte",
+    "`decode_prefix` returns one byte less if no byte follows the stream",
     "`decode_prefix` rejects an accepted stream of more than four bytes",
-    "`BinWrite` writes the last of more than four bytes wrong",
+    "`BinWrite` writes a wrong last byte if there are more than four",
     "`BinRead` rejects an accepted stream of more than four bytes",
-    "`BinRead` accepts what is rejected",
-    "`BinRead` consumes what it rejects",
-    "what is joined from the segments of more than eight bytes lacks the last byte",
-    "`decode_prefix` takes the bytes that follow a stream for a part of it",
-    "`decode_prefix` accepts what is rejected, but for its last byte",
+    "`BinRead` accepts a rejected stream",
+    "`BinRead` consumes a stream that it rejects",
+    "the segments of more than eight bytes lack the last byte",
+    "`decode_prefix` counts the bytes after a stream as part of the stream",
+    "`decode_prefix` accepts a rejected stream without its last byte",
     "`decode_prefix` rejects a stream if bytes follow it",
     "`BinRead` and `BinWrite` lose the last byte of a stream that bytes follow",
     "`BinRead` rejects a stream if bytes follow it",
-    "bytes of a value behind the sixteenth lose their top bit when they are written by a type",
+    "typed bytes of a value after the sixteenth lose their top bit when they are written",
 ];
 
-/// Those of a target that has some of them, by their numbers here; 0 is none.
+/// The defect of a target that has only some of the defects, which `some` lists by number; 0 is none.
 pub(crate) fn bend_among(some: &[u8], defect: Defect) -> Bend {
     let number = (1..).zip(some).find(|(own, _)| defect.is(*own));
     bend(number.map_or(Defect::NONE, |(_, number)| Defect::new(*number)))
@@ -249,7 +249,7 @@ pub(crate) const VARIABLE: Family = &[
     Stream::VariableDescriptionByName,
 ];
 
-/// Object addresses and what an element has.
+/// Object addresses and the attributes of elements.
 pub(crate) const SDA: Family = &[
     Stream::ObjectAddressQuery,
     Stream::ObjectAddress,
@@ -285,9 +285,9 @@ pub(crate) const FAMILIES: &[(&str, Family)] = &[
 mod tests {
     use super::*;
 
-    /// Every stream is fuzzed, in one family.
+    /// Every stream belongs to exactly one family.
     #[test]
-    fn families_are_the_streams() {
+    fn every_stream_is_in_one_family() {
         for subject in common::SUBJECTS {
             let of = FAMILIES.iter().filter(|(_, family)| family.contains(&subject.stream));
             assert_eq!(of.count(), 1, "{}", subject.stream);

@@ -1,4 +1,4 @@
-//! What streaming does not permit in a program, packet by packet.
+//! The check for constructs that streaming does not permit, lot by lot.
 
 use ads_cnc::streaming::{DiagnosticKind, NcText};
 
@@ -6,20 +6,20 @@ use crate::common::checker::{CheckedLots, check_any_lots};
 use crate::common::findings::{FindingsBend, check_findings};
 use crate::{Defect, Outcome};
 
-/// What ends a lot: no character of a text.
+/// The byte that ends a lot. It is not a character of NC text.
 const CUT: u8 = 0xFF;
 
-/// More lots are more of the same, and take their time.
+/// More lots find nothing new, and take time.
 const LOTS: usize = 12;
 
-/// NC text; a byte 0xFF ends the lines that come together.
+/// Input: NC text, in which a byte 0xFF ends a lot of lines.
 ///
-/// Lot by lot the same is found as in all that came so far, whole; findings are in the text and in
-/// its order, and line ends do not matter. Text that cannot be streamed is checked all the same.
+/// The findings in each lot are those that the whole text up to there has in this lot, in the order
+/// of the text, whatever the line ends. Text that cannot be streamed is checked too.
 pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
     let lots: Vec<&[u8]> = data.splitn(LOTS, |&byte| byte == CUT).collect();
     check_any_lots(lots.iter().copied());
-    // Whole lines, which no lot behind them can join.
+    // Whole lines, which the next lot cannot continue.
     let lots: Vec<Vec<u8>> = lots
         .iter()
         .map(|lot| if lot.ends_with(b"\n") { lot.to_vec() } else { [lot, &b"\n"[..]].concat() })
@@ -38,11 +38,11 @@ pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
 }
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "lines are counted anew in each lot",
-    "a jump back to a line that came before is overlooked",
-    "what is behind the program end of an earlier lot is overlooked",
-    "a loop word behind the tenth line is overlooked if there is another finding",
-    "two findings change places",
+    "line numbers start again in each lot",
+    "a backward jump to a line of an earlier lot is not found",
+    "lines after the program end of an earlier lot are not found",
+    "a loop keyword after the tenth line is not found if there is another finding",
+    "two findings are swapped",
 ];
 
 fn bend(defect: Defect) -> FindingsBend {

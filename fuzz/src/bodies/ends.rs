@@ -1,4 +1,4 @@
-//! Both ends of a stream: the sender and the simulated CNC's interface.
+//! Both ends of a stream: the sender and the interface of the simulated CNC.
 
 use ads_cnc::limits::NC_LINE_MAX;
 use ads_cnc::streaming::{Ack, NcText};
@@ -9,12 +9,12 @@ use crate::common::streaming::{CheckedSender, SenderBend};
 use crate::machines::{CheckedInterface, InterfaceBend};
 use crate::{Defect, Outcome};
 
-/// How many lines there are and a byte each: how long it is (the upper six bits, most of them
-/// short), how it ends (the lower two); then events, a byte each: see below. A line is of that
-/// byte, so that lines differ.
+/// Input: the number of lines, and one byte for each line: its length (the upper six bits, most
+/// lengths are short) and its line end (the lower two bits). Then one byte for each event, see below.
+/// The characters of a line depend on its byte, so that lines differ.
 ///
-/// Whatever is acknowledged and read: a sender loses and repeats nothing and counts right, the
-/// interface is a bounded queue, and what comes out of it is the text.
+/// Whatever is acknowledged and read, a sender loses nothing, repeats nothing and counts correctly,
+/// the interface is a bounded queue, and its output is the text.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let lines = input.byte() % 8;
@@ -27,16 +27,16 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         text.resize(text.len() + len, b' ' + byte % 0x5F);
         text.extend_from_slice([&b"\r\n"[..], b"\n", b"\r", b"\r\n"][usize::from(byte % 4)]);
     }
-    // The last line may be open, or end in another way.
+    // The last line may lack its line end, or have a different one.
     if lines % 2 == 1 {
         text.pop();
     }
-    assert!(NcText::new(&text).is_ok(), "lines are made to be streamed");
+    assert!(NcText::new(&text).is_ok(), "the lines can be streamed");
 
     let mut sender = CheckedSender::new(&text, sender_bend(defect));
     let mut interface = CheckedInterface::new(interface_bend(defect));
     let (mut got, mut verdicts) = (Vec::new(), Vec::new());
-    // As long as nothing else comes between, the interface gets what the sender sends.
+    // Whether the interface has received only the packets of the sender.
     let mut pure = true;
     for event in input.take(200) {
         match event % 8 {
@@ -47,7 +47,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
             }
             3 => drop(sender.packet()),
             4 => {
-                // The answer to a write that never came to the interface.
+                // The answer to a write that did not reach the interface.
                 let ack = [Ack::Busy, Ack::Accepted, Ack::Busy, Ack::Rejected];
                 let ack = ack[usize::from(event >> 3) % 4];
                 sender.acknowledge(ack);
@@ -62,7 +62,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
                 pure = false;
             }
             6 => {}
-            // Somebody else writes.
+            // Another client writes.
             _ => {
                 let line = b"N1 \r\n\n\r".repeat(143);
                 interface.write(&line[..usize::from(event >> 3) * 32 + 1]);
@@ -82,12 +82,12 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
 }
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "a packet that is refused for now is not repeated",
-    "a sender hands out packets after one was refused for good",
-    "the second packet counts a line too few",
+    "a packet that was rejected for now is not repeated",
+    "a sender continues after a packet was rejected permanently",
+    "the second packet counts one line too few",
     "the interface loses the last byte of a write of more than 500",
     "the interface takes the first byte of a write that does not fit",
-    "a reset keeps what is there if it is more than a packet",
+    "a reset keeps the held bytes if they are more than a packet",
 ];
 
 fn sender_bend(defect: Defect) -> SenderBend {

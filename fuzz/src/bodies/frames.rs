@@ -1,4 +1,4 @@
-//! AMS frames on a stream, however its bytes arrive.
+//! AMS frames in a stream whose bytes arrive in any pieces.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::FrameRef;
@@ -7,12 +7,12 @@ use super::input::Input;
 use crate::common::{SPLIT, Split, check_frames, check_verdicts_stay, frame};
 use crate::{Defect, Outcome};
 
-/// The longest data that is permitted, how many cuts there are, the cuts (2 bytes each); then
-/// frames: length of the data, place and change of a byte in the headers, data. Places behind the
-/// headers change nothing.
+/// Input: the maximum length of data, the number of cuts, the cuts (2 bytes each); then frames: the
+/// length of the data, the offset and change of a byte in the headers, the data. An offset after the
+/// headers changes nothing.
 ///
-/// Cut anywhere, the stream gives the frames that it gives uncut, one by one, and then the same
-/// fault or the same rest. Each frame comes out with its last byte, each fault with its own.
+/// Cut anywhere, the stream gives the same frames one by one as the uncut stream, and then the same
+/// fault or rest. Each frame and each fault is found with its last byte.
 pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let (max_data, count) = (input.byte().into(), input.byte() % 16);
@@ -35,14 +35,14 @@ pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
 
     let split = split(defect);
     let uncut = check_frames([&stream[..]], max_data, split);
-    // The frames before the first that is damaged; a change may be one that nothing says against.
+    // The frames before the first damaged one; a changed frame may still be valid.
     assert!(uncut.0.starts_with(&whole), "{stream:x?}");
     let mut places: Vec<usize> = cuts.iter().map(|&cut| cut % (stream.len() + 1)).collect();
     places.extend([0, stream.len()]);
     places.sort_unstable();
     let pieces = places.windows(2).map(|cut| &stream[cut[0]..cut[1]]);
     assert_eq!(check_frames(pieces, max_data, split), uncut, "cut at {places:?}: {stream:x?}");
-    // What is behind the frames, byte by byte.
+    // The bytes after the frames, one by one.
     let taken: usize = uncut.0.iter().map(Vec::len).sum();
     let behind = &stream[taken..];
     check_verdicts_stay(&behind[..behind.len().min(64)], max_data, split);
@@ -55,12 +55,12 @@ pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
 }
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "a frame of more than eight bytes of data takes a byte too few of the stream",
-    "a fault shows only with the bytes behind the headers",
-    "a fault is forgotten when sixty bytes are there",
-    "data one byte longer than permitted is taken",
+    "a frame with more than eight bytes of data consumes one byte too few",
+    "a fault is found only with the bytes after the headers",
+    "a fault is forgotten once sixty bytes are present",
+    "data that is one byte too long is accepted",
     "a frame loses its last byte of data if there are more than sixteen",
-    "no frame comes out as long as there are just three bytes behind it",
+    "no frame is found while exactly three bytes follow it",
 ];
 
 fn split(defect: Defect) -> Split {
@@ -99,7 +99,7 @@ fn split(defect: Defect) -> Split {
         .unwrap_or(SPLIT)
 }
 
-/// Writes what [`frames`] reads: cuts, then frames by their data, place and change.
+/// Writes an input of [`frames`]: cuts, then frames by their data, and the offset and change of a byte.
 pub(crate) fn write(max_data: u8, cuts: &[u16], frames: &[(&[u8], u8, u8)]) -> Vec<u8> {
     let mut bytes = vec![max_data, cuts.len() as u8];
     bytes.extend(cuts.iter().flat_map(|cut| cut.to_le_bytes()));

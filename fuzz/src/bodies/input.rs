@@ -1,6 +1,6 @@
-//! Inputs that stand for numbers, choices and events: each byte has a meaning where it is.
+//! Inputs that encode numbers, choices and events.
 
-/// What is left of an input.
+/// The rest of an input.
 #[derive(Clone, Copy)]
 pub(crate) struct Input<'a>(&'a [u8]);
 
@@ -13,13 +13,13 @@ impl<'a> Input<'a> {
         self.0.is_empty()
     }
 
-    /// All that is left.
+    /// All remaining bytes.
     #[cfg(feature = "tools")]
     pub(crate) const fn rest(self) -> &'a [u8] {
         self.0
     }
 
-    /// The next byte; behind the end 0.
+    /// The next byte; 0 after the end.
     pub(crate) fn byte(&mut self) -> u8 {
         self.next().unwrap_or(0)
     }
@@ -36,32 +36,32 @@ impl<'a> Input<'a> {
         u32::from_le_bytes(self.number())
     }
 
-    /// So many bytes, or as many as there are.
+    /// The next `len` bytes, or all remaining bytes if there are fewer.
     pub(crate) fn bytes(&mut self, len: usize) -> &'a [u8] {
         let (bytes, rest) = self.0.split_at(len.min(self.0.len()));
         self.0 = rest;
         bytes
     }
 
-    /// As many bytes as the next byte says.
+    /// A length of one byte, then bytes of this length.
     pub(crate) fn piece(&mut self) -> &'a [u8] {
         let len = self.byte().into();
         self.bytes(len)
     }
 
-    /// As many bytes as the next two say.
+    /// A length of two bytes, then bytes of this length.
     pub(crate) fn long_piece(&mut self) -> &'a [u8] {
         let len = self.word().into();
         self.bytes(len)
     }
 
-    /// One of these, the same for the same byte.
+    /// The item that the next byte selects.
     pub(crate) fn choose<'t, T>(&mut self, of: &'t [T]) -> &'t T {
         &of[usize::from(self.byte()) % of.len()]
     }
 }
 
-/// Each byte that is left.
+/// The remaining bytes.
 impl Iterator for Input<'_> {
     type Item = u8;
 

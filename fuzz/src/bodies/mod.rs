@@ -1,4 +1,4 @@
-//! The bodies: each reads an input its own way and holds what it finds to a law.
+//! The bodies of the targets. Each interprets the input in its own way and checks its laws.
 
 pub(crate) mod bytes;
 #[cfg(feature = "alloc")]

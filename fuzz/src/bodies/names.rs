@@ -3,11 +3,11 @@
 use crate::common::names::{NameBend, check_name};
 use crate::{Defect, Outcome};
 
-/// The input is a name in CP1252, up to its first NUL.
+/// Input: a name in CP1252, up to its first NUL.
 ///
-/// From CP1252 and from UTF-8 it has the same parts, which are those that splitting the string
-/// finds, or the same fault; it is put together again; and before the place of its fault nothing
-/// is wrong.
+/// From CP1252 and from UTF-8, the name has the same parts, which are those that splitting the string
+/// finds, or the same fault. The parts give the same name again. Before the offset of a fault, the
+/// name has no fault.
 pub(crate) fn path(data: &[u8], defect: Defect) -> Outcome {
     let text = data.split(|&byte| byte == 0).next().unwrap_or(data);
     match check_name(text, bend(defect)) {
@@ -17,11 +17,11 @@ pub(crate) fn path(data: &[u8], defect: Defect) -> Outcome {
 }
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "an index over a byte is cut",
+    "an index above 255 loses its upper bits",
     "the kind V.CYC is read as V.C",
     "the fourth part is lost",
-    "an error is a character off behind the tenth",
-    "a name of more than thirty characters is written without its last one",
+    "the offset of an error after the tenth character is off by one",
+    "a name of more than thirty characters is written without the last character",
 ];
 
 fn bend(defect: Defect) -> NameBend {

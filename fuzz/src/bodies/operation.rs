@@ -1,4 +1,4 @@
-//! What goes out as a call, what a server makes of it, and what it answers.
+//! Operations that a client encodes to calls, their dispatch by a server, and the replies.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::address::{
@@ -14,10 +14,10 @@ use super::input::Input;
 use crate::common::{self, Parameters};
 use crate::{Defect, Outcome};
 
-/// A call: port (2 bytes), service (1), group, offset and read length (4 each), data.
+/// Input: a call: port (2 bytes), service (1), group, offset and read length (4 each), data.
 ///
-/// Dispatch refuses it, or finds a request that encodes to a call with the same service, address and
-/// data, which is dispatched to itself.
+/// Dispatch rejects it, or gives a request that encodes to a call with the same service, address and
+/// data; this call is dispatched to the same request.
 pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
     let Some(call) = read_call(data) else { return Outcome::unread() };
     // The third is that of any bytes.
@@ -37,14 +37,14 @@ pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
 
 pub(crate) const DISPATCH_DEFECTS: &[&str] = &[
     "a logical group is encoded as one by index",
-    "what is behind the eighth byte of a request is lost",
+    "the bytes after the eighth byte of a request are lost",
     "a buffer that is too small is written into",
 ];
 
-/// The first byte picks the function, of the rest its operation is made: see [`parameters`].
+/// Input: an index of the function (1 byte), then the parameters of its operation, see [`parameters`].
 ///
-/// It reaches the server as it was meant, or it is refused; within the documented ranges only where
-/// another function is.
+/// A server dispatches the encoded operation to the same operation, or the operation is rejected;
+/// within the documented ranges, it is rejected only if another function has its address.
 pub(crate) fn request(data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&function) = Function::ALL.get(usize::from(pick)) else { return Outcome::unread() };
@@ -68,7 +68,7 @@ pub(crate) fn request(data: &[u8], defect: Defect) -> Outcome {
         }
     });
     match made {
-        // It encodes to itself.
+        // An accepted operation encodes to itself.
         Ok(()) => Outcome::accepted(data),
         Err(error) => {
             let refused = error.kind() != ErrorKind::Function || defect.is(6);
@@ -80,16 +80,16 @@ pub(crate) fn request(data: &[u8], defect: Defect) -> Outcome {
 
 pub(crate) const REQUEST_DEFECTS: &[&str] = &[
     "a logical group is encoded as one by index",
-    "what is behind the eighth byte of a request is lost",
+    "the bytes after the eighth byte of a request are lost",
     "the axis in an offset is lost",
-    "a read length over a byte is cut",
-    "a long request goes to another port",
-    "an element that is another function is refused for something else",
+    "a read length above 256 loses its upper bits",
+    "a long request goes to a different port",
+    "an element at the offset of a function is rejected with a different error",
 ];
 
-/// Channel, axes, spindle, class, kind of dynamic parameter, place (a byte each), element (2),
-/// number and count (4 each); text and indices, both behind a byte that says how long they are;
-/// what is left is content.
+/// Channel (2 bytes), platform axis (1), channel axis (2), spindle, class, kind of dynamic parameter,
+/// index of an element (1 each), element (2), number and count (4 each), text and indices, each after a
+/// byte with its length; the rest is content.
 fn parameters<'a>(
     bytes: &'a [u8],
     text: &'a mut String,
@@ -117,7 +117,7 @@ fn parameters<'a>(
         },
         indices: {
             let count = input.byte();
-            // As many as there are bytes for.
+            // At most as many indices as the input has bytes for.
             indices.extend((0..count).map_while(|_| (!input.is_empty()).then(|| input.long())));
             indices
         },
@@ -126,17 +126,17 @@ fn parameters<'a>(
     Some(parameters)
 }
 
-/// Whether every function takes these.
+/// Whether every function has to accept these parameters.
 fn is_documented(of: &Parameters<'_>) -> bool {
     let text = !of.text.contains('\0') && of.text.chars().count() <= 95;
     let count = (1..=ReadDescriptors::COUNT_MAX).contains(&of.count);
     text && count && of.number > 0 && (1..=992).contains(&of.bytes.len())
 }
 
-/// A call with two bytes for the length of its data ([`dispatch`]), and what is answered.
+/// Input: the length of a call (2 bytes), the call as in [`dispatch`], and the reply.
 ///
-/// A request takes for a reply what its function's stream takes, but no more than its function has;
-/// it encodes to the same bytes.
+/// A request accepts as a reply the bytes that the stream of its function accepts, but no more than
+/// it has room for; the reply encodes to the same bytes.
 pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let call = input.long_piece();
@@ -163,22 +163,22 @@ pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
 
 pub(crate) const REPLY_DEFECTS: &[&str] = &[
     "the last byte loses its top bit when it is encoded",
-    "an error is one byte off if it is behind the first eight bytes",
-    "the length of what has eight bytes or more is announced one too long",
-    "more than was asked for is taken",
+    "the offset of an error after the first eight bytes is off by one",
+    "the announced length is one too high if it is eight or more",
+    "more bytes than the request has room for are accepted",
     "a buffer that is too small is written into",
-    "an error is of another kind",
-    "an error names no field",
+    "an error has a different kind",
+    "an error lacks its field",
 ];
 
-/// Writes what [`reply`] reads.
+/// Writes an input of [`reply`].
 pub(crate) fn write_reply(call: &Call<'_>, bytes: &[u8]) -> Vec<u8> {
     let call = write_call(call);
     let len = u16::try_from(call.len()).expect("a sample is short");
     [&len.to_le_bytes()[..], &call, bytes].concat()
 }
 
-/// Reads a call as [`dispatch`] has it.
+/// Reads a call in the form of [`dispatch`].
 pub(crate) fn read_call(bytes: &[u8]) -> Option<Call<'_>> {
     let (&port, bytes) = bytes.split_first_chunk()?;
     let (&service, bytes) = bytes.split_first()?;
@@ -192,12 +192,12 @@ pub(crate) fn read_call(bytes: &[u8]) -> Option<Call<'_>> {
         index_group: IndexGroup::new(u32::from_le_bytes(group)),
         index_offset: IndexOffset::new(u32::from_le_bytes(offset)),
         read_length: u32::from_le_bytes(read_length),
-        // A Read carries none.
+        // A Read has no data.
         data: if service == Service::Read { &[] } else { data },
     })
 }
 
-/// Writes a call so that [`read_call`] reads it.
+/// Writes a call in the form that [`read_call`] reads.
 pub(crate) fn write_call(call: &Call<'_>) -> Vec<u8> {
     let mut bytes = call.port.0.to_le_bytes().to_vec();
     let service = SERVICES.iter().position(|&service| service == call.service);

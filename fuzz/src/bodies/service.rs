@@ -1,4 +1,4 @@
-//! The Service Interface: all that takes part, and each on its own.
+//! The Service Interface: all parties together, and each machine alone.
 
 use std::time::Duration;
 
@@ -11,12 +11,12 @@ use crate::machines::{CheckedCall, CheckedVariables};
 use crate::world::{Action, Asked, Luck, ServiceBend, World};
 use crate::{Defect, Outcome};
 
-/// A byte for what there is: one host for both services (bit 0), whether the interface clears
-/// REQUEST_STATE (1), chaos (2). How many requests there are and a byte each; behind chaos the
-/// same once more. Then what happens, a byte each: see [`actions`].
+/// Input: the settings (1 byte): one host for both services (bit 0), whether the interface never clears
+/// REQUEST_STATE (bit 1), chaos (bit 2). The number of requests and a byte for each; with chaos, the
+/// same again for the requests after it. Then one byte for each action, see [`actions`].
 ///
-/// Whatever fails, every request is served once, by the service it is for, and gets the answer to
-/// itself; after chaos, all come to rest and it is so again.
+/// Whatever fails, every request is served once, by the service to which it is sent, and gets its own
+/// answer. After chaos, all parties come to rest, and the same is true again.
 pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let what = input.byte();
@@ -40,14 +40,14 @@ pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted((what, format!("{:?}", world.served())))
 }
 
-/// Which service is asked (bit 0), and what (bit 1).
+/// The service that gets the request (bit 0), and the request (bit 1).
 fn requests(input: &mut Input<'_>) -> Vec<Asked> {
     let count = input.byte() % 8;
     (0..count).map(|_| input.byte()).map(|byte| (usize::from(byte & 1), byte >> 1 & 1)).collect()
 }
 
-/// The lower three bits: the program steps, or a host, which fourth bit says. The rest: how often,
-/// or what fails, or what else there is in chaos.
+/// The lower three bits: the program makes a step, or the host that the fourth bit selects. The upper
+/// bits: how many steps, or the failure, or an action of chaos.
 fn actions(byte: u8, chaos: bool) -> impl Iterator<Item = Action> {
     let (place, more) = (usize::from(byte >> 3 & 1), byte >> 4);
     let (action, times) = match byte & 7 {
@@ -67,10 +67,10 @@ fn actions(byte: u8, chaos: bool) -> impl Iterator<Item = Action> {
 
 pub(crate) const WORLD_DEFECTS: &[&str] = &[
     "a write that failed counts as done",
-    "a step that failed lets the host begin anew",
-    "RESPONSE_STATE stays when REQUEST_STATE is written",
-    "a host that is begun anew knows no service",
-    "the other service is said to be asked if it was asked the second text",
+    "a failed step restarts the host",
+    "RESPONSE_STATE is not reset when REQUEST_STATE is written",
+    "a restarted host has no services",
+    "a request with the second text is attributed to the other service",
     "a response loses its last character if it has six",
 ];
 
@@ -112,11 +112,11 @@ fn world_bend(defect: Defect) -> ServiceBend {
     bend
 }
 
-/// A byte that picks who it is, then what it is told: see [`value`] and the events of each.
+/// Input: the machine (1 byte), then its events, see [`value`] and the functions of the machines.
 ///
-/// A host serves what it found twice, answers what it found once more, writes in its order, and
-/// does nothing that it was not asked for; a program's request and the variables do what the
-/// manual says.
+/// A host serves only a request that it has found twice, answers it if it finds it once more, writes
+/// in the required order, and does nothing without a request. The request of a program and the
+/// variables behave as the manual says.
 pub(crate) fn machines(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     match input.byte() % 3 {
@@ -126,7 +126,7 @@ pub(crate) fn machines(data: &[u8], defect: Defect) -> Outcome {
     }
 }
 
-/// More events are more of the same.
+/// More events find nothing new.
 const EVENTS: usize = 300;
 
 fn host(mut input: Input<'_>, defect: Defect) -> Outcome {
@@ -200,7 +200,7 @@ fn variables(mut input: Input<'_>, defect: Defect) -> Outcome {
     Outcome::accepted(events)
 }
 
-/// The lower three bits of a byte: which value. That of one is all that it says, or the last one.
+/// A value: its form is in the lower three bits of a byte, its parameter in the upper bits.
 fn value<'v>(input: &mut Input<'_>, last: &'v mut Vec<u8>) -> &'v [u8] {
     let ids: [ServiceId; 2] = service_ids();
     let pick = input.byte();
@@ -218,15 +218,15 @@ fn value<'v>(input: &mut Input<'_>, last: &'v mut Vec<u8>) -> &'v [u8] {
 }
 
 pub(crate) const MACHINES_DEFECTS: &[&str] = &[
-    "a text that has changed is taken for what it was",
-    "a response state of 0 is taken",
+    "a changed text is taken for the previous one",
+    "a response state of 0 is accepted",
     "a write that failed counts as done",
-    "a poll begins anew whatever there is to do",
+    "every poll restarts the host",
     "a response state loses its upper four bits",
     "the time runs twice as fast",
-    "the fifth byte of a state is overlooked",
-    "REQUEST_STATE is not cleared behind a response",
-    "a value that is none lets the host begin anew",
+    "the fifth byte of a state is ignored",
+    "REQUEST_STATE is not cleared after a response",
+    "an invalid value restarts the host",
 ];
 
 fn host_bend(defect: Defect) -> HostBend {

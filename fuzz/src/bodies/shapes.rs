@@ -6,12 +6,12 @@ use super::input::Input;
 use crate::common::shapes::{Described, ShapeBend, check_shape};
 use crate::{Defect, Outcome};
 
-/// Type, number of dimensions, each dimension, each index, as many of them or one more; 0 for the
-/// size that there is, or another size: a byte each, 0xFF before four of them. The rest is the
-/// value.
+/// Input: the type, the number of dimensions, the dimensions, the indices (as many, or one more), and
+/// the size, where 0 means the actual size. Each number takes a byte, or 0xFF and four bytes. The rest
+/// is the value.
 ///
-/// A shape is taken if its size is that of its elements; an element is where nested arrays have
-/// it, and what was read is written back as it was.
+/// A shape is accepted if its size is that of its elements. An element is where nested arrays have it,
+/// and a value that was read is written back unchanged.
 pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let data_type = *input.choose(&DataType::ALL);
@@ -24,7 +24,7 @@ pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
     let size = if size == 0 { u32::try_from(bytes.len()).unwrap_or(u32::MAX) } else { size };
     let of = Described { data_type, dimensions: &dimensions, size, indices: &indices, bytes };
     match check_shape(&of, bend(defect)) {
-        // What is read is the bytes.
+        // The value that is read is the input itself.
         Ok(count) => Outcome::accepted((count, data)),
         Err(kind) => Outcome::refused(format!("{kind:?}")),
     }
@@ -39,10 +39,10 @@ fn number(input: &mut Input<'_>) -> u32 {
 
 pub(crate) const DEFECTS: &[&str] = &[
     "the first index runs fastest",
-    "an index beyond a later dimension is refused for the first one",
+    "an error about a later dimension names the first one",
     "the top bit of the second byte is lost when it is written",
-    "the size may be one byte more than that of the elements",
-    "a place behind the ninth is one too far",
+    "the size may exceed that of the elements by one byte",
+    "the position of an element after the ninth is one too high",
 ];
 
 fn bend(defect: Defect) -> ShapeBend {

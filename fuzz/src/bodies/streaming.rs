@@ -3,10 +3,10 @@
 use crate::common::streaming::{TextBend, check_text};
 use crate::{Defect, Outcome};
 
-/// The input is NC text.
+/// Input: NC text.
 ///
-/// Its first fault is found, or its packets together are the text with CR LF, each is legal, and
-/// none could be fuller.
+/// Its first fault is found, or its packets together are the text with CR LF after each line, and each
+/// packet is legal and as full as possible.
 pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
     let mut bend = TextBend::NONE;
     if defect.is(1) {
@@ -49,8 +49,8 @@ pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
 
 pub(crate) const PACKETS_DEFECTS: &[&str] = &[
     "a line loses its CR at the end of a text of more than a hundred bytes",
-    "the first packet takes in the second one",
-    "a packet that begins with a block number ends behind its first line",
-    "a fault is a column off if it is not in the first line",
-    "a fault is overlooked behind the second line",
+    "the first packet contains the second one",
+    "a packet that begins with a block number ends after its first line",
+    "the column of a fault after the first line is off by one",
+    "a fault after the second line is not found",
 ];

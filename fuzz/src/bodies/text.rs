@@ -4,11 +4,11 @@ use super::input::Input;
 use crate::common::text::{CncStrBend, check_cp1252, check_utf8};
 use crate::{Defect, Outcome};
 
-/// A byte that says what the rest is: CP1252 (even), or UTF-8; what is no UTF-8 is each a
-/// character of three bytes.
+/// Input: a byte, even for CP1252 or odd for UTF-8, then the text. If the text is not valid UTF-8, each
+/// three bytes are the number of a character.
 ///
-/// Text has the characters, the bytes and the faults that encoding_rs says, and comes back both
-/// ways.
+/// Text has the same characters, bytes and faults as with encoding_rs, and comes back in both
+/// directions.
 pub(crate) fn cp1252(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let of_utf8 = input.byte() % 2 == 1;
@@ -34,11 +34,11 @@ pub(crate) fn cp1252(data: &[u8], defect: Defect) -> Outcome {
 }
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "the byte 0x9F is the control character of its number",
-    "the byte of a dash is that of another",
-    "characters beyond ASCII count as many as they have bytes of UTF-8",
-    "an error is a character off behind the fourth",
-    "a character without a byte is no error",
+    "the byte 0x9F is decoded as the control character U+009F",
+    "a dash is encoded as a different dash",
+    "a character outside ASCII counts as its number of UTF-8 bytes",
+    "the offset of an error after the fourth character is off by one",
+    "a character without a CP1252 byte is not an error",
 ];
 
 fn bend(defect: Defect) -> CncStrBend {

@@ -1,4 +1,4 @@
-//! Inputs of what reads and guards connections.
+//! Inputs of the targets for captures, the gate and sessions.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, Service};
@@ -13,7 +13,7 @@ pub(super) fn captured() -> Vec<Seed> {
     let interface = b"\x01\0\0\0\x14\0\0\0\x65\0\0\0\0\0\0\0\x14\0\0\0";
     let mut pcap = vec![0];
     pcap.extend(crate::bodies::tools::capture::sample());
-    // The same packets, each in a block.
+    // The same packets, each in its own block.
     let mut pcapng = [&[1][..], section, interface].concat();
     let mut rest = &pcap[25..];
     while let Some((header, behind)) = rest.split_at_checked(16) {
@@ -40,10 +40,10 @@ pub(super) fn captured() -> Vec<Seed> {
     ]
 }
 
-/// Every call of a CNC in front of the gate, alone, with entries, and with what was learnt.
+/// Every call at the gate: alone, with entries of a file, and after replies.
 pub(super) fn sent() -> Vec<Seed> {
     let mut seeds = Vec::new();
-    // A variable of channel 1, of its second axis, the stream, the service, contents.
+    // A variable of channel 1 and of its second axis, the stream, the service, contents.
     let entries = b"\x04\x00\x01\x00\x01\x01\x02\x02\x06\x01\x02\x01\x33\x12\0\x01\0\0\0";
     for sample in CALLS.iter().filter(|sample| sample.call.data.len() < 200) {
         let mut bytes = [&[2][..], entries].concat();
@@ -88,7 +88,7 @@ pub(super) fn sent() -> Vec<Seed> {
         [&begin[..], &[&[7], &writes[1..]].concat()].concat(),
     ));
     seeds.push(("by-name-later".to_owned(), [&[6][..], entries, &writes].concat()));
-    // And what is near to that: other letters, other channels.
+    // Similar calls, with different letters and channels.
     let small = Call { data: b"V.E.a\0\x01", ..by_name };
     let channel_2 = IndexGroup::new(0x12_2302);
     let second = Call { index_group: channel_2, ..by_name };
@@ -131,7 +131,7 @@ pub(super) fn sent() -> Vec<Seed> {
     seeds
 }
 
-/// Every call of a CNC, alone, all together, and as its effect is looked at.
+/// Every call of a CNC: alone, all together, and with a check of its effect.
 pub(super) fn sessions() -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut all = Vec::new();

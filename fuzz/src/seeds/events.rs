@@ -1,4 +1,4 @@
-//! What happens to machines and on streams, written by hand: what the bytes mean is at the bodies.
+//! Events of machines and streams, written by hand. The bodies document the meaning of the bytes.
 
 use super::Seed;
 use crate::bodies::frames;
@@ -28,7 +28,7 @@ pub(super) fn frames() -> Vec<Seed> {
     .into()
 }
 
-/// Lines, then events: 0 sends, 3 shows the packet, 4, 12, 28 acknowledge, 5 reads, 0xFE resets.
+/// Lines, then events: 0 sends, 3 gets the packet, 4, 12 and 28 acknowledge, 5 reads, 0xFE resets.
 pub(super) fn senders() -> Vec<Seed> {
     let (short, long) = (0x28, 0xFC);
     [
@@ -46,7 +46,7 @@ pub(super) fn senders() -> Vec<Seed> {
     .into()
 }
 
-/// 0x70 the program steps, 0x72 and 0x7A the hosts, 8 times each; 5 and 6 fail.
+/// 0x70 is 8 steps of the program, 0x72 and 0x7A are 8 steps of the hosts; 5 and 6 fail.
 pub(super) fn worlds() -> Vec<Seed> {
     let turns = [0x70, 0x72, 0x7A].repeat(8);
     let failing =
@@ -64,7 +64,7 @@ pub(super) fn worlds() -> Vec<Seed> {
     seeds
 }
 
-/// Who it is, then events with values: 0x0A is a state of 1, 0x03 a UUID, 0x1D a text.
+/// The machine, then events with values: 0x0A is a state of 1, 0x03 a UUID, 0x1D a text.
 pub(super) fn machines() -> Vec<Seed> {
     let found = [0, 0x0A, 0, 0x03, 0, 0x1D];
     let answer = [14, 1, 0x0D];

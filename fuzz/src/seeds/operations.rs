@@ -7,7 +7,7 @@ use super::Seed;
 use crate::bodies::operation;
 use crate::common::{self, CALLS};
 
-/// An operation of each function, logically and by index.
+/// An operation of each function, with logical addressing and by index.
 pub(super) fn requests() -> Vec<Seed> {
     let functions = (0_u8..).zip(Function::ALL);
     let places = [("first", [1, 0, 1], "V.E.Testvar[3]"), ("second", [2, 1, 2], "V.A.L\u{E4}nge")];
@@ -29,7 +29,7 @@ pub(super) fn requests() -> Vec<Seed> {
     functions.flat_map(of).collect()
 }
 
-/// Each call with each sample of its function's reply.
+/// Each call with each sample of the reply of its function.
 pub(super) fn replies() -> Vec<Seed> {
     let samples = |stream: Option<Stream>| {
         let of = move |(of, sample): (Stream, &'static common::Sample)| {

@@ -1,4 +1,4 @@
-//! NC text, text, names.
+//! NC texts, texts and names.
 
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{Given, Pieces, sequences, vectors};
@@ -6,7 +6,7 @@ use ads_cnc_vectors::{Given, Pieces, sequences, vectors};
 use super::{LONGEST, Seed};
 use crate::common;
 
-/// The texts of the sequences, good and bad.
+/// The texts of accepted and rejected sequences.
 pub(super) fn programs() -> Vec<Seed> {
     let of = |given: &Given| match given {
         Given::NcText(text) => Some(text.bytes()),
@@ -16,7 +16,7 @@ pub(super) fn programs() -> Vec<Seed> {
     short(|given| of(given))
 }
 
-/// The same; a byte 0xFF between two packets.
+/// The same texts, with a byte 0xFF between two packets.
 pub(super) fn lots() -> Vec<Seed> {
     let mut seeds = short(|given| match given {
         Given::NcCheck(packets) => {
@@ -36,7 +36,7 @@ fn short(of: impl Fn(&Given) -> Option<Vec<u8>>) -> Vec<Seed> {
     sequences().iter().filter_map(seed).filter(|(_, bytes)| bytes.len() <= 2 * LONGEST).collect()
 }
 
-/// As CP1252 (behind an even byte) and as UTF-8.
+/// Texts in CP1252 (after an even byte) and in UTF-8.
 pub(super) fn texts() -> Vec<Seed> {
     let of = |(name, text): (&str, &str)| (name.to_string(), [&[1], text.as_bytes()].concat());
     let utf8 = [
@@ -58,7 +58,7 @@ pub(super) fn texts() -> Vec<Seed> {
     utf8.into_iter().map(of).chain(wire.map(|(name, bytes)| (name.to_string(), bytes))).collect()
 }
 
-/// Names of the vectors and samples, and what is no name.
+/// Names of the vectors and samples, and malformed names.
 pub(super) fn names() -> Vec<Seed> {
     let of_samples = common::each_sample()
         .filter(|(stream, _)| *stream == Stream::VariableName)

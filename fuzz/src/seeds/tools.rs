@@ -1,4 +1,4 @@
-//! Inputs of what is beside the codec.
+//! Inputs of the targets for the tools.
 
 use std::collections::BTreeSet;
 
@@ -80,7 +80,7 @@ rank = 1
 channel = 255
 "#;
 
-/// Answers of a testee, and what is none.
+/// Lines of a testee: answers and malformed lines.
 const SAID: [&str; 10] = [
     r#"{"protocol": 1, "testee": {"name": "mine", "version": "1", "language": "C"}, "capabilities": {"ops": ["decode"], "streams": ["variable-count"], "editions": ["en-1.05"]}}"#,
     r#"{"seq": 258, "ok": {"value": {"count": 4, "value": -1.5e-7}}}"#,
@@ -114,7 +114,7 @@ pub(super) fn seeds(target: &str) -> Vec<Seed> {
     }
 }
 
-/// The small model, and the first parts of it.
+/// The small model, and prefixes of it.
 fn models() -> Vec<Seed> {
     let all = session::MODEL;
     let parts = ["[[channel]]\nnumber = 6", "[channel.streaming]", "[class.hld"];
@@ -127,7 +127,7 @@ fn models() -> Vec<Seed> {
     seeds
 }
 
-/// Streams and calls, by everything that can be asked; frames; hex.
+/// Streams and calls with every subject, frames, and hex.
 fn explained() -> Vec<Seed> {
     let streams: Vec<Stream> = Stream::all().collect();
     let place = |stream: Stream| streams.iter().position(|one| *one == stream);
@@ -135,7 +135,7 @@ fn explained() -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut known = BTreeSet::new();
     for (stream, sample) in common::each_sample() {
-        // Of each the first, and what is printed.
+        // The first vector of each stream, and the printed examples.
         if !known.insert(stream.to_string()) && !sample.slug.contains("printed") {
             continue;
         }
@@ -177,7 +177,7 @@ fn explained() -> Vec<Seed> {
     seeds
 }
 
-/// Each line, and all of them.
+/// Each line alone, and all lines together.
 fn said() -> Vec<Seed> {
     let one = |place: usize| (format!("line-{place}"), [&[0, 7], SAID[place].as_bytes()].concat());
     let mut seeds: Vec<Seed> = (0..SAID.len()).map(one).collect();
@@ -187,7 +187,7 @@ fn said() -> Vec<Seed> {
     seeds
 }
 
-/// What files and lines are made of.
+/// Words of files and lines.
 pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     let files = [PROFILE, MORE_PROFILE, WAIVERS, ALLOW, session::MODEL];
     let said = SAID.join(" ");
@@ -202,7 +202,7 @@ pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     }
     let short =
         vectors().iter().map(|vector| vector.bytes()).filter(|bytes| bytes.len() <= LONGEST);
-    // Something of each length.
+    // Words of each length.
     let mut lengths = BTreeSet::new();
     words.extend(short.filter(|bytes| lengths.insert(bytes.len()) && bytes.len() <= 64));
     words

@@ -1,4 +1,4 @@
-//! Captured traffic: files of anything, and conversations that came in pieces.
+//! Captured traffic: files of any bytes, and conversations in segments.
 
 use ads_cnc_conformance::capture::{
     CaptureOptions, CapturePiece, Collector, FileEnd, FileError, Ports, check as judge, frames,
@@ -9,15 +9,15 @@ use super::conversation::Conversation;
 use crate::{Defect, Outcome};
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "what came twice is sent twice",
-    "segments come out in the order they were captured in",
-    "what is missing is not told",
-    "a file that ends within a record is whole",
-    "the judge counts a frame less if there are more than three",
+    "a frame is repeated if a segment is repeated",
+    "segments are used in the order of the capture",
+    "missing bytes are not reported",
+    "a file that ends inside a record is not reported as cut",
+    "one frame too many is counted if there are more than three",
 ];
 
-/// The first byte picks a file, looked at on the port of AMS (0) or on all (1), or a conversation
-/// (2).
+/// Input: a byte for a file that is read on the AMS port (0) or on all ports (1), or for a conversation
+/// (2); then the file or the conversation.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     match input.byte() {
@@ -44,7 +44,7 @@ fn read(
     (end, pieces)
 }
 
-/// Any file: it is read to its end, or it is said where it is cut; what is judged is what was read.
+/// Any file is read to its end, or reported as cut; all frames that were read are judged.
 fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     let (end, pieces) = read(bytes, ports.clone(), defect);
     let options = CaptureOptions { ports: ports.clone(), vectors: Some(Collector::new(false)) };
@@ -69,11 +69,11 @@ fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
         }
         other => panic!("{other:?}"),
     };
-    // NetMon files may have tables at the end that are not read.
+    // NetMon files may have tables at the end, which are not read.
     let has_end = !bytes.starts_with(b"GMBU");
     if let (FileEnd::Whole, Some((_, shorter)), true) = (&end, bytes.split_last(), has_end) {
         let (cut, _) = read(shorter, ports, defect);
-        assert!(!matches!(cut, Ok(FileEnd::Whole)), "the last byte is nobody's");
+        assert!(!matches!(cut, Ok(FileEnd::Whole)), "the file is whole without its last byte");
     }
     let bytes: Vec<_> = pieces.iter().map(|piece| format!("{piece:?}")).collect();
     match end {
@@ -82,7 +82,7 @@ fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     }
 }
 
-/// A conversation: what comes out is what was sent, or it is told that something is missing.
+/// The frames of a conversation are those that were sent, or missing bytes are reported.
 fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
     let mut conversation = Conversation::new(input);
     if defect.is(2) {
@@ -109,12 +109,12 @@ fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
     match conversation.is_whole {
         true => {
             assert_eq!(found, conversation.sent);
-            assert!(!is_lost, "all was there");
+            assert!(!is_lost, "no byte was missing");
         }
         false => {
-            assert!(is_lost, "something was missing");
+            assert!(is_lost, "bytes were missing");
             for (found, sent) in found.iter().zip(&conversation.sent) {
-                // Nothing is made up, and the order is that in which it was sent.
+                // All frames were sent, in this order.
                 let mut sent = sent.iter();
                 assert!(found.iter().all(|frame| sent.any(|one| one == frame)));
             }
@@ -123,7 +123,7 @@ fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
     Outcome::accepted(found)
 }
 
-/// Gives the segments of a side the sequence numbers that they would have in the order they are in.
+/// Gives the segments of a side the sequence numbers of their current order.
 fn sort(conversation: &mut Conversation) {
     for side in [true, false] {
         let mut all: Vec<_> =
@@ -136,7 +136,7 @@ fn sort(conversation: &mut Conversation) {
     }
 }
 
-/// A file with a conversation in it.
+/// A file with a conversation.
 pub(crate) fn sample() -> Vec<u8> {
     Conversation::new(&mut Input::new(&[2, 1, 4, 9, 0, 1, 0, 200, 200])).pcap()
 }

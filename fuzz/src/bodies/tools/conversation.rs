@@ -1,4 +1,4 @@
-//! A conversation as captured: frames of both sides, cut into segments, in whatever order.
+//! A captured conversation: frames of both sides, divided into segments, in any order.
 
 use ads_cnc::Encode as _;
 use ads_cnc::ads::{FrameRef, ReadReplyRef, WriteReply};
@@ -9,30 +9,30 @@ use crate::common::CALLS;
 /// A captured segment.
 #[derive(Clone)]
 pub(super) struct Segment {
-    /// Of the client, or of the CNC.
+    /// Whether the client sent it, or the CNC.
     pub(super) is_client: bool,
     pub(super) sequence: u32,
     pub(super) payload: Vec<u8>,
 }
 
-/// What was sent, and what was captured of it.
+/// The frames that were sent, and the segments that were captured.
 pub(super) struct Conversation {
     /// The frames of the client and of the CNC.
     pub(super) sent: [Vec<Vec<u8>>; 2],
     begin: [u32; 2],
     pub(super) segments: Vec<Segment>,
-    /// Whether nothing was left out.
+    /// Whether no segment is missing.
     pub(super) is_whole: bool,
     pub(super) is_twice: bool,
 }
 
-/// Sequence numbers of the SYN, some of which wrap around soon.
+/// Sequence numbers of the SYN; some of them soon wrap around.
 const BEGINS: [u32; 4] = [0, u32::MAX - 50, 0x7FFF_FFF0, u32::MAX];
 
 impl Conversation {
-    /// The number of requests and each of them, by its place; where sequence numbers begin; the
-    /// lengths of segments; then what becomes of them: one changes its place (0), comes twice (1),
-    /// is left out (2), or comes in one with the next (3).
+    /// Input: the number of requests, the index of each request, the first sequence numbers, the lengths
+    /// of the segments, then changes: a segment moves (0), is repeated (1), is missing (2), or is joined
+    /// with the next one (3).
     pub(super) fn new(input: &mut Input<'_>) -> Self {
         let mut sent = [Vec::new(), Vec::new()];
         for id in 0..u32::from(input.byte() % 8) {
@@ -132,7 +132,7 @@ fn reply(request: &[u8], kind: u8) -> Vec<u8> {
     let result = ads_cnc::ads::AdsError(0);
     let payload = match header.command.0 {
         3 => WriteReply { result }.encode_to_vec(),
-        // Those of a Read and of a ReadWrite are alike.
+        // The replies of Read and ReadWrite have the same form.
         _ => ReadReplyRef { result, data: Some(&data) }.encode_to_vec(),
     };
     let payload = payload.expect("a reply");

@@ -1,4 +1,4 @@
-//! Bytes of anything, explained, and hex as somebody types it.
+//! Explanations of any bytes, and hex as a user types it.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef};
@@ -21,20 +21,20 @@ mod explained;
 use explained::{check_explanation, check_printed, printed};
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "the last field of a stream is not shown if it is behind the sixteenth byte",
-    "a fault behind the eighth byte is no fault",
-    "the last byte of hex with a hyphen in it is lost",
-    "a text with an escape is printed as it is",
-    "of several frames only the first is shown",
+    "the last field of a stream is not shown if it is after the sixteenth byte",
+    "a fault after the eighth byte is not found",
+    "the last byte of hex with a hyphen is lost",
+    "a text with an escape is printed unchanged",
+    "only the first of several frames is shown",
     "a stream without a fault is shown twice if it has fields",
-    "frames that the codec refuses have no fault",
+    "frames that the codec rejects have no fault",
 ];
 
-/// The first byte picks what is explained: a stream (0), data of a place (1), a place (2), frames
-/// (3), frames with a place for replies (4), hex (5).
+/// Input: the subject (1 byte): a stream (0), data at an address (1), an address (2), frames (3), frames
+/// with an address for replies (4), hex (5).
 ///
-/// Behind it the stream's place in the list, the type and two dimensions; then the place; the rest
-/// are the bytes, or the text.
+/// Then the index of the stream, the type and two dimensions; then the address; the rest is the bytes
+/// or the text.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let what = input.byte();
@@ -102,23 +102,23 @@ fn bend(explanation: &mut Explanation, defect: Defect) {
     }
 }
 
-/// An explanation finds a fault if, and only if, the codec does.
+/// An explanation has a fault if and only if the codec rejects the bytes.
 fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
     let refused = common::check_bent(stream, bytes, &Bend::NONE).is_err()
         || stream == Stream::ProgramStream && !is_nc(bytes);
-    assert!(faulty || !refused, "{stream} takes what the codec does not");
-    // A value may be of another type than the one that was named.
-    assert!(typed || faulty == refused, "{stream} does not take what the codec does");
+    assert!(faulty || !refused, "{stream} has no fault, but the codec rejects it");
+    // A value may have a different type than the named one.
+    assert!(typed || faulty == refused, "{stream} has a fault, but the codec accepts it");
 }
 
-/// Whether a CNC reads these bytes to their end.
+/// Whether a CNC reads these bytes without a fault.
 fn is_nc(bytes: &[u8]) -> bool {
     check_line_ends(bytes).is_ok()
         && NcText::new(bytes)
             .is_ok_and(|text| !text.diagnostics().any(|finding| finding.kind.ends_streaming()))
 }
 
-/// What the codec finds at a place is what is said to be there.
+/// The explanation names the function that the codec finds at the address.
 fn dispatches(place: &ServiceAddress, bytes: &[u8], explanation: &Explanation, faulty: bool) {
     let (Some(port), Some(service), false) = (place.port, place.service, place.reply) else {
         return;
@@ -156,7 +156,7 @@ fn are_frames(mut bytes: &[u8]) -> bool {
 fn values(input: &mut Input<'_>) -> ValueFormat {
     let ty = usize::from(input.byte()).checked_sub(1).and_then(|ty| DataType::ALL.get(ty).copied());
     let (count, length) = (input.byte(), input.byte());
-    // With the highest bit it is many.
+    // The highest bit multiplies the length.
     let length = u32::from(length & 0x7F) << if length & 0x80 == 0 { 0 } else { 25 };
     let dimensions = [length, 2, 1][..usize::from(count % 4)].to_vec();
     ValueFormat { ty, dimensions }
@@ -174,7 +174,7 @@ fn place(input: &mut Input<'_>) -> ServiceAddress {
     }
 }
 
-/// Hex is read as what it says: words of pairs of digits, each of which may begin with 0x.
+/// Hex is read as the bytes that it states: words of pairs of digits, each of which may begin with 0x.
 fn hex(bytes: &[u8], defect: Defect) -> Outcome {
     let text = String::from_utf8_lossy(bytes);
     let mut read = parse_hex(&text);
@@ -196,7 +196,7 @@ fn hex(bytes: &[u8], defect: Defect) -> Outcome {
             assert_eq!(Some(shown), digits.map(|digits| digits.to_ascii_lowercase()), "{text:?}");
         }
         Err(error) => {
-            assert_eq!(digits, None, "{text:?} is refused: {error}");
+            assert_eq!(digits, None, "{text:?} is rejected: {error}");
             let line = text.split('\n').nth(error.line - 1).expect("a line of the text");
             let there = line.chars().nth(error.column - 1).expect("a column of it");
             assert!(error.found.is_none_or(|found| found == there), "{text:?}: {error}");

@@ -1,4 +1,4 @@
-//! What passes the gate, judged by the bytes of frames alone.
+//! The gate, compared with a rule that uses only the bytes of frames.
 
 use ads_cnc::CncString;
 use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
@@ -18,27 +18,27 @@ use rule::Rule;
 
 pub(crate) const DEFECTS: &[&str] = &[
     "a write of the decoder of channel 2 passes without an entry",
-    "an entry is good for any target",
-    "an entry is good for ever",
-    "names are the same in small letters",
-    "a handle is good for the first channel too",
-    "a frame with a byte behind it passes",
-    "what is forgotten still holds",
+    "an entry is valid for any target",
+    "an entry never expires",
+    "names are compared case-insensitively",
+    "a handle is also valid in the first channel",
+    "a frame with an extra byte passes",
+    "a forgotten reply still permits writes",
     "WriteControl passes where malformed frames do",
-    "an entry is shown with another channel",
+    "an entry is printed with a different channel",
     "a Read of channel 2 does not pass",
 ];
 
-/// When files are good, and from when on they are not any more.
+/// A time at which files are valid, and the time at which they expire.
 const NOW: &str = "2026-05-04T17:29:59Z";
 const END: &str = "2026-05-04T17:30:00Z";
 
-/// The file is about this one.
+/// The NetId for which the file is valid.
 const TARGET: [u8; 6] = [192, 0, 2, 7, 1, 1];
 
-/// The first byte has the settings (bit 0: malformed frames pass, bit 1: a file allows writes, bit 2:
-/// it is over). Behind the number of entries and the entries of the file come answers to learn from
-/// (0), oblivion (1), bytes to be sent (2) and frames to be sent (3 and more).
+/// Input: the settings (bit 0: malformed frames pass, bit 1: a file allows writes, bit 2: the file has
+/// expired), the number of entries of the file, the entries, then records: a reply that the gate learns
+/// from (0), the gate forgets all replies (1), bytes to be sent (2), a frame to be sent (3 and more).
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let settings = input.byte();
@@ -83,7 +83,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         let passes = passes(&gate, &frame, now, defect);
         let malformed = malformed && file && !over;
         assert!(!passes || rule.permits(&frame, TARGET, malformed), "{settings:#x} {frame:02x?}");
-        // What passes by default passes with whatever is allowed besides.
+        // Frames that pass by default also pass with additional permissions.
         assert!(passes || gate::check(&frame).is_err(), "{frame:02x?}");
         passed.push(passes);
     }
@@ -133,7 +133,7 @@ const NAMES: [&str; 8] = [
     "b_w",
 ];
 
-/// The entries of a file: those of them that one can have, as they are read from it.
+/// The entries of a file that are valid, as they are parsed from the file.
 fn entries(input: &mut Input<'_>, defect: Defect) -> Vec<Entry> {
     let count = input.byte() % 5;
     let mut entries = Vec::new();
@@ -147,7 +147,7 @@ fn entries(input: &mut Input<'_>, defect: Defect) -> Vec<Entry> {
                 assert_eq!(read.entries, [entry], "{text}");
                 entries.extend(read.entries);
             }
-            // Of addresses not all are taken.
+            // Not every address is permitted.
             Err(error) => {
                 assert!(matches!(entry, Entry::Content { .. }), "{text}\n{error}");
                 assert!(error.to_string().contains("line "), "{error}");
@@ -186,8 +186,8 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
 
 const PORTS: [u16; 5] = [552, 553, 551, 851, 10000];
 
-/// A frame with the call behind it; by the kind, with another target (bit 2), other flags (bit 3),
-/// an error (bit 4), another command (bit 5) and another length (bit 6).
+/// A frame with the next call; depending on the kind, with a different target (bit 2), different flags
+/// (bit 3), an error (bit 4), a different command (bit 5) and a different length (bit 6).
 fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
     let odd = |bit: u8| kind >> bit & 1;
     let Call { port, service, index_group, index_offset, read_length, data } = call(input, &PORTS);
@@ -221,7 +221,7 @@ fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
     frame
 }
 
-/// Writes a call as [`check`] reads it: learnt from a reply, or sent.
+/// Writes a call in the form that [`check`] reads: with a reply to learn from, or to be sent.
 pub(crate) fn write_call(kind: u8, call: &Call<'_>, reply: &[u8]) -> Vec<u8> {
     let port = PORTS.iter().position(|one| *one == call.port.0).unwrap_or(0);
     let mut bytes = vec![kind];

@@ -1,4 +1,4 @@
-//! What reads bytes from outside beside the codec.
+//! Parsers of external bytes other than the codec.
 
 pub(crate) mod calls;
 pub(crate) mod capture;

@@ -1,4 +1,4 @@
-//! Data models, served.
+//! Data models of the simulated CNC.
 
 use std::time::Duration;
 
@@ -11,15 +11,15 @@ use crate::common::CALLS;
 use crate::{Defect, Outcome};
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "a file is read otherwise behind a comment",
-    "the line of an error is that before",
+    "a file is parsed differently after a comment",
+    "the line of an error is one too low",
     "more objects are counted than can be read",
     "an answer loses its last byte",
-    "what comes with the time does not come the same way again",
+    "the same requests get different answers as time passes",
 ];
 
-/// A model that is taken can be served: every answer is one that the codec reads, and what is counted
-/// is there.
+/// A CNC with an accepted model gives only answers that the codec reads, and has as many entries as it
+/// counts.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, "a file:", defect, |text| Model::from_toml(text, "a file"), Model::eq);
@@ -32,7 +32,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted(said)
 }
 
-/// What a CNC of this model answers at three moments.
+/// The answers of a CNC with this model at three times.
 fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
     let cnc = Cnc::new(model).with_stopped_clock();
     let mut said = Vec::new();
@@ -47,7 +47,7 @@ fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
     said
 }
 
-/// The first objects of a list, and what is behind its last.
+/// The first objects of a list, and the read after its last object.
 fn objects(cnc: &Cnc, group: u32, defect: Defect, said: &mut Vec<Option<Vec<u8>>>) {
     let ask = |offset, read_length| {
         let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
@@ -63,14 +63,14 @@ fn objects(cnc: &Cnc, group: u32, defect: Defect, said: &mut Vec<Option<Vec<u8>>
     assert_eq!(ask(count + 1, 84), None, "{group:#x} has more than {count}");
 }
 
-/// The answer to a call, which the codec has to read.
+/// The answer to a call, which the codec must accept.
 fn answer(cnc: &Cnc, call: &Call<'_>, defect: Defect) -> Option<Vec<u8>> {
     let mut answer = cnc.answer(call).ok()?;
     if defect.is(4) && answer.len() > 4 {
         answer.pop();
     }
     assert!(answer.len() <= call.read_length as usize, "{call:?}");
-    let request: Request<'_> = call.dispatch().expect("it was answered");
+    let request: Request<'_> = call.dispatch().expect("an answered call");
     let reply: Result<Reply<'_>, _> = request.decode_reply(&answer);
     assert!(reply.is_ok(), "{call:?}: {reply:?}");
     Some(answer)

@@ -15,15 +15,15 @@ use crate::common::CALLS;
 use crate::{Defect, Outcome};
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "an answer has the last invoke ID once more if that was large",
+    "an answer loses the upper byte of a large invoke ID",
     "the second answer of a piece is lost",
-    "an answer with data has a byte less than it says",
-    "of a write that is refused the first byte is kept",
-    "a write of several bytes keeps what was there",
-    "what waits for its rest is kept a thousand times",
+    "an answer with data is one byte shorter than its length",
+    "a rejected write changes the first byte",
+    "a write of several bytes changes nothing",
+    "the bytes of an incomplete frame are buffered a thousand times",
 ];
 
-/// A CNC with something of everything.
+/// A small model of a CNC with every kind of data.
 pub(crate) const MODEL: &str = include_str!("small.toml");
 
 fn cnc() -> Cnc {
@@ -32,23 +32,23 @@ fn cnc() -> Cnc {
     Cnc::new(model.clone()).with_stopped_clock()
 }
 
-/// A session: every good frame gets one answer, which the codec reads; a frame that does not hold
-/// together ends it.
+/// A session: every valid frame gets one answer, which the codec reads; a malformed frame ends the
+/// session.
 struct Session {
     cnc: Cnc,
     received: Received,
-    /// What was sent, to the last byte.
+    /// All bytes that were sent.
     sent: Vec<u8>,
     answers: Vec<u8>,
-    /// What waits to be sent with the next piece.
+    /// The bytes of the next piece.
     piece: Vec<u8>,
     is_over: bool,
     defect: Defect,
 }
 
-/// Records: a call that a CNC knows (0, its place, invoke ID), a call (1), any bytes behind their
-/// length (2), another byte in what was not sent yet (3), the end of a piece (4), time that passes
-/// (5), a call at its own piece whose effect is looked at (6 and more).
+/// Input: records: a known call (0, its index, invoke ID), any call (1), a length and any bytes (2), a
+/// changed byte in the current piece (3), the end of the piece (4), time that passes (5), a call in its
+/// own piece whose effect is checked (6 and more).
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let mut session = Session {
@@ -113,7 +113,7 @@ impl Session {
         }
     }
 
-    /// Sends a call, and looks whether what is there then is what was there or what was written.
+    /// Sends a call, and checks that the value is then unchanged, or the written one.
     fn change(&mut self, call: &Call<'_>) {
         let read = reading(call);
         let before = read.as_ref().map(|read| self.cnc.answer(&read.call()));
@@ -141,7 +141,7 @@ impl Session {
         }
     }
 
-    /// Each good frame has its answer, in their order, and nothing else was said.
+    /// Checks that the answers are those to the valid frames, in their order, and no others.
     fn judge(&self) -> Outcome {
         let (mut sent, mut answers) = (&self.sent[..], &self.answers[..]);
         let mut count = 0_usize;
@@ -158,7 +158,7 @@ impl Session {
                 }
             }
         };
-        assert_eq!(answers.len(), 0, "{} bytes that nobody asked for", answers.len());
+        assert_eq!(answers.len(), 0, "{} bytes without a request", answers.len());
         assert_eq!(broken, self.is_over, "after {count} frames");
         match (broken, count) {
             (false, 1..) => Outcome::accepted(&self.answers),
@@ -182,7 +182,7 @@ fn bend(answers: &mut Vec<u8>, begin: usize, defect: Defect) {
     }
 }
 
-/// Holds the next answer to its request; how many bytes it has.
+/// Checks the next answer against its request, and returns its length.
 fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
     let Ok(Some((answer, len))) = FrameRef::split(answers, u32::MAX) else {
         panic!("no answer to {request:?}");
@@ -201,22 +201,22 @@ fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
     if let (Ok(Some(call)), true) = (call, result.is_ok()) {
         let data = data.unwrap_or_default();
         assert!(data.len() <= call.read_length as usize);
-        let request = call.dispatch().expect("what is no function is refused");
+        let request = call.dispatch().expect("an answered call is a function");
         assert!(request.decode_reply(data).is_ok(), "{call:?}: {data:02x?}");
     }
     len
 }
 
-/// What reads that which a call writes.
+/// A call that reads the value that another call writes.
 struct Reading<'c> {
     port: AmsPort,
     service: Service,
     group: IndexGroup,
     offset: IndexOffset,
     data: Vec<u8>,
-    /// What is written.
+    /// The written value.
     value: &'c [u8],
-    /// Whether that is what is read then: not of what has a meaning of its own.
+    /// Whether a read must return the written value; false if the CNC interprets the value.
     is_plain: bool,
 }
 
@@ -255,7 +255,7 @@ fn reading<'c>(call: &Call<'c>) -> Option<Reading<'c>> {
         }
         _ => return None,
     };
-    // The number of an axis says who is there; the Service Interface and texts go their own ways.
+    // The CNC interprets axis numbers, the Service Interface and texts.
     let is_number = call.index_offset.get() & 0xFFFF == 3;
     Some(Reading {
         port: call.port,

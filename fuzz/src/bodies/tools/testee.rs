@@ -1,4 +1,4 @@
-//! What a testee says on its stdout, line by line.
+//! The output of a testee on stdout, line by line.
 
 use std::io::BufReader;
 
@@ -10,21 +10,21 @@ use super::Input;
 use crate::{Defect, Outcome};
 
 pub(crate) const DEFECTS: &[&str] = &[
-    "a line that is one byte too long is taken",
-    "of a line that is too long all is kept",
-    "what is no UTF-8 is made to be",
-    "the answer to the case before is taken for this one",
-    "of two answers in a line the first is taken",
-    "where something was refused is lost",
+    "a line that is one byte too long is accepted",
+    "a line that is too long is buffered completely",
+    "invalid UTF-8 is replaced",
+    "the answer to the previous case is accepted for this case",
+    "the first of two answers in a line is accepted",
+    "the offset of a rejection is lost",
 ];
 
-/// The number of the case that the lines are taken to answer.
+/// The number of the case to which the lines are answers.
 const SEQ: u64 = 258;
 
-/// The longest line (one byte), how many bytes come at a time (one byte), and what comes.
+/// Input: the maximum length of a line (1 byte), the number of bytes per read (1 byte), the output.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
-    // A long one now and then: answers have room.
+    // Sometimes a long maximum, so that an answer fits.
     let most = match input.byte() {
         0 => 4096,
         most => usize::from(most),
@@ -59,7 +59,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     }
 }
 
-/// Lines end with LF or CR LF, the last with nothing.
+/// The lines, which end with LF or CR LF; the last may lack a line end.
 fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let whole = bytes.strip_suffix(b"\n").unwrap_or(bytes);
     let none = bytes.is_empty();
@@ -67,7 +67,7 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line))
 }
 
-/// Whether a line is an answer, and what it is.
+/// Whether a line is an answer, and the answer or the error.
 fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
     let is_text = std::str::from_utf8(&line).is_ok();
     let read = match defect.is(3) {
@@ -79,7 +79,7 @@ fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
         Ok(line) => line,
         Err(why) => return (false, format!("{why:?}")),
     };
-    // What is shown of it is no more than a person reads.
+    // An error shows only a readable part of the line.
     let short = |reaction: &TesteeReaction| match reaction {
         TesteeReaction::Garbled(why) => assert!(why.len() < 2000, "{why}"),
         other => assert!(matches!(other, TesteeReaction::Answer(_)), "{other:?}"),
@@ -110,16 +110,16 @@ fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
     )
 }
 
-/// An answer is one of four to this case, and nothing else.
+/// An answer has the number of the case, and exactly one of the four kinds of answer.
 fn is_one(line: &str) {
-    // What nobody reads may be text that is none.
+    // Ignored fields may have strings that `Value` rejects.
     let Ok(value) = serde_json::from_str::<Value>(line) else { return };
     assert_eq!(value.get("seq"), Some(&Value::from(SEQ)), "{line}");
     let kinds = ["ok", "reject", "unsupported", "error"];
     assert_eq!(kinds.iter().filter(|kind| value.get(**kind).is_some()).count(), 1, "{line}");
 }
 
-/// An answer that is written down is the same answer.
+/// Serializing an answer gives the same answer.
 fn again(mut answer: Answer, defect: Defect) {
     let line = serde_json::to_string(&Reply { seq: Some(SEQ), answer: answer.clone() });
     if let (true, Answer::Reject(rejection)) = (defect.is(6), &mut answer) {

@@ -1,4 +1,4 @@
-//! The files of the tools, in TOML.
+//! The TOML files of the tools.
 
 use std::fmt::Debug;
 
@@ -10,10 +10,10 @@ use serde_json::Value;
 
 use crate::{Defect, Outcome};
 
-/// The first two defects of each.
+/// The first two defects of each target.
 macro_rules! placed {
     ($($more:literal),*) => {
-        &["a file is read otherwise behind a comment", "the line of an error is that before", $($more),*]
+        &["a file is parsed differently after a comment", "the line of an error is one too low", $($more),*]
     };
 }
 
@@ -31,7 +31,7 @@ pub(crate) fn waiver(data: &[u8], defect: Defect) -> Outcome {
     let read = placed(text, LINE, defect, Waivers::from_toml, alike);
     if let Ok(waivers) = &read {
         let again = if defect.is(3) { text.replace("\"VAR-8", "\"VAR-9") } else { text.to_owned() };
-        // Of one failure one waiver is enough.
+        // Two waivers of the same failure are an error.
         let twice = Waivers::from_toml(&format!("{text}\n{again}"));
         assert_eq!(twice.is_err(), !waivers.is_empty(), "{text}");
     }
@@ -76,7 +76,7 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
             let table = if defect.is(3) { table.replace("rank", "channel") } else { table };
             shown.push_str(&format!("{table}\n"));
         }
-        // What is no date cannot be shown as one.
+        // An expiry outside the dates of TOML cannot be printed.
         if expires.to_string().len() == "2026-05-04T17:30:00Z".len() {
             let again =
                 Allowed::from_toml(&shown).unwrap_or_else(|error| panic!("{error}\n{shown}"));
@@ -88,11 +88,11 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
     Outcome::of(read.map(|allowed| format!("{allowed:?}")))
 }
 
-/// A profile as a file: a report has the same, with other keys.
+/// A profile as a file. A report has the same data with other keys.
 fn shown(profile: &Profile) -> String {
     let Value::Object(all) = serde_json::to_value(profile).expect("JSON") else { panic!("a map") };
     let lines = all.iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| {
-        // TOML takes strings as JSON has them, but for this one character.
+        // TOML and JSON have the same strings, except for this character.
         let value = value.to_string().replace('\u{7F}', "\\u007f");
         format!("{} = {value}\n", key.replace('_', "-"))
     });
@@ -100,12 +100,12 @@ fn shown(profile: &Profile) -> String {
 }
 
 pub(super) fn text(data: &[u8]) -> Option<&str> {
-    // A mark of the byte order is one at the beginning only.
+    // A byte order mark is only valid at the beginning.
     std::str::from_utf8(data).ok().filter(|text| !text.starts_with('\u{FEFF}'))
 }
 
-/// Reads a file, and once more behind two lines: it says the same, and errors name the line, behind
-/// this word.
+/// Reads a file, and again after two additional lines. Both give the same value, or errors that name
+/// the line after `word`.
 pub(super) fn placed<T, E: ToString>(
     text: &str,
     word: &str,
@@ -121,11 +121,11 @@ pub(super) fn placed<T, E: ToString>(
     let (one, other) = (said(read(text)), said(read(&behind)));
     let moved = if defect.is(2) && text.lines().count() > 2 { 1 } else { 2 };
     match (&one, &other) {
-        (Ok(value), Ok(again)) => assert!(same(value, again), "read otherwise: {text}"),
+        (Ok(value), Ok(again)) => assert!(same(value, again), "different value: {text}"),
         (Err(error), Err(again)) => {
             let at = line(error, word).unwrap_or_else(|| panic!("no line: {error}"));
             assert!(at as usize <= text.matches('\n').count() + 1, "{error}");
-            // What is missing in the file is missing in its first line.
+            // A missing key is reported in the first line.
             let first = at == 1 && line(again, word) == Some(1) && !defect.is(2);
             assert!(first || line(again, word) == Some(at + moved), "{error}\n{again}");
         }
@@ -134,15 +134,15 @@ pub(super) fn placed<T, E: ToString>(
     one
 }
 
-/// Whether two values are shown alike.
+/// Whether two values have the same debug form.
 fn alike<T: Debug>(one: &T, other: &T) -> bool {
     format!("{one:?}") == format!("{other:?}")
 }
 
-/// What is before the line that an error names.
+/// The word before the line number in an error.
 const LINE: &str = "line ";
 
-/// The line that an error names.
+/// The line number in an error.
 fn line(error: &str, word: &str) -> Option<u32> {
     let (_, rest) = error.split_once(word)?;
     let end = rest.find(|one: char| !one.is_ascii_digit()).unwrap_or(rest.len());

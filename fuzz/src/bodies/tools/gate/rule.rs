@@ -1,4 +1,4 @@
-//! What may pass, by the bytes of frames and the entries of a file: no codec stands in between.
+//! The frames that may pass, by their bytes and the entries of a file, without the codec.
 
 use ads_cnc::address::{Addressing, Channel};
 use ads_cnc::operation::Call;
@@ -6,16 +6,16 @@ use ads_cnc_conformance::gate::{AllowedList, Entry};
 
 use super::harmless::{is_harmless, number};
 
-/// A channel as index groups have it: the bit of logical numbers, and the number.
+/// A channel as in an index group: the bit for logical addressing, and the number.
 type At = (bool, u32);
 
-/// What a session may do.
+/// The frames that a session may send.
 pub(super) struct Rule<'e> {
     entries: &'e [Entry],
-    /// By channel and handle: the name that was asked for, and the one that was described.
+    /// By channel and handle: the requested name, and the name in the description.
     handles: Vec<(At, u32, Vec<u8>)>,
     described: Vec<(At, u32, Vec<u8>)>,
-    /// Descriptors that were seen, with the list's index group.
+    /// Descriptors that were read, with the index group of their list.
     objects: Vec<(u32, Vec<u8>)>,
 }
 
@@ -27,7 +27,7 @@ fn at(channel: Channel) -> At {
     (channel.addressing() == Addressing::Logical, channel.number().into())
 }
 
-/// Whether a group is of decoders, and of which channel.
+/// The channel of a group, if it is a group of the decoder.
 fn decoder(group: u32) -> Option<At> {
     (group & !0x10_00FF == 0x2_2300).then_some((group >> 20 == 1, group & 0xFF))
 }
@@ -55,7 +55,7 @@ impl<'e> Rule<'e> {
         *self = Self::new(self.entries);
     }
 
-    /// An answer came.
+    /// Learns from a reply.
     pub(super) fn observe(&mut self, call: &Call<'_>, reply: &[u8]) {
         let (group, offset) = (call.index_group.get(), call.index_offset.get());
         if let (Some(at), Some(handle)) = (decoder(group), reply.first_chunk()) {
@@ -63,7 +63,7 @@ impl<'e> Rule<'e> {
             let named = |name: Option<&[u8]>| name.map(|name| (at, handle, name.to_vec()));
             match offset {
                 0x46 if reply.len() == 4 => self.handles.extend(named(until_nul(call.data))),
-                // Behind the handle, type, access, size and the dimensions.
+                // After the handle, type, access, size and dimensions.
                 0x45 if reply.len() > 20 => {
                     let skip = 20 + 4 * usize::try_from(number(reply, 16)).unwrap_or(usize::MAX);
                     let name = reply.get(skip..);
@@ -78,7 +78,7 @@ impl<'e> Rule<'e> {
         }
     }
 
-    /// Whether a variable is named by the file.
+    /// Whether the file names a variable.
     fn names(&self, channel: At, on: u32, asked: &[u8], whole: bool) -> bool {
         self.entries.iter().any(|entry| match entry {
             Entry::Variable { channel: of, axis, name } => {
@@ -92,7 +92,7 @@ impl<'e> Rule<'e> {
         })
     }
 
-    /// Whether an object of a name that the file has was seen there, and none elsewhere.
+    /// Whether the object at this address, and at no other, was described with a name in the file.
     fn is_object(&self, group: u32, offset: u32) -> bool {
         self.entries.iter().any(|entry| {
             let Entry::Object { list, name } = entry else { return false };
@@ -105,13 +105,13 @@ impl<'e> Rule<'e> {
                 AllowedList::Axis(axis) => 0x13_0200 | u32::from(axis.index()),
             };
             let seen = self.objects.iter().filter(|(group, object)| {
-                let told = &object[20..52];
-                let told = told.split(|&byte| byte == 0).next().unwrap_or(told);
-                *group == of && told == name.as_bytes()
+                let text = &object[20..52];
+                let text = text.split(|&byte| byte == 0).next().unwrap_or(text);
+                *group == of && text == name.as_bytes()
             });
-            let places: Vec<_> =
+            let addresses: Vec<_> =
                 seen.map(|(_, object)| (number(object, 12), number(object, 16))).collect();
-            !places.is_empty() && places.iter().all(|place| *place == (group, offset))
+            !addresses.is_empty() && addresses.iter().all(|one| *one == (group, offset))
         })
     }
 
@@ -173,22 +173,24 @@ impl<'e> Rule<'e> {
         }
         let command = u16::from_le_bytes([frame[22], frame[23]]);
         let call = frame.len() >= 50 && [2, 3, 9].contains(&command);
-        let place = call.then(|| (number(frame, 38), number(frame, 42)));
-        let sums = place.is_some_and(|(group, _)| (0xF080..=0xF08F).contains(&group));
-        // A write of nothing, or of too much, is none that anybody documents.
-        let stream = place.is_some_and(|(group, offset)| {
-            let is_there = group & !0x10_00FF == 0x2_0100 && offset == 0x90;
-            let is_sent = command != 3 || group & 0xFF == 0;
-            is_there && (is_sent || (1..=992).contains(&(frame.len() - 50)))
+        let address = call.then(|| (number(frame, 38), number(frame, 42)));
+        let sums = address.is_some_and(|(group, _)| (0xF080..=0xF08F).contains(&group));
+        // A write without data, or with too much, is not the documented one.
+        let stream = address.is_some_and(|(group, offset)| {
+            let is_stream = group & !0x10_00FF == 0x2_0100 && offset == 0x90;
+            let is_undocumented = command != 3 || group & 0xFF == 0;
+            is_stream && (is_undocumented || (1..=992).contains(&(frame.len() - 50)))
         });
-        let held = [5, 6, 7, 8].contains(&command)
-            || call && is_said(frame, command) && (sums || stream || is_write(frame, command));
-        named || !held
+        let needs_entry = [5, 6, 7, 8].contains(&command)
+            || call
+                && is_whole_call(frame, command)
+                && (sums || stream || is_write(frame, command));
+        named || !needs_entry
     }
 }
 
-/// Whether the lengths inside a service say that it is whole.
-fn is_said(frame: &[u8], command: u16) -> bool {
+/// Whether the lengths in a call match the length of the frame.
+fn is_whole_call(frame: &[u8], command: u16) -> bool {
     match command {
         2 => frame.len() == 50,
         3 => number(frame, 46) as usize + 50 == frame.len(),
@@ -196,7 +198,7 @@ fn is_said(frame: &[u8], command: u16) -> bool {
     }
 }
 
-/// Whether this is a write of a variable by its name, or of a content, at its own port.
+/// Whether this is a write of a variable by name, or of a content, at the right port.
 fn is_write(frame: &[u8], command: u16) -> bool {
     let (group, offset, data) = (number(frame, 38), number(frame, 42), &frame[50..]);
     let port = u16::from_le_bytes([frame[12], frame[13]]);
@@ -209,7 +211,7 @@ fn is_write(frame: &[u8], command: u16) -> bool {
     command == 3 && port == 552 && (by_name || content)
 }
 
-/// Whether the lengths say that this is one frame, and no more of them.
+/// Whether the lengths match exactly one frame.
 fn is_whole(frame: &[u8]) -> bool {
     frame.len() >= 38
         && frame[..2] == [0, 0]
