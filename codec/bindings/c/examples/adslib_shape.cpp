@@ -1,6 +1,6 @@
-// A client and a server, joined by the call of Beckhoff's AdsLib. `Send` has the signature of
-// AdsSyncReadWriteReqEx2, so with AdsLib it is that function; here a small CNC answers instead, which shows
-// the side of a server. Everything else stays as it is.
+// A client and a server, connected by a function with a signature of Beckhoff's AdsLib. `Send` has the signature
+// of AdsSyncReadWriteReqEx2, so a real client calls that function instead. In this example, `Send` is a small
+// CNC, which shows how to write a server.
 #include "ads_cnc.h"
 
 #include <cstdio>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// As AdsDef.h has them.
+// The same as in AdsDef.h.
 struct AmsNetId {
     uint8_t b[6];
 };
@@ -50,7 +50,7 @@ static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, u
     return 0;
 }
 
-// The handle of a variable.
+// Reads the handle of a variable.
 static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, uint32_t &handle,
                       std::string &fault) {
     AdsCncRequest request{};
@@ -75,7 +75,7 @@ static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, ui
         fault = "ADS error " + std::to_string(result);
         return false;
     }
-    // The length that was received, not that of the buffer.
+    // The received length, not the length of the buffer.
     if (!ads_cnc_decode_reply(&request, reply.data(), bytes_read, &field, 1, &count, &error))
         return refused();
     handle = field.number;

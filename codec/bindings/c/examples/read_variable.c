@@ -3,7 +3,7 @@
  *
  *     read_variable 127.0.0.1 48898 127.0.0.1.1.1 1 V.E.matrix
  *
- * The description says what type the value has; then the value is read. Plain POSIX and C11.
+ * Reads the description, which contains the type, then the value. Plain POSIX and C11.
  */
 #include "ads_cnc.h"
 
@@ -69,7 +69,7 @@ static AdsCncBytes ask(int connection, const uint8_t net_id[6], const AdsCncCall
         fprintf(stderr, "AMS error 0x%x\n", frame.error);
         exit(1);
     }
-    /* The data of the frame is a stream too: result, length, data. */
+    /* The data of the frame is a stream: result, length, data. */
     AdsCncField fields[3];
     uint32_t count = 0, reply = ads_cnc_stream("read-write-reply", 16);
     if (!ads_cnc_decode(reply, frame.data.data, frame.data.length, fields, 3, &count, &error))
@@ -115,7 +115,7 @@ int main(int argc, char **argv) {
     uint8_t net_id[6], data[512];
     for (int at = 0; at < 6; at++) net_id[at] = (uint8_t)part[at];
 
-    /* A name is CP1252 on the wire. */
+    /* Names are CP1252 on the wire. */
     AdsCncError error;
     AdsCncRequest request = {0};
     uint8_t name[256];
