@@ -1,4 +1,4 @@
-//! What holds for the findings in a program that comes packet by packet.
+//! Laws of the diagnostics of a program that arrives packet by packet.
 
 use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
@@ -20,7 +20,7 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// The first program end of a text: a line added comes after it.
+/// The first program end of a text: an added line follows it.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -44,7 +44,7 @@ impl CheckedLots {
         Self { checker: Checker::new(), so_far: Vec::new(), ended: None, bend }
     }
 
-    /// Lines that can be streamed.
+    /// Checks lines that can be streamed.
     pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Diagnostic> {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);

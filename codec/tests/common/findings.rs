@@ -1,4 +1,4 @@
-//! What holds for the findings in a program.
+//! Laws of the diagnostics of a program.
 
 use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
@@ -11,7 +11,7 @@ pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
     NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
-/// Any text: the findings are in the text and in its order, and do not depend on how lines end.
+/// For any text, diagnostics are within the text, in its order, and independent of the line ends.
 pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
     bend(&mut all, 0);

@@ -1,4 +1,4 @@
-//! A host of the Service Interface, whatever it is told.
+//! Laws of a host of the Service Interface, for any input.
 
 use ads_cnc::CncStr;
 use ads_cnc::service::*;
@@ -10,7 +10,7 @@ pub(crate) fn service_ids() -> [ServiceId; 2] {
     ]
 }
 
-/// Of a value the text, up to its NUL.
+/// The text of a value, up to its NUL.
 pub(super) fn text(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or(value)
 }
@@ -23,7 +23,7 @@ pub(super) fn is_text(variable: ServiceVariable) -> bool {
     !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState)
 }
 
-/// What is wrong in one thing around a host.
+/// A fault added to a host.
 #[derive(Clone, Copy)]
 pub(crate) struct HostBend {
     /// The value a host is told, of what was read and what was read of the variable before that.
@@ -55,7 +55,7 @@ pub(crate) enum Step {
     Wait,
 }
 
-/// A host, and all that it was told.
+/// A host, and all its inputs.
 pub(crate) struct CheckedHost<'s> {
     host: Host<'s>,
     ids: &'s [ServiceId],
@@ -83,7 +83,7 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Values that are none are errors; what is no request is none.
+    /// Checks that invalid values are errors, and that values without a request cause none.
     pub(crate) fn read(&mut self, value: &[u8]) {
         let before = self.step();
         let Step::Read(variable) = before else {

@@ -1,4 +1,4 @@
-//! What holds for any name of a variable: taken apart, put together, refused (VAR-20).
+//! Laws of names of variables: parsing, building, rejecting (VAR-20).
 
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::text::cp1252_to_char;
@@ -6,7 +6,7 @@ use ads_cnc::{CncStr, Error, ErrorKind, Kind, PathPart, U32List, VariablePath};
 
 use super::Fault;
 
-/// A name in pieces, to compare with and to build from.
+/// The pieces of a name, to compare with and to build from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pieces {
     pub(crate) kind: String,
@@ -32,7 +32,7 @@ impl Pieces {
         VariablePath::write(Kind::new(&self.kind).unwrap(), parts, buf)
     }
 
-    /// The name, by the standard library alone.
+    /// The name, built by the standard library only.
     pub(crate) fn name(&self) -> String {
         let mut name = self.kind.clone();
         for (part, indices) in &self.parts {
@@ -66,7 +66,7 @@ pub(crate) fn split(name: &str) -> Option<Pieces> {
     (!parts.is_empty()).then(|| Pieces { kind: format!("V.{kind}"), parts })
 }
 
-/// What is wrong in one thing with names.
+/// A fault added to names.
 #[derive(Clone, Copy)]
 pub(crate) struct NameBend {
     pub(crate) pieces: fn(&mut Pieces),
@@ -109,7 +109,7 @@ pub(crate) fn check_name(wire: &[u8], bend: NameBend) -> Result<Pieces, Fault> {
     }
 }
 
-/// A variable is named by what its name begins with.
+/// Checks that the name of a variable is the start of the name of its element.
 fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     assert_eq!((path.to_string(), path.text().len()), (name.to_string(), name.chars().count()));
     let variable = path.variable();
@@ -157,7 +157,7 @@ fn check_built(path: VariablePath<'_>, pieces: &Pieces, bend: NameBend) {
     }
 }
 
-/// Before the place of a fault nothing is wrong but that the name may end too early.
+/// Checks that the text before a fault is valid, or only ends too early.
 fn check_fault(name: &str, fault: Fault) {
     let count = name.chars().count();
     assert!(fault.offset <= count, "{fault:?} of {name:?}");

@@ -1,4 +1,4 @@
-//! What holds for any operation, of any function.
+//! Laws of operations, for every function.
 
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -10,7 +10,7 @@ use ads_cnc::{Error, ErrorKind, Handle, Kind, U32List};
 
 use super::check_call;
 
-/// What operations are made of; each takes what it needs.
+/// Parameters of operations; each operation uses some of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Parameters<'a> {
     pub(crate) channel: Channel,
@@ -19,7 +19,7 @@ pub(crate) struct Parameters<'a> {
     pub(crate) spindle: Spindle,
     pub(crate) class: Class,
     pub(crate) dynamic: DynamicKind,
-    /// Which of the lists, groups or elements that there are.
+    /// Selects a list, group or element.
     pub(crate) place: u8,
     pub(crate) element: u32,
     pub(crate) number: u32,
@@ -58,8 +58,8 @@ impl Parameters<'_> {
     }
 }
 
-/// An operation of this function reaches the server as it was meant, if it can be made of these
-/// parameters; `bend` puts something wrong into the call that is encoded.
+/// Checks that a server dispatches the operation of this function to the same operation, if these
+/// parameters are valid; `bend` adds a fault to the encoded call.
 pub(crate) fn check_made(
     function: Function,
     of: &Parameters<'_>,
@@ -97,7 +97,7 @@ pub(crate) fn check_made(
         }
         Function::FindInstance => {
             let find = FindInstance::new(class, number, count);
-            // Spindles have no logical form.
+            // Spindles have no logical address.
             let by_index = class != Class::Spindle && of.place % 2 == 1;
             made(if by_index { find.by_index() } else { find }, bend)
         }
@@ -122,7 +122,8 @@ pub(crate) fn check_made(
     }
 }
 
-/// What a client means reaches the server as it was meant, and encodes to the same call.
+/// Checks that a server dispatches a call to the operation of the client, and that it encodes to the
+/// same call.
 pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
     assert_eq!(made(operation, &|_| ()), Ok(()));
 }

@@ -1,4 +1,4 @@
-//! What holds for a value of any type, dimensions and size (VAR-8, VAR-21).
+//! Laws of values of any type, dimensions and size (VAR-8, VAR-21).
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue as _, Shape};
 use ads_cnc::{ErrorKind, U32List};
@@ -15,7 +15,7 @@ pub(crate) struct Described<'a> {
     pub(crate) bytes: &'a [u8],
 }
 
-/// What is wrong in one thing with values.
+/// A fault added to values.
 #[derive(Clone, Copy)]
 pub(crate) struct ShapeBend {
     /// The indices that are asked for.

@@ -1,4 +1,4 @@
-//! What holds for any text, judged by another implementation of CP1252 (GEN-3).
+//! Laws of texts, compared with another implementation of CP1252 (GEN-3).
 
 use std::hash::{DefaultHasher, Hash, Hasher as _};
 
@@ -6,7 +6,7 @@ use ads_cnc::text::{TextRef, char_to_cp1252, cp1252_to_char};
 use ads_cnc::{CncStr, Error, ErrorKind};
 use encoding_rs::{EncoderResult, WINDOWS_1252};
 
-/// What is wrong in one thing with a text.
+/// A fault added to a text.
 #[derive(Clone, Copy)]
 pub(crate) struct CncStrBend {
     pub(crate) shown: fn(String) -> String,
@@ -21,14 +21,14 @@ impl CncStrBend {
         Self { shown: |text| text, bytes: |_| (), len: |len, _| len, fault: Some };
 }
 
-/// Kind, offset and what was found.
+/// Kind, offset and found number.
 type Fault = (ErrorKind, usize, u32);
 
 fn fault_of(error: Error) -> Fault {
     (error.kind(), error.offset() as usize, error.found())
 }
 
-/// Any bytes as CP1252: text if there is no NUL, of the characters that encoding_rs says.
+/// Checks any bytes as CP1252: text without a NUL has the characters of encoding_rs.
 pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fault> {
     let found = CncStr::from_bytes(bytes).map_err(fault_of);
     let nul = bytes.iter().position(|&byte| byte == 0);
@@ -45,7 +45,8 @@ pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fau
     Ok(shown)
 }
 
-/// Any Rust string: text of the bytes that encoding_rs says, or the first character without one.
+/// Checks any Rust string: its bytes are those of encoding_rs, or the first character without a byte
+/// is an error.
 pub(crate) fn check_utf8(utf8: &str, bend: CncStrBend) -> Result<String, Fault> {
     let found = CncStr::new(utf8).map_err(fault_of);
     let mut bytes = Vec::new();
