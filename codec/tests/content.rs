@@ -31,8 +31,8 @@ fn addresses_of_functions_are_rejected_for_content() {
     let of_decoder = offsets.map(|offset| (0x12_2301, offset));
     for (group, offset) in of_decoder.chain([(0x12_0101, 0x90), (0x2_0106, 0x90)]) {
         let call = content(group, offset);
-        let refusal = call.dispatch().unwrap_err();
-        assert!(matches!(refusal, DispatchError::Service { .. }), "{call:?}: {refusal}");
+        let error = call.dispatch().unwrap_err();
+        assert!(matches!(error, DispatchError::Service { .. }), "{call:?}: {error}");
         let (group, offset) = (call.index_group, call.index_offset);
         let error = match call.port {
             AmsPort::COM => {
@@ -92,8 +92,8 @@ fn content_of_a_platform_axis_has_two_addresses() {
         assert_eq!(request.encode(&mut []), Ok(call));
     }
     let group = IndexGroup::new(0x13_0200);
-    let refused = Call { index_group: group, ..call(0, 0) }.dispatch();
-    assert_eq!(refused, Err(DispatchError::Group(group)));
+    let rejected = Call { index_group: group, ..call(0, 0) }.dispatch();
+    assert_eq!(rejected, Err(DispatchError::Group(group)));
 }
 
 #[test]

@@ -18,7 +18,7 @@ enum Expected {
     Refused(Fault),
 }
 
-fn refused(
+fn rejected(
     kind: ErrorKind,
     field: &'static str,
     offset: usize,
@@ -114,12 +114,12 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         (Some(Text::Terminated), ..) => match there {
             0 if stream == Stream::VariableKind => Expected::Accepted(VAR_1),
             _ if bytes[..there].contains(&0) => Expected::Accepted(E_34),
-            _ => refused(MissingNul, name, start, (256, there)),
+            _ => rejected(MissingNul, name, start, (256, there)),
         },
         (Some(Text::MayTerminate | Text::Open(_)), stream, _)
             if there == 0 && stream != Stream::ElementText =>
         {
-            refused(Truncated, name, start, (1, 0))
+            rejected(Truncated, name, start, (1, 0))
         }
         (Some(Text::MayTerminate), ..) => match bytes[..there].contains(&0) {
             true => Expected::Accepted(E_34),
@@ -129,7 +129,7 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
             true => Expected::Accepted(behind),
             false => Expected::Accepted(open),
         },
-        (None, Stream::ProgramStream, _) if there == 0 => refused(Truncated, name, 0, (1, 0)),
+        (None, Stream::ProgramStream, _) if there == 0 => rejected(Truncated, name, 0, (1, 0)),
         (None, _, "value") if there == 0 && ends_in_bytes(stream).is_some() => {
             Expected::Accepted(VAR_14_EMPTY)
         }
@@ -138,9 +138,11 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         }
         (None, Stream::ElementLength, _) => match there {
             1 | 2 => Expected::Accepted(SDA_8),
-            _ => refused(Truncated, name, 0, (4, there)),
+            _ => rejected(Truncated, name, 0, (4, there)),
         },
-        (None, Stream::VariableNameWrite, "name") => refused(MissingNul, name, start, (256, there)),
+        (None, Stream::VariableNameWrite, "name") => {
+            rejected(MissingNul, name, start, (256, there))
+        }
         (None, Stream::VariableExtendedDescription, _) if cut == 0 => Expected::Accepted(VAR_16),
         (None, Stream::ObjectDescriptors, "id") if there == 0 && cut > 0 => {
             Expected::Accepted(COM_3)
@@ -156,9 +158,9 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
             let (_, first, _) = sample.places().find(of_items).unwrap();
             let count = sample.places().filter(of_items).count();
             let counter = sample.places().find(|&(_, at, _)| at + 4 == first).unwrap();
-            refused(TooMany, counter.0, counter.1, ((cut - first) / 4, count))
+            rejected(TooMany, counter.0, counter.1, ((cut - first) / 4, count))
         }
-        _ => refused(Truncated, name, start, (bytes.len(), there)),
+        _ => rejected(Truncated, name, start, (bytes.len(), there)),
     }
 }
 
@@ -174,34 +176,34 @@ fn limit(stream: Stream) -> usize {
 fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
     let len = sample.bytes().len();
     let last = sample.places().last();
-    let trailing = refused(Trailing, "stream", len, (len, len + 1));
+    let trailing = rejected(Trailing, "stream", len, (len, len + 1));
     match (stream, last) {
         (Stream::VariableKind, None) if extra == 0 => Expected::Accepted(E_34),
-        (Stream::VariableKind, None) => refused(MissingNul, "kind", 0, (256, 1)),
+        (Stream::VariableKind, None) => rejected(MissingNul, "kind", 0, (256, 1)),
         (Stream::ElementText, None) => Expected::Accepted(SDA_6),
         (stream, _) if ends_in_bytes(stream).is_some() => {
             Expected::Accepted(ends_in_bytes(stream).unwrap())
         }
         (Stream::ElementLength, _) => match len {
             1 => Expected::Accepted(SDA_8),
-            2 => refused(Truncated, "length", 0, (4, 3)),
+            2 => rejected(Truncated, "length", 0, (4, 3)),
             _ => trailing,
         },
         (Stream::VariableExtendedDescription, None) => {
-            refused(Truncated, "synchronisation", 0, (4, 1))
+            rejected(Truncated, "synchronisation", 0, (4, 1))
         }
-        (Stream::VariableExtendedDescription, _) => refused(TooLong, "stream", 8, (8, 9)),
-        (Stream::ObjectDescriptors, _) => refused(Truncated, "id", len, (4, 1)),
+        (Stream::VariableExtendedDescription, _) => rejected(TooLong, "stream", 8, (8, 9)),
+        (Stream::ObjectDescriptors, _) => rejected(Truncated, "id", len, (4, 1)),
         (Stream::ReadReply | Stream::ReadWriteReply, Some(("result", ..))) => {
-            refused(Truncated, "length", 4, (4, 1))
+            rejected(Truncated, "length", 4, (4, 1))
         }
         (_, Some((name, start, bytes))) => match text_of(stream, name) {
             // The text fills the stream, or has its maximum length.
             Some(Text::Open(_)) if stream == Stream::VariableDescription && bytes.len() == 256 => {
-                refused(TooLong, name, start, (256, 257))
+                rejected(TooLong, name, start, (256, 257))
             }
             Some(_) if bytes.len() == limit(stream) => {
-                refused(TooLong, "stream", len, (len, len + 1))
+                rejected(TooLong, "stream", len, (len, len + 1))
             }
             Some(Text::Terminated) if extra == 0 => Expected::Accepted(E_34),
             Some(Text::MayTerminate) if !bytes.contains(&0) => Expected::Accepted(DYN_3),
@@ -259,7 +261,7 @@ fn text_after_the_nul_of_a_request_is_trailing() {
         (Stream::VariableIndexKind, b"\x02\0\0\0V.E\0V", 8),
         (Stream::DynamicNameRequest, b"P1\0\0P", 4),
     ] {
-        let expected = refused(Trailing, "stream", end, (end, bytes.len()));
+        let expected = rejected(Trailing, "stream", end, (end, bytes.len()));
         assert_eq!(observed(check(stream, bytes), expected), expected);
     }
 }

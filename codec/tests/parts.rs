@@ -14,7 +14,7 @@ use ads_cnc::*;
 /// The request of a server for this operation.
 fn dispatched<'b>(request: Request<'_>, buf: &'b mut [u8]) -> Request<'b> {
     let call = request.encode(buf).unwrap();
-    call.dispatch().unwrap_or_else(|refusal| panic!("{request:?}: {refusal}"))
+    call.dispatch().unwrap_or_else(|error| panic!("{request:?}: {error}"))
 }
 
 fn channel(number: u32) -> Channel {
@@ -119,14 +119,14 @@ fn dispatch_errors_are_not_retried() {
     let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
     let error = Handle::decode(&[]).unwrap_err();
     let service = DispatchError::Service { expected: Service::Write, found: Service::Read };
-    for refusal in [
+    for error in [
         DispatchError::Port(port),
         DispatchError::Group(group),
         DispatchError::Offset(offset),
         service,
         DispatchError::Stream(error),
     ] {
-        assert_eq!(Ack::from_result(refusal.ads_error()), Ack::Rejected, "{refusal}");
+        assert_eq!(Ack::from_result(error.ads_error()), Ack::Rejected, "{error}");
     }
 }
 

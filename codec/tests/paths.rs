@@ -253,14 +253,14 @@ fn axes_are_added_to_names_and_removed() {
     let indexed = path("V.A.LIST[2].X[3]");
     assert_eq!(indexed.write_without_axis(&mut [0; 64]).unwrap(), path("V.A.LIST[2][3]"));
 
-    let refused = |name: &'static str, axis: &str| {
+    let rejected = |name: &'static str, axis: &str| {
         let axis = CncStr::new(axis).unwrap();
         Fault::of(path(name).write_axis(axis, &mut [0; 64]).unwrap_err())
     };
-    assert_eq!(refused("V.E.a", "X"), fault(Unexpected, "kind", 2, (0, 0x45)));
-    assert_eq!(refused("V.AB.a", "X"), fault(Unexpected, "kind", 3, (0, 0x42)));
-    assert_eq!(refused("V.A.a", ""), fault(Truncated, "part", 6, (1, 0)));
-    assert_eq!(refused("V.A.a[0]", "X.Y"), fault(Unexpected, "part", 7, (0, 0x2E)));
+    assert_eq!(rejected("V.E.a", "X"), fault(Unexpected, "kind", 2, (0, 0x45)));
+    assert_eq!(rejected("V.AB.a", "X"), fault(Unexpected, "kind", 3, (0, 0x42)));
+    assert_eq!(rejected("V.A.a", ""), fault(Truncated, "part", 6, (1, 0)));
+    assert_eq!(rejected("V.A.a[0]", "X.Y"), fault(Unexpected, "part", 7, (0, 0x2E)));
     let without = |name| Fault::of(path(name).write_without_axis(&mut [0; 64]).unwrap_err());
     assert_eq!(without("V.A.ACT_POS[1]"), fault(Missing, "part", 11, (0, 0)));
     assert_eq!(without("V.G.a.b"), fault(Unexpected, "kind", 2, (0, 0x47)));
@@ -269,15 +269,15 @@ fn axes_are_added_to_names_and_removed() {
 /// Invalid names are rejected; after an error, nothing is written.
 #[test]
 fn builders_reject_invalid_names_and_write_nothing() {
-    let refused = |build: &dyn Fn(&mut [u8]) -> Option<Error>| {
+    let rejected = |build: &dyn Fn(&mut [u8]) -> Option<Error>| {
         let mut buf = [0x55; 300];
-        let error = build(&mut buf).expect("refused");
+        let error = build(&mut buf).expect("rejected");
         assert_eq!(buf, [0x55; 300]);
         Fault::of(error)
     };
     let pieces = |kind, parts: &[(&str, &[u32])]| {
         let pieces = Pieces::new(kind, parts);
-        refused(&|buf| pieces.write(buf).err())
+        rejected(&|buf| pieces.write(buf).err())
     };
     assert_eq!(pieces("V.E", &[]), fault(Truncated, "part", 3, (1, 0)));
     assert_eq!(pieces("V.E", &[("", &[])]), fault(Truncated, "part", 4, (1, 0)));
@@ -292,13 +292,13 @@ fn builders_reject_invalid_names_and_write_nothing() {
         fault(OutOfRange, "index", 10, (4_294_967_294, 4_294_967_295))
     });
     let element = path("V.E.a[1]");
-    let again = refused(&|buf| element.write_element(U32List::from(&[2]), buf).err());
+    let again = rejected(&|buf| element.write_element(U32List::from(&[2]), buf).err());
     assert_eq!(again, fault(Unexpected, "index", 5, (0, 0x5B)));
 
     // One byte less than needed.
     let short = |build: &dyn Fn(&mut [u8]) -> Option<Error>, len: usize| {
         let mut buf = [0x55; 64];
-        let error = build(&mut buf[..len - 1]).expect("refused");
+        let error = build(&mut buf[..len - 1]).expect("rejected");
         assert_eq!(buf, [0x55; 64]);
         assert_eq!(Fault::of(error), fault(BufferTooSmall, "stream", 0, (len, len - 1)));
         assert_eq!(build(&mut buf[..len]), None);

@@ -11,7 +11,7 @@ use ads_cnc::value::{DataType, Shape};
 use ads_cnc::*;
 
 fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
-    let error = result.expect_err("refused");
+    let error = result.expect_err("rejected");
     // `Debug` also contains the class.
     assert_eq!(format!("{error:?}"), format!("Error({:?}, {error})", error.kind()));
     (error.kind(), error.to_string())
@@ -226,29 +226,29 @@ fn dispatch_errors_have_a_text_and_a_number() {
         data: b"V.E.vartest\0",
     };
     assert!(call.dispatch().is_ok());
-    let refused = |call: Call<'_>| {
-        let refusal = call.dispatch().unwrap_err();
-        assert!(refusal.source().is_none(), "a chain of errors would show it again");
-        (refusal.to_string(), refusal.ads_error())
+    let rejected = |call: Call<'_>| {
+        let fault = call.dispatch().unwrap_err();
+        assert!(fault.source().is_none(), "a chain of errors would show it again");
+        (fault.to_string(), fault.ads_error())
     };
     let plain = |text: &str, number| (text.to_string(), number);
     assert_eq!(
-        refused(Call { port: AmsPort(554), ..call }),
+        rejected(Call { port: AmsPort(554), ..call }),
         plain("no task has port 554", AdsError::TARGET_PORT_NOT_FOUND)
     );
     assert_eq!(
-        refused(Call { index_group: IndexGroup::new(0xF005), ..call }),
+        rejected(Call { index_group: IndexGroup::new(0xF005), ..call }),
         plain("no function has index group 0xf005", AdsError::INVALID_GROUP)
     );
     assert_eq!(
-        refused(Call { index_offset: IndexOffset::new(0x4E), ..call }),
+        rejected(Call { index_offset: IndexOffset::new(0x4E), ..call }),
         plain("no function has index offset 0x4e", AdsError::INVALID_OFFSET)
     );
     assert_eq!(
-        refused(Call { service: Service::Write, ..call }),
+        rejected(Call { service: Service::Write, ..call }),
         plain("the function takes ReadWrite, not Write", AdsError::SERVICE_NOT_SUPPORTED)
     );
     let stream =
         "variable-name: name at offset 0: no NUL, expected one within 256 bytes, found 1 without";
-    assert_eq!(refused(Call { data: b"V", ..call }), plain(stream, AdsError::INVALID_SIZE));
+    assert_eq!(rejected(Call { data: b"V", ..call }), plain(stream, AdsError::INVALID_SIZE));
 }

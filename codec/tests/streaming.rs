@@ -27,11 +27,11 @@ fn texts_of_zero_and_one_byte_have_their_lines() {
 fn results_are_converted_to_acknowledgements() {
     use ads_cnc::ads::AdsError;
 
-    let refused = [6, 7, 0x701, 0x702, 0x703, 0x704, 0x705];
+    let rejected = [6, 7, 0x701, 0x702, 0x703, 0x704, 0x705];
     for number in (0..0x1_0000).chain([u32::MAX]) {
         let wanted = match number {
             0 => Ack::Accepted,
-            number if refused.contains(&number) => Ack::Rejected,
+            number if rejected.contains(&number) => Ack::Rejected,
             _ => Ack::Busy,
         };
         assert_eq!(Ack::from_result(AdsError(number)), wanted, "{number:#x}");
@@ -151,9 +151,9 @@ fn a_sender_counts_busy_results() {
     let two = line.repeat(2);
     let mut sender = Sender::new(NcText::new(&two).unwrap());
     for _ in 0..2 {
-        for refusals in 0..3 {
+        for busy in 0..3 {
             assert_eq!(sender.packet(), Some(&line[..]));
-            assert_eq!(sender.busy_count(), refusals);
+            assert_eq!(sender.busy_count(), busy);
             assert_eq!(sender.acknowledge(Ack::Busy), Ok(()));
         }
         assert_eq!(sender.packet(), Some(&line[..]));

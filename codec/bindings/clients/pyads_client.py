@@ -92,7 +92,7 @@ room, data = ctypes.c_ubyte * request.read_length, ctypes.c_ubyte * len(request.
 ask = request.index_group, request.index_offset, room, list(request.data), data
 with pyads.Connection(NET_ID, request.port, host) as plc:
     try:
-        sys.exit(f"not refused: {plc.read_write(*ask)}")
+        sys.exit(f"not rejected: {plc.read_write(*ask)}")
     except RuntimeError as error:
         check("a short reply", str(error).split(" (")[0], "Insufficient data")
     padded = bytes(plc.read_write(*ask, check_length=False))

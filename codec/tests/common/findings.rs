@@ -4,7 +4,7 @@ use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
 use super::streaming::reference_lines;
 
-/// What is wrong in one thing with what is found in some lines, behind so many others.
+/// A fault added to the diagnostics of lines, after a number of other lines.
 pub(crate) type FindingsBend = fn(&mut Vec<Diagnostic>, u32);
 
 pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {

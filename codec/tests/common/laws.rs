@@ -15,34 +15,34 @@ use super::{Fault, Reading, Subject};
 /// The value of buffer bytes that were not written.
 const UNTOUCHED: u8 = 0x55;
 
-/// How many bytes a stream has, or the error.
+/// The length of a stream in bytes, or the error.
 type Length = Result<usize, Error>;
 
-/// A fault added to a correct codec, to verify that the laws detect it. Each field changes one result:
+/// A fault added to a correct codec, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct Bend {
-    /// the announced length, or the error.
+    /// Changes the announced length, or the error.
     pub(crate) len: fn(Length) -> Length,
-    /// the parts of an error.
+    /// Changes the parts of an error.
     pub(crate) fault: fn(Fault) -> Fault,
-    /// the written bytes.
+    /// Changes the written bytes.
     pub(crate) written: fn(&mut [u8]),
-    /// a buffer that was too small.
+    /// Changes a buffer that was too small.
     pub(crate) small: fn(&mut [u8]),
-    /// the bytes written into a vector.
+    /// Changes the bytes written into a vector.
     pub(crate) vec: fn(&mut Vec<u8>),
-    /// the length of a segment.
+    /// Changes the length of a segment.
     pub(crate) segment: fn(usize) -> usize,
-    /// the bytes joined from segments.
+    /// Changes the bytes joined from segments.
     pub(crate) joined: fn(&mut Vec<u8>),
-    /// the result of comparing view and owned type.
+    /// Changes the result of comparing view and owned type.
     pub(crate) same: fn(&[u8], bool) -> bool,
-    /// the result of `decode_prefix`: the length of the stream, or the error.
+    /// Changes the result of `decode_prefix`: the length of the stream, or the error.
     pub(crate) prefix: fn(&[u8], Length) -> Length,
-    /// the bytes that `BinWrite` writes after `BinRead`, and the position of the reader.
+    /// Changes the bytes that `BinWrite` writes after `BinRead`, and the position of the reader.
     #[cfg(all(feature = "binrw", feature = "std"))]
     pub(crate) binrw: fn(&[u8], ReadAndWritten) -> ReadAndWritten,
-    /// the bytes of a value written by its type.
+    /// Changes the bytes of a value written by its type.
     pub(crate) typed: fn(&mut [u8]),
 }
 
@@ -63,7 +63,7 @@ impl Bend {
         typed: |_| (),
     };
 
-    /// An announced length or an error as it is compared, with the stream of its field.
+    /// A result in the form that is compared: an error with its field.
     fn told<T>(&self, told: Result<T, Error>) -> Result<(), (Fault, Field)> {
         told.map(drop).map_err(|error| ((self.fault)(Fault::of(error)), error.field()))
     }
@@ -117,7 +117,7 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
     verdict
 }
 
-/// Whether every stream of this table ends after the same fields, however many bytes follow.
+/// Whether the fields determine the end of the stream, however many bytes follow.
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
@@ -167,8 +167,8 @@ where
     bytes
 }
 
-/// Segments of accepted bytes tile them, and `join` makes the same bytes of them; an error lies inside the
-/// stream that it names.
+/// Checks that the segments of accepted bytes cover them without gaps and join to the same bytes, and
+/// that the offset of an error is within its stream.
 fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let (mut end, mut parts) = (0, Vec::new());
     let verdict = stream.walk(bytes, |segment| {
@@ -193,8 +193,8 @@ fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     verdict
 }
 
-/// Encodes what `bytes` are read as: into too small a buffer nothing, else the same bytes and
-/// nothing behind them.
+/// Checks that the decoded value encodes to the same bytes and nothing after them, and that too small
+/// a buffer is not written to.
 fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
@@ -230,8 +230,7 @@ pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Bend::NONE, |_| ()).map(drop)
 }
 
-/// The same of a codec that may be wrong, where `wrong` is what it does to the call that is encoded.
-/// Returns the function.
+/// The same for a codec that may have a fault: `wrong` changes the encoded call. Returns the function.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
     bend: &Bend,
@@ -279,7 +278,7 @@ fn check_frame(call: &Call<'_>, bend: &Bend) {
     assert_eq!(Call::from_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
-/// A call takes what the stream of its function's request takes, and refuses the rest as that does.
+/// Checks that a call accepts and rejects the same data as the stream of the request of its function.
 pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), DispatchError> {
     let verdict = check_call(call);
     if let Some(stream) = function.spec().request {
@@ -289,8 +288,8 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
     verdict
 }
 
-/// A request takes for a reply what the stream of its function's reply takes, as long as it is no
-/// longer than was asked for; that encodes to the same bytes.
+/// Checks that a request accepts and rejects the same replies as the stream of the reply of its
+/// function, up to the read length, and that accepted replies encode to the same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
     check_reply_bent(call, bytes, &Bend::NONE).map(drop)
 }

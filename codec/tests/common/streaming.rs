@@ -52,7 +52,7 @@ fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     None
 }
 
-/// What packets are made of a text that are wrong in one thing.
+/// A fault added to the packets of a text.
 #[derive(Clone, Copy)]
 pub(crate) struct TextBend {
     pub(crate) packets: fn(&mut Vec<Vec<u8>>),
@@ -77,7 +77,7 @@ pub(crate) fn check_text(bytes: &[u8], bend: TextBend) -> Result<Vec<Vec<u8>>, T
     verdict.map(|()| check_packets_bent(bytes, bend))
 }
 
-/// The laws of packets.
+/// Checks the laws of packets.
 pub(crate) fn check_packets(bytes: &[u8]) {
     check_packets_bent(bytes, TextBend::NONE);
 }
@@ -110,9 +110,9 @@ fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
 /// A fault added to a sender.
 #[derive(Clone, Copy)]
 pub(crate) struct SenderBend {
-    /// What the sender is told.
+    /// Changes the acknowledgement.
     pub(crate) ack: fn(Ack) -> Ack,
-    /// What it says to have sent.
+    /// Changes the reported progress.
     pub(crate) sent: fn(Progress) -> Progress,
 }
 
@@ -127,7 +127,7 @@ pub(crate) struct CheckedSender<'t> {
     packets: Vec<Vec<u8>>,
     sent: Progress,
     state: SenderState,
-    refusals: u32,
+    busy_count: u32,
     bend: SenderBend,
 }
 
@@ -137,7 +137,7 @@ impl<'t> CheckedSender<'t> {
         let state = if packets.is_empty() { SenderState::Done } else { SenderState::Ready };
         let sender = Sender::new(NcText::new(text).unwrap());
         let (wire, sent) = (packets.concat(), Progress::default());
-        let checked = Self { sender, wire, packets, sent, state, refusals: 0, bend };
+        let checked = Self { sender, wire, packets, sent, state, busy_count: 0, bend };
         checked.check();
         checked
     }
@@ -155,7 +155,7 @@ impl<'t> CheckedSender<'t> {
         packet
     }
 
-    /// Takes one acknowledgement for one packet, and none else.
+    /// Checks that the sender accepts exactly one acknowledgement per packet.
     pub(crate) fn acknowledge(&mut self, ack: Ack) {
         let out = self.state == SenderState::InFlight;
         let taken = self.sender.acknowledge((self.bend.ack)(ack));
@@ -165,14 +165,14 @@ impl<'t> CheckedSender<'t> {
             Ack::Rejected => self.state = SenderState::Stopped,
             Ack::Busy => {
                 self.state = SenderState::Waiting;
-                self.refusals += 1;
+                self.busy_count += 1;
             }
             Ack::Accepted => {
                 let packet = &self.packets[self.sent.packets];
                 self.sent.packets += 1;
                 self.sent.lines += packet.iter().filter(|&&byte| byte == b'\n').count();
                 self.sent.bytes += packet.len();
-                self.refusals = 0;
+                self.busy_count = 0;
                 let all = self.sent.packets == self.packets.len();
                 self.state = if all { SenderState::Done } else { SenderState::Ready };
             }
@@ -180,12 +180,12 @@ impl<'t> CheckedSender<'t> {
         self.check();
     }
 
-    /// What was accepted is the text from its start on, without gap and without repetition, and
+    /// Checks that the accepted data is the start of the text, without gaps and repetitions, and that
     /// the counts agree.
     fn check(&self) {
         let sender = &self.sender;
         let found = ((self.bend.sent)(sender.sent()), sender.state(), sender.busy_count());
-        assert_eq!(found, (self.sent, self.state, self.refusals));
+        assert_eq!(found, (self.sent, self.state, self.busy_count));
         assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
     }
 

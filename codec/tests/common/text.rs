@@ -11,7 +11,7 @@ use encoding_rs::{EncoderResult, WINDOWS_1252};
 pub(crate) struct CncStrBend {
     pub(crate) shown: fn(String) -> String,
     pub(crate) bytes: fn(&mut Vec<u8>),
-    /// The length, of what is shown so.
+    /// Changes the length of the displayed text.
     pub(crate) len: fn(usize, &str) -> usize,
     pub(crate) fault: fn(Fault) -> Option<Fault>,
 }
@@ -73,7 +73,7 @@ fn encoded(character: char) -> Option<u8> {
     (result == EncoderResult::InputEmpty && written == 1).then_some(byte[0])
 }
 
-/// Text from these characters is text from these bytes, whichever it is made of.
+/// Checks that texts from these characters and from these bytes are equal.
 fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend) -> String {
     let shown = (bend.shown)(text.to_string());
     assert_eq!(shown, characters);
@@ -93,7 +93,7 @@ fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend
     };
     assert!(wire == typed && hash(wire) == hash(typed));
     assert_eq!((format!("{wire} {wire:?}")), format!("{typed} {typed:?}"));
-    // A character more or less is another text.
+    // A text with one character more or less differs.
     let longer = [bytes, b"x"].concat();
     assert!(CncStr::from_bytes(&longer).unwrap() != typed);
     #[cfg(feature = "alloc")]
@@ -106,7 +106,7 @@ fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend
     shown
 }
 
-/// A field is its text and its end, whichever that is; the text decides what it shows.
+/// Checks that fields are equal if text and end are, and that only the text is displayed.
 fn check_field(bytes: &[u8]) {
     let text = CncStr::from_bytes(bytes).expect("text without NUL");
     for (tail, len) in [(None, 0), (Some(&[][..]), 1), (Some(&[0, 0][..]), 3)] {

@@ -3,8 +3,8 @@
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Scalar};
 use ads_cnc::{ErrorKind, U32List, ValueRef};
 
-/// All ways of reading the bytes by a type agree, and each writes the same bytes again; `wrong` is
-/// what a codec does to those that are written element by element, if it is wrong.
+/// Checks that all ways to decode the bytes by a type agree and encode to the same bytes; `wrong` is a
+/// fault that changes the bytes written element by element.
 pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
     for data_type in DataType::ALL {
         let each = data_type.size().map_or(3, |size| size as usize);
@@ -97,7 +97,7 @@ fn check_strings(elements: Elements<'_>) {
     assert!(elements.items::<u8>().is_err());
 }
 
-/// The same elements in a rectangle: by their indices, they are where a nested loop finds them.
+/// Checks that indices select the same elements as a nested loop over two dimensions.
 fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
     for rows in [2, 3].into_iter().filter(|rows| count % rows == 0) {
         let dimensions = [rows, count / rows];

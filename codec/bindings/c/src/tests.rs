@@ -278,29 +278,29 @@ fn calls_without_a_function_are_rejected() {
         read_length: 4,
         data: bytes("V.E.a\0"),
     };
-    let refusal = |call: AdsCncCall| dispatch(&call, &mut []).unwrap_err();
-    assert_eq!(refusal(AdsCncCall { port: 851, ..call }).0, 6);
+    let rejected = |call: AdsCncCall| dispatch(&call, &mut []).unwrap_err();
+    assert_eq!(rejected(AdsCncCall { port: 851, ..call }).0, 6);
     assert_eq!(
-        refusal(AdsCncCall { port: 0x1_0228, ..call }).1,
+        rejected(AdsCncCall { port: 0x1_0228, ..call }).1,
         "call: port at offset 0: argument not accepted by the function, expected 0, found 0"
     );
-    assert_eq!(refusal(AdsCncCall { index_group: 1, ..call }).0, 0x702);
-    let (number, told) = refusal(AdsCncCall { index_offset: 0x4E, ..call });
+    assert_eq!(rejected(AdsCncCall { index_group: 1, ..call }).0, 0x702);
+    let (number, told) = rejected(AdsCncCall { index_offset: 0x4E, ..call });
     assert_eq!(number, 0x703);
     let offset = "call: index_offset at offset 0: no function has this index offset";
     assert_eq!(told, format!("{offset}, expected 0, found 78"));
     assert_eq!(
-        refusal(AdsCncCall { command: 2, ..call }).1,
+        rejected(AdsCncCall { command: 2, ..call }).1,
         "call: command at offset 0: the function requires another command, expected 9, found 2"
     );
-    assert_eq!(refusal(AdsCncCall { command: 77, ..call }).0, 0x701);
+    assert_eq!(rejected(AdsCncCall { command: 77, ..call }).0, 0x701);
     assert_eq!(
-        refusal(AdsCncCall { data: bytes("V.E.a"), ..call }),
+        rejected(AdsCncCall { data: bytes("V.E.a"), ..call }),
         (0x705, "variable-name: name at offset 0: no NUL, expected 256, found 5".to_string())
     );
     let indices = AdsCncBytes::of(b"\x01\0\0\0\x02\0\0\0\x05\0\0\0\x06\0\0\0");
     let read = AdsCncCall { index_offset: 0x47, data: indices, ..call };
-    assert_eq!(refusal(read).1, "call:  at offset 0: too little room, expected 2, found 0");
+    assert_eq!(rejected(read).1, "call:  at offset 0: too little room, expected 2, found 0");
     let mut room = [0; 2];
     let request = dispatch(&read, &mut room).unwrap();
     assert_eq!((request.handle, request.indices_count), (1, 2));

@@ -332,11 +332,11 @@ export function dispatch(received) {
     const at = putCall(received),
       list = room(4 * 512),
       out = room(72),
-      refusal = room(4);
+      adsErrorAt = room(4);
     try {
-      call('dispatch', at, list, 512, out, refusal);
+      call('dispatch', at, list, 512, out, adsErrorAt);
     } catch (error) {
-      throw Object.assign(error, { adsError: u32(refusal) });
+      throw Object.assign(error, { adsError: u32(adsErrorAt) });
     }
     const given = Object.fromEntries(numbers(out, 10).map((value, n) => [NUMBERS[n], value]));
     return [
