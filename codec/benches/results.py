@@ -27,7 +27,7 @@ def rows(path):
 
 
 def toolchain():
-    """What the counts depend on."""
+    """The toolchain and tools that the counts depend on."""
     def first(*command):
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")[0]
     libc = " ".join(platform.libc_ver())
@@ -46,7 +46,7 @@ class Case:
 
 
 def read(gungraun, cases):
-    """Prints subject, who, units and instructions of each case that was counted."""
+    """Prints subject, implementation, units and instructions of each counted case."""
     at = {"gated": 0, "other": 0}
     for case in (Case(*row) for row in rows(cases)):
         found = list(gungraun.glob(f"**/{case.group}.case_{at[case.group]}/summary.json"))
@@ -75,7 +75,7 @@ def each(counts, key, build):
 
 
 def missed(cases, counts, build):
-    """What costs more than its limit allows."""
+    """The cases that exceed their limits."""
     for case in cases:
         if case.key not in counts:
             continue  # one that takes long: `--renew` alone counts it
@@ -96,7 +96,7 @@ def named(key):
 
 
 def committed():
-    """The toolchain that the committed counts are for, and the counts."""
+    """The toolchain of the committed counts, and the counts."""
     head = COUNTS.read_text(encoding="utf-8").split("\n")[0].removeprefix("# ")
     counts = {}
     for subject, who, units, *builds in rows(COUNTS):
@@ -109,7 +109,7 @@ def listed(results):
 
 
 def check(results):
-    """Fails where a limit is missed, or more is counted than before."""
+    """Fails if a case exceeds its limit or the committed count."""
     counts, cases = counted(results), listed(results)
     faults = [text for build in BUILDS for text in missed(cases, counts, build)]
     head, before = committed()
@@ -118,12 +118,12 @@ def check(results):
         gone = {case.key for case in cases} ^ before.keys()
         faults += [f"{named(key)}: only in the cases or only in {COUNTS.name}" for key in sorted(gone)]
     else:
-        print(f"skipped: {COUNTS.name} is for {head}; here is {toolchain()}; limits alone were held")
+        print(f"skipped: {COUNTS.name} is for {head}, but this is {toolchain()}; only the limits were checked")
     for fault in faults:
         print(fault)
     if faults:
         sys.exit(f"{len(faults)} faults; where a cost has to be: codec/benches/run --renew")
-    print(f"{len(counts)} cases, with std and without: within their limits, and none costs more than before")
+    print(f"{len(counts)} cases, with std and without: within their limits, and none exceeds its committed count")
 
 
 def grown(counts, before):
@@ -145,7 +145,7 @@ def renew(results):
 
 
 def time(results):
-    """Keeps the ratios of time, and says which are beyond their limits; nothing fails by time."""
+    """Records the ratios of time, and reports those above their goals; time never causes a failure."""
     limits = {(case.key, other[1]): most for case in listed(results) for kind, other, most in case.limits
               if kind == "time"}
     builds = [{tuple(row[:3]): row[3:] for row in rows(results / f"{build}.time")} for build in BUILDS]
@@ -162,7 +162,7 @@ def time(results):
 
 
 def tables(results):
-    """Writes what was measured between the marks in the README."""
+    """Writes the tables between the markers in the README."""
     _, counts = committed()
     times = {tuple(row[:3]): row[3:] for row in rows(TIMES)} if TIMES.exists() else {}
     subjects = {}
@@ -178,7 +178,7 @@ def tables(results):
 
 
 def sizes():
-    """The table of sizes, from what codec/proofs/size/run --renew has left."""
+    """The table of sizes, from the figures of codec/proofs/size/run --renew."""
     figures = {}
     for target, program, *bytes_of in rows(SIZES)[1:]:
         figures.setdefault(program, {})[target] = [int(number) for number in bytes_of]
@@ -200,7 +200,7 @@ WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "�
 
 
 def lines_of(case, counts, times):
-    """A line of the table for each case that this one is held against, or one."""
+    """The lines of the table for a case: one for each reference, or one line without a reference."""
     if case.key not in counts:
         return
     figures = " | ".join(f"{each(counts, case.key, build):,.1f}" for build in BUILDS)

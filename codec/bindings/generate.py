@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what the tables of the library say, for type checkers and editors.
+"""Generates functions and types from the tables of the library, for type checkers and editors.
 
     generate.py python OUTPUT      the module with the functions and records of the Python package
     generate.py javascript OUTPUT  the type declarations of the functions and records of the npm package
     generate.py exports OUTPUT     the functions of the npm package
 
-The library that the Python package has is asked, so nothing here knows a function or a field.
+The tables are those of the library in the Python package, so this script contains no function or field.
 """
 
 import pathlib
@@ -15,7 +15,7 @@ import types
 
 HERE = pathlib.Path(__file__).resolve().parent
 package = types.ModuleType("ads_cnc")
-# Without its __init__, which needs what is written here.
+# Without its __init__, which needs the generated module.
 package.__path__ = [str(HERE / "python" / "src" / "ads_cnc")]
 sys.modules["ads_cnc"] = package
 from ads_cnc import _codec  # noqa: E402
@@ -41,19 +41,19 @@ ARGUMENTS = {
     },
 }
 MEANINGS = {
-    "channel": "from 1; 0 is the platform, where there is one",
-    "axis": "axis of the channel, from 1; of a list with channel 0, a platform axis",
+    "channel": "from 1; 0 is the platform, for functions that support it",
+    "axis": "axis of the channel, from 1; for a list of objects with channel 0, a platform axis",
     "index": "from 0 for variables, from 1 for parameters and objects",
-    "count": "descriptors to read",
-    "size": "the most bytes to read",
-    "handle": "of the variable",
-    "index_group": "of the element or object",
-    "index_offset": "of the element or object",
-    "kind": "such as V.E, P or decoder",
-    "name": "of the variable or parameter",
+    "count": "number of descriptors to read",
+    "size": "maximum number of bytes to read",
+    "handle": "handle of the variable",
+    "index_group": "index group of the element or object",
+    "index_offset": "index offset of the element or object",
+    "kind": "kind or class, such as V.E, P or decoder",
+    "name": "name of the variable or parameter",
     "value": "the bytes to write",
-    "indices": "one for each dimension, from 0; none for the whole",
-    "by_index": "whether the channel is counted among the active ones",
+    "indices": "one for each dimension, from 0; empty for the whole variable",
+    "by_index": "whether `channel` counts the active channels",
 }
 EFFECTS = ("changes nothing", "changes a value", "may move an axis")
 COMMANDS = {2: "Read", 3: "Write", 9: "ReadWrite"}
@@ -68,7 +68,7 @@ def camel(name):
 
 
 def record(name):
-    """The name of a record; a stream of records has those of the stream of one."""
+    """The name of a record; a repeating stream has the records of its single stream."""
     one = name[:-1] if _codec.STREAMS[name].repeats else name
     return "".join(word.capitalize() for word in (one if one in _codec.STREAMS else name).split("-"))
 
@@ -92,7 +92,7 @@ def is_optional(stream):
 
 
 def of_stream(name, language):
-    """The type of a stream's value."""
+    """The type of the value of a stream."""
     if name is None:
         return "None" if language == "python" else "undefined"
     stream = _codec.STREAMS[name]
@@ -107,7 +107,7 @@ def of_stream(name, language):
 
 
 def parameters(function):
-    """Those that it takes, and those it may be given."""
+    """The required and the optional parameters."""
     optional = ["axis"] if function.reply in ("object-count", "object-descriptors") else []
     return list(function.arguments), optional + (["by_index"] if "channel" in function.arguments else [])
 

@@ -11,7 +11,7 @@ use ads_cnc::address::{Attribute, Channel, Class, ElementAddress, PlatformAxis};
 use ads_cnc::operation::*;
 use transport::{Cnc, Result, unless_refused};
 
-/// The most channels, axes and spindles that are asked for.
+/// The maximum number of channels, axes and spindles to query.
 const MOST: u32 = 32;
 
 fn main() -> Result<()> {
@@ -22,7 +22,7 @@ fn main() -> Result<()> {
         com(&cnc, PlatformAxis::new(number)?.into())?;
     }
     for class in Class::ALL {
-        // Numbers that a class does not take are answered by "none".
+        // The reply for numbers that a class does not support is "no instance".
         for channel in 0..=MOST {
             for axis in 0..=MOST {
                 let mut reply = Vec::new();
@@ -38,7 +38,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The objects of one list; a channel or axis that is not there has none.
+/// The objects of one list; empty for a channel or axis that does not exist.
 fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     let mut reply = Vec::new();
     let count = unless_refused(cnc.call(&CountObjects::new(list), &mut reply))?;

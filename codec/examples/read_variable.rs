@@ -17,7 +17,7 @@ fn main() -> Result<()> {
     let name = env::args().nth(4).ok_or("no name")?;
     let path = VariablePath::new(&name)?;
 
-    // `V.E.Testvar[3]` is an element of `V.E.Testvar`, which has the description.
+    // An element `V.E.Testvar[3]` has the description of its array, `V.E.Testvar`.
     let description = describe(&cnc, channel, path.variable())?;
     let shape = description.shape()?;
     let shape = if path.elements().is_empty() { shape } else { shape.element_shape() };
@@ -32,7 +32,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Requests the description by name; an older CNC has no such function, so all of the kind are compared.
+/// Reads the description by name. An older CNC lacks this function: then searches all variables of the
+/// kind.
 fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
     let mut reply = Vec::new();
     if let Some(found) = unless_refused(cnc.call(&DescribeByName::new(channel, path)?, &mut reply))?

@@ -1,4 +1,4 @@
-//! Hosts the manual's service on a channel: the square root of a number.
+//! Hosts the example service of the manual on a channel: the square root of a number.
 //!
 //!     cargo run -p ads-cnc --example square_root_service -- 127.0.0.1:48898 127.0.0.1.1.1 1 [ANSWERS]
 
@@ -13,7 +13,7 @@ use ads_cnc::operation::{ReadByName, WriteByName};
 use ads_cnc::service::{Host, HostStep, Outcome, ServiceId};
 use transport::{Cnc, Result};
 
-/// How often the service looks for a request.
+/// The interval at which the service polls for a request.
 const POLL: Duration = Duration::from_millis(50);
 
 fn main() -> Result<()> {
@@ -57,7 +57,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The response and its state, which is not 0.
+/// The response and the response state, which must not be 0.
 fn square_root(request: &str) -> (String, u32) {
     match request.trim().parse::<f64>() {
         Ok(number) if number < 0.0 => {

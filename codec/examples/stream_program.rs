@@ -1,4 +1,4 @@
-//! Streams an NC program to a channel. It moves the machine.
+//! Streams an NC program to a channel. **The program moves the machine.**
 //!
 //!     cargo run -p ads-cnc --example stream_program -- 127.0.0.1:48898 127.0.0.1.1.1 1 part.nc
 
@@ -12,7 +12,7 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender, SenderState};
 use transport::{Cnc, Result};
 
-/// How often a packet is repeated before it is given up.
+/// The maximum number of repetitions of a packet.
 const REPEATS: u32 = 120;
 
 fn main() -> Result<()> {
@@ -20,11 +20,11 @@ fn main() -> Result<()> {
     let channel = Channel::new(env::args().nth(3).ok_or("no channel")?.parse()?)?;
     let program = fs::read(env::args().nth(4).ok_or("no program")?)?;
 
-    // What is wrong with the program is said before the first line is out.
+    // Report all faults of the program before the first line is sent.
     let text = NcText::new(&program)?;
     let mut findings = text.diagnostics().inspect(|finding| eprintln!("{finding}"));
     if findings.any(|finding| finding.kind.ends_streaming()) {
-        return Err("the CNC would end streaming there".into());
+        return Err("the CNC would end streaming at this line".into());
     }
 
     let mut sender = Sender::new(text);
@@ -40,7 +40,11 @@ fn main() -> Result<()> {
         sender.acknowledge(ack)?;
         if ack == Ack::Busy {
             if sender.busy_count() > REPEATS {
-                return Err(format!("given up, {} lines are left", sender.left_lines()).into());
+                return Err(format!(
+                    "the CNC stays busy: gave up with {} lines left",
+                    sender.left_lines()
+                )
+                .into());
             }
             thread::sleep(RETRY_AFTER);
         }
@@ -49,6 +53,6 @@ fn main() -> Result<()> {
     println!("{} lines sent in {} packets, {} bytes", sent.lines, sent.packets, sent.bytes);
     match sender.state() {
         SenderState::Done => Ok(()),
-        _ => Err(format!("refused, {} lines are left", sender.left_lines()).into()),
+        _ => Err(format!("the CNC rejected a packet: {} lines left", sender.left_lines()).into()),
     }
 }

@@ -1,7 +1,7 @@
-//! The tests that are quick, as one binary: a mutant costs one link instead of one for each file.
-//! Tests that draw many cases are left out; what survives here meets them too.
+//! The quick tests as one binary, so that each mutant needs one link instead of one for each file. Tests that
+//! generate many cases are excluded; the second pass runs them on the survivors.
 
-#![allow(clippy::duplicate_mod, reason = "each file has what is common as a module of its own")]
+#![allow(clippy::duplicate_mod, reason = "each file includes the common code as its own module")]
 
 #[path = "../tests/addresses.rs"]
 mod addresses;

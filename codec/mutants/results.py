@@ -1,7 +1,7 @@
-"""What became of the mutants.
+"""The results of the mutants.
 
-`shard OUT K/N` keeps what a shard has left in OUT, `merge` adds the shards up to results.tsv and
-holds the survivors against survivors.md, `check` looks at what is committed.
+`shard OUT K/N` records the results of a shard in OUT, `merge` combines the shards to results.tsv and
+compares the survivors with survivors.md, `check` checks the committed files.
 """
 
 import json
@@ -26,7 +26,7 @@ SUMMARIES = {
 
 
 def verdicts(folder):
-    """Of each mutant that was tried, by its name with the place, what became of it."""
+    """The result of each mutant, by its name with the position."""
     found = {}
     file = folder / "mutants.out" / "outcomes.json"
     for outcome in json.loads(file.read_text(encoding="utf-8"))["outcomes"]:
@@ -35,7 +35,7 @@ def verdicts(folder):
         verdict = SUMMARIES[outcome["summary"]]
         if verdict == "caught":
             log = (file.parent / outcome["log_path"]).read_text(encoding="utf-8", errors="replace")
-            # Ended for its processor time: noticed, but by no assertion.
+            # Ended by the limit of processor time: detected, but not by an assertion.
             verdict = "timeout" if "SIGXCPU" in log or "SIGKILL" in log else verdict
         found[outcome["scenario"]["Mutant"]["name"]] = verdict
     return found
@@ -71,7 +71,7 @@ def shard(out, name):
 
 
 def measured():
-    """The shards there are, what they add up to for each file, and how often what survived."""
+    """The totals for each file, the number of times that each mutant survived, and the shards."""
     by_file, survivors, shards = {}, Counter(), []
     for file in sorted(SHARDS.glob("*.tsv")):
         shards.append(file.stem)
@@ -82,12 +82,12 @@ def measured():
             else:
                 by_file.setdefault(first, Counter()).update(dict(zip(COLUMNS, map(int, rest))))
     if len({name.split("-of-")[1] for name in shards}) != 1:
-        sys.exit(f"no shards, or of different runs: {shards}")
+        sys.exit(f"there are no shards, or they are of different runs: {shards}")
     return by_file, survivors, shards
 
 
 def listed():
-    """The survivors that are written down, and how often each."""
+    """The listed survivors, and the number of each."""
     rows = re.findall(
         r"^\| `(codec/src/.+?)` \| (\d+) \| .+ \|$", SURVIVORS.read_text(encoding="utf-8"), re.M
     )
@@ -95,7 +95,7 @@ def listed():
 
 
 def results():
-    """results.tsv as it has to be, the share that is caught, and what is wrong with it."""
+    """The expected text of results.tsv, and the faults of the results."""
     by_file, survivors, shards = measured()
     total = sum(by_file.values(), Counter())
     caught = total["caught"] + total["timeout"]
@@ -105,9 +105,9 @@ def results():
     known, faults = listed(), []
     for name in sorted({*survivors, *known}):
         if survivors[name] != known.get(name, 0):
-            faults.append(f"survives {survivors[name]}×, is listed {known.get(name, 0)}×: {name}")
+            faults.append(f"survives {survivors[name]} times, but is listed {known.get(name, 0)} times: {name}")
     if share < LEAST:
-        faults.append(f"{share:.2f} % is too little")
+        faults.append(f"{share:.2f} % are caught, at least {LEAST} % are required")
     of = int(shards[0].split("-of-")[1])
     print(f"{len(shards)} of {of} shards, {sum(total.values())} mutants, {dict(total)}, {share:.2f} %")
     return text, faults
@@ -120,22 +120,22 @@ def merge():
 
 
 def check():
-    """Cheap: the figures add up, enough is caught, and each survivor still has its place."""
+    """A quick check: totals are correct, enough mutants are caught, and the functions of all survivors exist."""
     text, faults = results()
     if RESULTS.read_text(encoding="utf-8") != text:
-        faults.append("results.tsv is not what the shards add up to")
+        faults.append("results.tsv does not equal the totals of the shards")
     for name in listed():
         file, what = name.split(": ", 1)
         source = ROOT / file
         place = what.rsplit(" in ", 1)[-1] if " in " in what else what.split(" -> ")[0]
         function = re.findall(r"[A-Za-z_0-9]+", re.sub(r" with .*", "", place))[-1]
         if not source.is_file():
-            faults.append(f"the file is gone: {name}")
+            faults.append(f"the file does not exist: {name}")
             continue
         text = source.read_text(encoding="utf-8")
-        # A constant's mutant names no function.
+        # The mutant of a constant has no function.
         if function != "replace" and not re.search(rf"\bfn {function}\b", text):
-            faults.append(f"no function {function} any more: {name}")
+            faults.append(f"the function {function} does not exist: {name}")
     return faults
 
 

@@ -1,6 +1,5 @@
-"""Holds the no-panic proof against the public API: every function has to stand in it by its path,
-every reading among those that are read and written, and what has a text among what is shown. What is
-new is missed until it is added."""
+"""Compares the no-panic proof with the public API: the proof must call every function by its path, decode and
+encode every type of a stream, and display every type with a text. A new item is reported until it is added."""
 
 import pathlib
 import re
@@ -11,13 +10,13 @@ API = HERE.parent / "api" / "none.txt"
 STREAMS = HERE.parent / "src" / "streams.rs"
 HEAD = re.compile(r"(?:non_exhaustive )?(?:struct|enum|trait) ([\w:]*\w)")
 FUNCTION = re.compile(r"(?:const )?fn (\w+)")
-# By path, with the reason why the proof cannot have it.
-FLOAT = "core shows floating-point numbers, and keeps a panic there"
+# Exceptions by path, with the reason.
+FLOAT = "the formatting of floating-point numbers in core contains a panic"
 EXEMPT = {"Element, shown": FLOAT, "dynamic::DynamicValue, shown": FLOAT}
 
 
 def public(text):
-    """The paths of functions, the names of what is decoded from bytes, the paths of what is shown."""
+    """The paths of functions, the names of types that are decoded, the paths of types that are displayed."""
     functions, readings, shown, path = [], [], [], ""
     for line in text.splitlines():
         if line.startswith("fn "):
@@ -46,19 +45,19 @@ def main():
     sources = sorted((HERE.parent / "tests" / "everything").rglob("*.rs"))
     lines = "\n".join(source.read_text(encoding="utf-8") for source in sources).splitlines()
     proof = "\n".join(line for line in lines if not line.strip().startswith("//"))
-    # The types that streams! gives to its macro.
+    # The types that streams! passes to its macro.
     views = re.findall(r"^ +\w+: \$crate::(?:\w+::)*(\w+)", STREAMS.read_text(encoding="utf-8"), re.M)
     proof = proof.replace("both::<$view>", " ".join(f"both::<{view}>" for view in views))
     faults = [path for path in missing(*api, proof) if path not in EXEMPT]
     public_paths = [*functions, *(f"{path}, shown" for path in shown)]
     faults += [f"exempt, but not public: {path}" for path in EXEMPT if path not in public_paths]
-    # Without each of these lines the proof has to be found wanting.
+    # Negative controls: without each of these lines, the check must fail.
     for gone in ("text::cp1252_to_char", "streaming::Packets::rest", "both::<ContentRef", "show::<Error"):
         if not missing(*api, proof.replace(gone, "")):
-            faults.append(f"negative control: {gone} is not missed")
+            faults.append(f"negative control: the absence of {gone} is not reported")
     counts = f"{len(functions)} public functions, {len(readings)} readings, {len(shown)} texts"
     if len(functions) < 280 or len(readings) < 35 or len(shown) < 20:
-        faults.append(f"a list that is not whole: {counts}")
+        faults.append(f"the lists are incomplete: {counts}")
     print(f"no-panic proof: {counts}")
     return faults
 

@@ -1,4 +1,4 @@
-//! `Arbitrary` for the owned types: only values that can be encoded.
+//! `Arbitrary` for the owned types. It generates only values that can be encoded.
 
 use alloc::vec::Vec;
 
@@ -11,7 +11,7 @@ use crate::rows::any::{open, text, up_to};
 use crate::text::{CncString, Text};
 use crate::{Descriptor, Descriptors};
 
-/// ADS data; a reply goes without only if its result is an error.
+/// The data of a reply; only a reply with an error may have none.
 fn reply_data(u: &mut Unstructured<'_>, result: AdsError) -> Result<Option<Vec<u8>>> {
     if !result.is_ok() && u.arbitrary()? {
         return Ok(None);

@@ -5,16 +5,16 @@ use crate::declare::stream;
 stream! {
     /// The content of an object or of an element.
     ///
-    /// The object's descriptor or the element's attributes give the type.
+    /// The descriptor of the object, or the attributes of the element, determine the type.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
     ///
-    /// `decode` rejects bytes with [`TooLong`](crate::ErrorKind::TooLong).
+    /// `decode` can fail with [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::{ContentRef, Decode};
     ///
-    /// // feedhold.enable, a BOOLEAN
+    /// // The content of feedhold.enable, a BOOLEAN.
     /// assert_eq!(ContentRef::decode(&[1])?.bytes, [1]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```

@@ -1,4 +1,4 @@
-//! The declaration of a stream: its table, as the manual prints it. The types, their traits and the
+//! The declaration of a stream, in the form of its table in the manual. The types, their traits and the
 //! documentation of the stream are generated from it.
 
 use crate::layout::{Layout, Stream};
@@ -11,8 +11,8 @@ pub(crate) trait Declared {
     const LAYOUT: Layout;
 }
 
-/// The kinds of rows, one line each: the type in a view, the type in an owned type, the row, and its
-/// size and type in the documentation. `as` gives a number a type of its own.
+/// The kinds of rows, one line each: the type in a view, the type in an owned type, the row, and the
+/// size and type in the documentation. `as` gives a number its own Rust type.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -57,17 +57,17 @@ macro_rules! row {
     };
 }
 
-/// Declares a stream by its table.
+/// Declares a stream from its table.
 ///
 /// | | declares |
 /// |---|---|
-/// | `struct XRef<'a> / X` | a type that borrows its data, and one that owns it |
-/// | `struct X` | one type, with a field for each number |
-/// | `tuple X` | one type, a single number |
-/// | `packed XLayout` | the bytes of a fixed stream whose type is written by hand |
+/// | `struct XRef<'a> / X` | a type that borrows its data, and a type that owns it |
+/// | `struct X` | one type with a field for each number |
+/// | `tuple X` | one type with a single number |
+/// | `packed XLayout` | the bytes of a stream of fixed length whose type is written by hand |
 ///
-/// A row: the offset that the manual prints (`@20 + 4m` after `m` counted items of 4 bytes), the
-/// field (and its name in errors and vectors if that differs), the kind of row, the requirement,
+/// A row consists of the offset that the manual prints (`@20 + 4m` after `m` counted items of 4 bytes),
+/// the field (and its name in errors and vectors if it differs), the kind of row, the requirement and
 /// the meaning. The row before a list is its `count`.
 macro_rules! stream {
     (
@@ -126,7 +126,7 @@ macro_rules! stream {
             type Type = $crate::declare::stream!(@static $view $(/ $owned)?);
             assert!(
                 <Type as $crate::declare::Declared>::LAYOUT.is_headed(),
-                "a fixed row is not among the first",
+                "a row of fixed size follows a row of variable size",
             );
             assert!(
                 <Type as $crate::declare::Declared>::LAYOUT.is_filled(),
@@ -203,7 +203,7 @@ macro_rules! stream {
         $crate::declare::stream! { @to_bytes $kind $view $max [[$at [$row] 0]] }
     };
 
-    // Numbers and texts of fixed length, in the bytes of the wire.
+    // Numbers and texts of fixed length, as the bytes on the wire.
     (@types packed $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -215,7 +215,7 @@ macro_rules! stream {
         #[repr(C)]
         pub(crate) struct $view { $( pub(crate) $field: $crate::declare::row!(packed $kind 'static), )+ }
 
-        const _: () = assert!(size_of::<$view>() == $max, "the rows are not all of the stream");
+        const _: () = assert!(size_of::<$view>() == $max, "the rows do not have the length of the stream");
 
         #[cfg(feature = "serde")]
         const _: () = {
@@ -245,7 +245,8 @@ macro_rules! stream {
     (@to_bytes (UNS32_NON_ZERO) $view:ident $max:literal $rows:tt) => {};
     (@to_bytes $kind:tt $view:ident $max:literal [$( [$at:literal [$row:ty] $member:tt] )+]) => {
         impl $view {
-            /// The stream in an array, as [`encode`](crate::Encode::encode) writes it.
+            /// Encodes the stream to an array, with the bytes that [`encode`](crate::Encode::encode)
+            /// writes.
             #[must_use]
             pub fn to_bytes(&self) -> [u8; $max] {
                 const { assert!($( !<$row as $crate::rows::Row>::REJECTS )&&+, "a row rejects numbers") };
@@ -259,7 +260,7 @@ macro_rules! stream {
     (@numbers $view:ident $max:literal $built:tt [$( [$field:ident $label:tt $at:literal [$row:ty] $member:tt] )+]) => {
         const _: () = assert!(
             <$view as $crate::declare::Declared>::LAYOUT.head() == $max,
-            "the rows are not all of the stream",
+            "the rows do not have the length of the stream",
         );
 
         impl<'a> $crate::stream::Decode<'a> for $view {
@@ -367,7 +368,7 @@ macro_rules! stream {
         }
     };
 
-    // A type that borrows its data, and one that owns it.
+    // A type that borrows its data, and a type that owns it.
     (@types struct $view:ident / $owned:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:tt]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -488,7 +489,7 @@ macro_rules! stream {
 
 pub(crate) use {row, stream};
 
-/// Bytes of a value beyond the fewest of its row.
+/// The bytes of a value in excess of the minimum of its row.
 #[cfg(feature = "arbitrary")]
 pub(crate) fn used<R: Owned>(value: &R::Type) -> usize {
     R::len(R::lend(value)).saturating_sub(R::LEAST)

@@ -1,4 +1,4 @@
-//! The one error of the crate.
+//! The error type of the crate.
 
 use core::fmt;
 
@@ -9,9 +9,9 @@ use crate::operation::ReadDescriptors;
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
-/// The error of the crate: kind, field, offset, expected and found number.
+/// The error type of the crate: kind, field, offset, and the expected and the found number.
 ///
-/// `Copy` and 16 bytes. The text is the same in every feature set:
+/// It is `Copy` and has 16 bytes. Its text does not depend on the features:
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -33,7 +33,8 @@ pub struct Error {
     found: u32,
 }
 
-/// The class of an [`Error`]; defines the meaning of its two numbers.
+/// The class of an [`Error`]. It defines the meaning of the numbers `expected` and `found`, which each
+/// variant lists in this order.
 ///
 /// ```
 /// use ads_cnc::{Decode, ErrorKind, Handle};
@@ -45,37 +46,37 @@ pub struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The stream ends within the field: bytes that the field needs, bytes found.
+    /// The stream ends within the field: bytes that the field needs; bytes found.
     Truncated,
-    /// Bytes after the end of the stream: the length of the stream, the length given.
+    /// Bytes follow the end of the stream: length of the stream; length of the input.
     Trailing,
-    /// More bytes than the field or stream may have: the limit, the length.
+    /// The field or stream exceeds its maximum length: the maximum; the length.
     TooLong,
-    /// A count that does not fit: the most that fits, the count.
+    /// A count exceeds its maximum: the maximum; the count.
     TooMany,
-    /// No NUL ends the text: bytes the text may have with its NUL, bytes found.
+    /// No NUL ends the text: maximum length with the NUL; bytes found.
     MissingNul,
-    /// A NUL inside the text: its index in the text (found); expected is 0.
+    /// A NUL inside the text: expected is 0; found is the index of the NUL in the text.
     InnerNul,
-    /// A character without a CP1252 byte: its code point (found); expected is 0.
+    /// A character without a CP1252 byte: expected is 0; found is the code point.
     NotCp1252,
-    /// A character that is not a decimal digit: its code point (found); expected is 0.
+    /// A character that is not a decimal digit: expected is 0; found is the code point.
     NotDecimal,
-    /// A number without digits or with too many: the most digits, the digits found.
+    /// A number without digits or with too many: maximum number of digits; digits found.
     Digits,
-    /// A character where the syntax requires another: its code point (found); expected is 0.
+    /// A character where the syntax requires another: expected is 0; found is the code point.
     Unexpected,
     /// A required part is missing; both numbers are 0.
     Missing,
-    /// A value outside its range: the nearest value allowed, the value. The conversions of an
-    /// [`Element`](crate::Element) have other numbers.
+    /// A value outside its range: the nearest permitted value; the value. The conversions from an
+    /// [`Element`](crate::Element) define the numbers differently.
     OutOfRange,
-    /// A value that must equal another: the other value, this value.
+    /// A value that must equal another one: the other value; this value.
     Mismatch,
-    /// An index offset of a function where one of content is required: the offset (found);
-    /// expected is 0.
+    /// The index offset of a function, where the offset of content is required: expected is 0; found is
+    /// the offset.
     Function,
-    /// The buffer is too small for the encoded stream: bytes needed, bytes available.
+    /// The buffer is too small for the encoded stream: bytes needed; bytes available.
     BufferTooSmall,
 }
 
@@ -90,7 +91,7 @@ impl Error {
         Self { kind, field, offset, expected, found }
     }
 
-    /// The same error in a stream that begins at this offset.
+    /// The same error, for a stream that begins at this offset.
     #[cfg(feature = "binrw")]
     pub(crate) const fn moved(self, by: u32) -> Self {
         Self { offset: self.offset.saturating_add(by), ..self }
@@ -101,7 +102,7 @@ impl Error {
         self.kind
     }
 
-    /// The field at fault, from which [`Field::stream`] gives the stream.
+    /// The field at fault. [`Field::stream`] returns its stream.
     pub const fn field(&self) -> Field {
         self.field
     }
@@ -109,23 +110,23 @@ impl Error {
     /// The offset of the field at fault, in bytes from the start of the stream.
     ///
     /// For a [`Subject`] that is not a stream, the offset counts characters of a text or name, or
-    /// indices, as the constructor documents.
+    /// indices: see the constructor.
     pub const fn offset(&self) -> u32 {
         self.offset
     }
 
-    /// The expected number; its unit depends on the [`ErrorKind`].
+    /// The expected number; its meaning depends on the [`ErrorKind`].
     pub const fn expected(&self) -> u32 {
         self.expected
     }
 
-    /// The number that was found; its unit depends on the [`ErrorKind`].
+    /// The found number; its meaning depends on the [`ErrorKind`].
     pub const fn found(&self) -> u32 {
         self.found
     }
 }
 
-/// The class in a few words.
+/// A short description of the class.
 impl fmt::Display for ErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -182,7 +183,7 @@ fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
-/// The name and the unit of a number that has to equal another.
+/// The name and the unit of a number that must equal another one.
 fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     match field {
         typed_value::COUNT => Some(("value", ["element", "elements"])),
@@ -192,7 +193,7 @@ fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     }
 }
 
-/// Whether the bytes after a count are its limit, and not the maximum of its list.
+/// Whether the remaining bytes limit a count, and not the maximum of its list.
 fn is_cut(count: Field, limit: u32) -> bool {
     let mut rows = count.stream().into_iter().flat_map(|stream| stream.layout().fields);
     rows.any(|row| matches!(row.size, Size::Items { max, .. } if max != limit))
@@ -204,13 +205,13 @@ fn is_group(field: Field) -> bool {
         || field == const { Field::of::<ObjectAddress>("index_group") }
 }
 
-/// The name of a type by its number in an error.
+/// The name of the type that has this number in errors.
 fn type_name(number: u32) -> &'static str {
     DataType::by_number(number).map_or("", DataType::name)
 }
 
 impl Error {
-    /// Writes an error that is about an argument or a value, and not about bytes at an offset.
+    /// Writes an error about an argument or a value, which has no byte offset.
     fn fmt_words(&self, f: &mut fmt::Formatter<'_>) -> Option<fmt::Result> {
         const NAME: Field = Field::whole_subject(Subject::VariablePath);
         let Self { kind, field, offset, expected, found } = *self;
@@ -235,7 +236,7 @@ impl Error {
                 let expected = type_name(expected);
                 match offset {
                     0 => write!(f, "{sign}{found} does not fit {expected}"),
-                    // In decimal, more than 32 bits would need 1.2 KB of code on a microcontroller.
+                    // Decimal output of 64 bits would add 1.2 KB of code on a microcontroller.
                     high => write!(f, "{sign}{high:#x}{found:08x} does not fit {expected}"),
                 }
             }
@@ -265,7 +266,7 @@ impl fmt::Display for Error {
         }
         let Self { kind, field, offset, expected, found } = *self;
         match field.subject() {
-            // Its only part has its name.
+            // The only part of a text has the name of the subject.
             Subject::Text => f.write_str(field.name())?,
             _ => write!(f, "{field}")?,
         }
@@ -290,7 +291,7 @@ impl fmt::Display for Error {
             ErrorKind::MissingNul => {
                 write!(f, "{kind}, expected one within {wanted}, found {found} without")
             }
-            // The offset in a text is already that of the NUL.
+            // The offset of a text error is already the offset of the NUL.
             ErrorKind::InnerNul if field.subject() != Subject::Text => {
                 write!(f, "{kind}, at its byte {found}")
             }

@@ -1,5 +1,5 @@
-//! `BinRead` and `BinWrite` by the rows of the streams. A count is checked before memory is allocated;
-//! errors have the position in the reader.
+//! `BinRead` and `BinWrite` from the rows of the streams. Counts are checked before memory is allocated.
+//! Errors contain the position in the reader.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -18,15 +18,15 @@ use crate::sda::ElementLength;
 use crate::stream::{Decode, Encode};
 use crate::{Descriptor, Descriptors, ExtendedReply};
 
-/// Pulls the bytes of one row from a reader: at most one more than the row may have.
+/// Pulls the bytes of one row from a reader, at most one more than the maximum of the row.
 pub(crate) trait Pull {
-    /// Takes `len` bytes: fewer only at the end of the reader.
+    /// Takes `len` bytes, or fewer at the end of the reader.
     fn exact(&mut self, len: usize) -> io::Result<()>;
-    /// Takes all bytes to the end of the reader, but at most one more than `max`.
+    /// Takes all bytes to the end of the reader, at most `max` + 1.
     fn rest(&mut self, max: u32) -> io::Result<()>;
-    /// Takes the bytes up to the first NUL, but at most `max`.
+    /// Takes the bytes up to the first NUL, at most `max`.
     fn until_nul(&mut self, max: u32) -> io::Result<()>;
-    /// Takes a count and as many items, unless there are more than `max`.
+    /// Takes a count and that number of items, unless the count exceeds `max`.
     fn counted(&mut self, each: usize, max: u32) -> io::Result<()>;
 }
 
@@ -35,8 +35,8 @@ struct Source<'r, R> {
     bytes: Vec<u8>,
 }
 
-/// The bytes that are read at once. A wrong length allocates no more than this beyond the bytes that
-/// are there.
+/// The number of bytes to read at once. A wrong length allocates at most this much more than the bytes
+/// that the reader has.
 const CHUNK: usize = 1024;
 
 impl<R: Read> Pull for Source<'_, R> {
@@ -96,7 +96,7 @@ pub(crate) fn parse<T: Owned, R: Read + Seek>(
     T::pull(&mut source)?;
     let mut input = Reader::without_limit(stream, &source.bytes);
     let read = read_row::<T>(&mut input, field).map(T::own);
-    // A byte that was pulled and not decoded would be lost.
+    // A byte that was pulled but not decoded would be lost.
     let whole = read.and_then(|owned| input.finish().map(|()| owned));
     whole.map_err(|error| custom(error, pos))
 }
@@ -107,7 +107,7 @@ fn read_row<'a, T: Owned>(input: &mut Reader<'a>, field: Field) -> Result<T::Vie
     T::read(input, head, field, to_usize(at))
 }
 
-/// The fixed bytes of a single row, its count included, and the offset after the count.
+/// The fixed bytes of a single row, including its count, and the offset after the count.
 const fn head<T: Owned>() -> (u32, u32) {
     match T::SIZE {
         Size::Items { .. } => (4, 4),
@@ -137,36 +137,36 @@ pub(crate) fn emit<T: Owned, W: Write + Seek>(
     writer.write_all(&bytes).map_err(Into::into)
 }
 
-/// Rejects what a decoder would reject.
+/// Rejects values that a decoder would reject.
 ///
 /// # Errors
-/// Those of `encode`, but for the buffer's.
+/// Those of `encode`, except for those of the buffer.
 pub(crate) fn check(stream: &impl Encode) -> Result<(), Error> {
-    // Faults of the value are found before those of the buffer.
+    // `encode` checks the value before the buffer.
     match stream.encode(&mut []) {
         Err(error) if error.kind() != ErrorKind::BufferTooSmall => Err(error),
         _ => Ok(()),
     }
 }
 
-/// The error with which a decoder would reject it.
+/// The error with which a decoder would reject the stream.
 pub(crate) fn error<'a, T: Encode + Decode<'a>>(stream: &T) -> Error {
     let len = to_u32(stream.encoded_len());
     let whole = Error::new(ErrorKind::Mismatch, Field::whole(T::STREAM), 0, len, len);
     check(stream).err().unwrap_or(whole)
 }
 
-/// `BinRead` and `BinWrite` of streams whose types are written by hand: pulls at most the bytes of the
-/// longest stream from the reader, and decodes them.
+/// `BinRead` and `BinWrite` for streams whose types are written by hand: pulls at most the maximum
+/// length of the stream from the reader, and decodes the bytes.
 ///
 /// | stream | why its type is written by hand |
 /// |---|---|
-/// | `AmsHeader` | an address is two rows |
+/// | `AmsHeader` | an address has two rows |
 /// | `DeviceInfoReply`, `Descriptor` | text of fixed length, with setters that check it |
 /// | `Descriptors` | a list of records without a count |
 /// | `ReadReply`, `ReadWriteReply` | rows after an error may be absent (ADS-6) |
 /// | `ExtendedReply` | a reply may have no bytes |
-/// | `ElementLength` | the width of the number is not documented, and kept |
+/// | `ElementLength` | the width of the number is not documented, and is kept |
 /// | `DynamicValue` | compared by its bits |
 macro_rules! by_hand {
     ($( $type:ty: $from:ident => $pull:expr; )+) => { $(
@@ -213,12 +213,12 @@ macro_rules! by_hand {
     )+ };
 }
 
-/// The most bytes of a stream.
+/// The maximum length of a stream in bytes.
 fn longest<'a, T: Decode<'a>>() -> usize {
     to_usize(T::STREAM.layout().max)
 }
 
-/// The bytes of a reply that ends after its result.
+/// The length of a reply that ends after its result.
 fn result_len() -> usize {
     to_usize(Stream::ReadReply.layout().offset("length"))
 }

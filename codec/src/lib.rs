@@ -1,4 +1,4 @@
-//! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS, over any
+//! A codec for the byte streams that read and write an ISG/TwinCAT CNC over ADS, independent of the
 //! transport.
 //!
 //! ```
@@ -9,7 +9,7 @@
 //! use ads_cnc::VariablePath;
 //! use std::error::Error;
 //!
-//! /// Your transport: sends an ADS request to a port of the CNC, and returns the data of the reply.
+//! /// Your transport: sends an ADS request to a port of the CNC and returns the data of the reply.
 //! trait Transport {
 //!     fn send(
 //!         &mut self, port: AmsPort, service: Service, index_group: u32, index_offset: u32,
@@ -27,7 +27,7 @@
 //! /// Reads a number of any type from the first channel: a variable, or an element of an array.
 //! fn read(cnc: &mut impl Transport, name: &str) -> Result<f64, Box<dyn Error>> {
 //!     let channel = Channel::new(1)?;
-//!     // `V.E.matrix[1][2]` is an element of `V.E.matrix`, which has the description.
+//!     // An element `V.E.matrix[1][2]` has the description of its array, `V.E.matrix`.
 //!     let describe = DescribeByName::new(channel, VariablePath::new(name)?.variable())?;
 //!     let read = ReadByName::new(channel, name)?;
 //!     let (description, value) = (cnc.call(&describe)?, cnc.call(&read)?);
@@ -62,59 +62,61 @@
 //!
 //! # Client
 //! [`operation`] has a type for every function of the CNC, for example
-//! [`ReadByName`](operation::ReadByName): it has the address of the request, encodes it and decodes
-//! the reply. [`address`] has the channels, axes and spindles that operations name.
+//! [`ReadByName`](operation::ReadByName): it returns the address of the request, encodes the request and
+//! decodes the reply. [`address`] contains the channels, axes and spindles that operations refer to.
 //! [`AdsError::into_result`](ads::AdsError::into_result) turns an ADS error number into a Rust error.
 //!
 //! # Server
-//! [`Call::dispatch`](operation::Call::dispatch) turns a request received into a
-//! [`Request`](operation::Request); a [`Reply`](operation::Reply) is sent back.
+//! [`Call::dispatch`](operation::Call::dispatch) converts a received request to a
+//! [`Request`](operation::Request). Encode a [`Reply`](operation::Reply) to answer it.
 //!
 //! # Values
-//! [`value`] reads and writes the bytes of variables, objects and elements by their types:
-//! [`ValueRef::iter`] if the program knows the type, [`DescriptionRef::elements`] if the CNC
-//! describes it. [`VariablePath`] parses names, [`text`] converts code page 1252.
+//! [`value`] decodes and encodes variables, objects and elements by their types: use
+//! [`ValueRef::iter`] if your program knows the type, [`DescriptionRef::elements`] if only the CNC
+//! knows it. [`VariablePath`] parses names, [`text`] converts code page 1252.
 //!
 //! # Frames
-//! [`ads`] has the headers and services of ADS itself, for programs without an ADS library.
+//! [`ads`] contains the headers and services of ADS itself, for programs without an ADS library.
 //!
 //! # Streaming
-//! [`streaming`] checks an NC program, cuts it into packets and sends them.
+//! [`streaming`] checks an NC program, splits it into packets and sends them.
 //!
 //! # Services
-//! [`service`] has the application's side of the Service Interface, by which an NC program calls it.
+//! [`service`] implements the application's side of the Service Interface, with which NC programs call
+//! services outside the CNC.
 //!
 //! # Streams
 //! A stream has two types: `XRef` borrows from the bytes and never allocates; `X`, with the feature
-//! `alloc`, owns its data. Both accept the same bytes, reject the others with the same [`Error`], and
-//! encode to the bytes they were read from. A stream of numbers has one type. [`sections`] says where
-//! each section of the manuals is, [`layout`] has the field table of every stream. Where the manuals
-//! contradict each other, [`errata`] has the reading that this crate implements.
+//! `alloc`, owns its data. Both accept the same bytes, reject all others with the same [`Error`], and
+//! encode to the bytes that they were decoded from. A stream of numbers only has one type. [`sections`]
+//! maps the sections of the manuals to this crate; [`layout`] contains the field table of every stream.
+//! Where the manuals contradict each other, [`errata`] lists the reading that this crate implements.
 //!
 //! # IDs
-//! IDs such as ADR-1, GEN-6 or VAR-9 are requirements: the catalogue in the crate `ads-cnc-vectors` has
-//! the text of each, with its sections in both editions. IDs such as E-17 are errata: see [`errata`].
+//! IDs such as ADR-1, GEN-6 or VAR-9 are requirements. The crate `ads-cnc-vectors` contains their texts,
+//! with the sections in both editions. IDs such as E-17 are errata: see [`errata`].
 //!
 //! # Features
-//! - `alloc` (default): the owned types, and the checks of an NC program.
+//! - `alloc` (default): the owned types and the checks of an NC program.
 //! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the owned
-//!   types, so that structs of your own can contain them. `read` rejects the same bytes as
-//!   `decode`; a stream without a length of its own is read to the end of the reader.
-//! - `std`: `std` in the dependencies. The crate itself never needs it.
+//!   types, so your own structs can contain them. `read` rejects the same bytes as `decode`. A stream
+//!   whose fields do not determine its length extends to the end of the reader.
+//! - `std`: enables `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned types.
-//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned types. A
-//!   value is a map of the fields in [`layout`], without counts; a stream of a single number is that
-//!   number. Codes are numbers, a NetId is a string. A text that ends in one NUL is a string; any other
-//!   is a map of `text` and `tail`, the bytes after its NUL or null. This needs a self-describing format
-//!   such as JSON (for exact REAL64, `serde_json` with its feature `float_roundtrip`). The limits of a
-//!   stream are checked when the value is encoded, not when it is deserialized.
+//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned types.
+//!   A value is a map of the fields in [`layout`], without counts; a stream of one number is that
+//!   number. Codes are numbers, a NetId is a string. A text that ends in one NUL is a string; any
+//!   other text is a map of `text` and `tail`: the bytes after the NUL, or null without a NUL. The
+//!   format must be self-describing, such as JSON (for exact REAL64, enable `float_roundtrip` of
+//!   `serde_json`). The limits of a stream are checked when the value is encoded, not when it is
+//!   deserialized.
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {
 //! use ads_cnc::binrw::{self, BinRead, BinWrite, io::Cursor};
 //! use ads_cnc::{Handle, HandleRead};
 //!
-//! /// A record of a log.
+//! /// A record of your log.
 //! #[derive(BinRead, BinWrite)]
 //! #[brw(little)]
 //! struct Record {

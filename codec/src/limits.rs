@@ -1,5 +1,4 @@
-//! The named maxima that every length and count is checked against. Most are taken from the
-//! declarations of the streams.
+//! Maxima of lengths and counts. Most are taken from the declarations of the streams.
 
 use crate::ads::{AmsTcpHeader, HeaderLayout};
 use crate::com::DescriptorLayout;
@@ -16,53 +15,53 @@ pub(crate) const fn to_usize(size: u32) -> usize {
     size as usize
 }
 
-/// The most bytes of a stream.
+/// The maximum length of a stream in bytes.
 pub(crate) const fn length<T: Declared>() -> usize {
     to_usize(T::LAYOUT.max)
 }
 
-/// The most bytes of a field, or items of a list.
+/// The maximum length of a field in bytes, or number of items of a list.
 pub(crate) const fn most<T: Declared>(field: &str) -> usize {
     to_usize(T::LAYOUT.most(field))
 }
 
-/// Bytes of a text request with its NUL: 255 characters and the NUL (VAR-1, VAR-9).
+/// Bytes of a text in a request: 255 characters and the NUL (VAR-1, VAR-9).
 pub const TEXT_MAX: usize = length::<VariableNameRef<'_>>();
-/// Characters of a variable's name, which a request ends with a NUL (VAR-9).
+/// Characters of the name of a variable, without the NUL (VAR-9).
 pub const NAME_MAX: usize = TEXT_MAX.saturating_sub(1);
-/// Bytes of an index-and-kind request (VAR-3).
+/// Bytes of a request with index and kind (VAR-3).
 pub const INDEX_KIND_MAX: usize = length::<VariableIndexKindRef<'_>>();
-/// Bytes of a variable stream: description, handle header, value (VAR-4, VAR-11, VAR-14).
+/// Bytes of a stream with a description, a handle and indices, or a value (VAR-4, VAR-11, VAR-14).
 pub const VARIABLE_MAX: usize = length::<ValueRef<'_>>();
-/// Bytes of a value that is written by handle (VAR-12).
+/// Bytes of a value written by handle (VAR-12).
 pub const HANDLE_VALUE_MAX: usize = most::<HandleWriteRef<'_>>("value");
-/// Bytes of a value that is written by name (VAR-13).
+/// Bytes of a value written by name (VAR-13).
 pub const NAME_VALUE_MAX: usize = most::<NameWriteRef<'_>>("value");
-/// Dimensions of a description by index, beside which an empty name has room (VAR-24).
+/// Dimensions of a description by index, which leave room for an empty name (VAR-24).
 pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
-/// Dimensions of a description by name, which has no field for the name (VAR-24, VAR-28).
+/// Dimensions of a description by name, which does not contain the name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");
-/// Indices of a handle header (VAR-24).
+/// Indices after a handle (VAR-24).
 pub const INDICES_MAX: usize = most::<HandleReadRef<'_>>("indices");
-/// Bytes of a dynamic parameter's name; that the NUL counts among them is assumed (DYN-6).
+/// Bytes of the name of a dynamic parameter, including the NUL (assumed, DYN-6).
 pub const DYNAMIC_NAME_MAX: usize = length::<DynamicNameRef<'_>>();
-/// Bytes of a text of the Service Interface, the NUL counted, which is assumed (SVC-1).
+/// Bytes of a text of the Service Interface, including the NUL (assumed, SVC-1).
 pub const SERVICE_TEXT_MAX: usize = 128;
 /// Bytes of an object descriptor (COM-2).
 pub const DESCRIPTOR_LEN: usize = length::<DescriptorLayout>();
 /// Bytes of the name and of the type in an object descriptor (COM-2).
 pub const DESCRIPTOR_TEXT_LEN: usize = most::<DescriptorLayout>("name");
-/// Data bytes of one ADS request or reply that this crate accepts. No limit is documented: assumed.
+/// Data bytes of an ADS request or reply. The manuals document no limit; this crate assumes one.
 pub const ADS_DATA_MAX: usize = to_usize(ADS_DATA);
-/// [`ADS_DATA_MAX`], as declarations use it.
+/// [`ADS_DATA_MAX`], in the type that declarations use.
 pub(crate) const ADS_DATA: u32 = 0x40_0000;
 /// Bytes of the AMS/TCP header (ADS-5).
 pub const AMS_TCP_HEADER_LEN: usize = length::<AmsTcpHeader>();
 /// Bytes of the AMS header (ADS-5).
 pub const AMS_HEADER_LEN: usize = length::<HeaderLayout>();
-/// Bytes of one write to the stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
+/// Bytes of one write to the program stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
 pub const STREAM_PACKET_MAX: usize = length::<ProgramStreamRef<'_>>();
-/// Bytes of the stream's interface, MAX_PROGRAM_STREAM_SIZE (STM-3).
+/// Bytes that the program stream can hold, MAX_PROGRAM_STREAM_SIZE (STM-3).
 pub const STREAM_MAX: usize = 4094;
-/// Characters of a line that is streamed: a packet without CR LF (STM-20).
+/// Characters of a line in the program stream: a packet without CR LF (STM-20).
 pub const NC_LINE_MAX: usize = STREAM_PACKET_MAX.saturating_sub(2);

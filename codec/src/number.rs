@@ -1,8 +1,8 @@
 //! Codes: numbers with names.
 
-/// Declares a code: a number, with names for the documented numbers. Any other number is kept.
+/// Declares a code: a number with names for the documented values. Other values are kept.
 ///
-/// `in hex`: the number is shown in hexadecimal; `in error`: also in decimal, as the number of an ADS error.
+/// `in hex`: shown in hexadecimal; `in error`: shown in hexadecimal and decimal, as an ADS error.
 macro_rules! code {
     (
         $(#[$doc:meta])*
@@ -22,7 +22,7 @@ macro_rules! code {
                 pub const $name: Self = Self($value);
             )+
 
-            /// The code's name, if the number is documented.
+            /// The name of the code; `None` if the number is not documented.
             pub const fn name(self) -> Option<&'static str> {
                 match self {
                     $( Self::$name => Some(stringify!($name)), )+
@@ -65,8 +65,8 @@ macro_rules! code {
         $crate::number::code! { @hex $code }
     };
     (@shown $code:ident error) => {
-        /// The number in hexadecimal and decimal, and the name if it is documented. It says that it is an
-        /// ADS error, because a `Box<dyn Error>` does not.
+        /// The number in hexadecimal and decimal, and the name if it is documented. The text begins with
+        /// `ADS error`, so that it is clear as a `Box<dyn Error>`.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 write!(f, "ADS error {0:#x} ({0}", self.0)?;
@@ -80,7 +80,7 @@ macro_rules! code {
         $crate::number::code! { @hex $code }
     };
     (@hex $code:ident) => {
-        /// The number alone.
+        /// The number without the name.
         impl core::fmt::LowerHex for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 core::fmt::LowerHex::fmt(&self.0, f)

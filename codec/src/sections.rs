@@ -1,11 +1,11 @@
-//! The sections of the manuals, with the modules and types that implement them. The module has no items.
+//! The sections of the manuals, and the modules and types that implement them. This module has no items.
 //!
-//! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
+//! | manual (`ads-en` 1.05, `ads-de` 1.051) | implemented by |
 //! |---|---|
 //! | 1, code page | [`CncStr`](crate::CncStr), [`text`](crate::text) |
 //! | 1, tasks and their ports | [`operation::Task`](crate::operation::Task), [`ads::AmsPort`](crate::ads::AmsPort) |
 //! | 1, axes and spindles, base addresses | [`address`](crate::address) |
-//! | 1, list of static objects | as 2.1.1 and 2.2.2 |
+//! | 1, list of static objects | see 2.1.1 and 2.2.2 |
 //! | 2, index groups and offsets | [`address`](crate::address) |
 //! | 2.1, instances of the COM task | [`address::ComGroup`](crate::address::ComGroup), [`operation::ObjectList`](crate::operation::ObjectList) |
 //! | 2.1.1, object descriptors | [`ObjectCount`](crate::ObjectCount), [`DescriptorRef`](crate::DescriptorRef), [`DescriptorsRef`](crate::DescriptorsRef) |
@@ -34,11 +34,11 @@
 //!
 //! The sections have the same numbers in both editions. The other manuals:
 //!
-//! | manual | here |
+//! | manual | implemented by |
 //! |---|---|
 //! | `stream-en` 2.1, 2.2, data streaming | [`streaming`](crate::streaming) |
 //! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | `streaming::Diagnostics`, with `alloc` |
-//! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
+//! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | transferred like any other NC text |
 //! | 3, parameters and object | [`limits`](crate::limits), [`streaming::OBJECT_NAME`](crate::streaming::OBJECT_NAME), [`streaming::ProgramStreamRef`](crate::streaming::ProgramStreamRef) |
 //! | 4.1, line ends | [`streaming::check_line_ends`](crate::streaming::check_line_ends) |
 //! | 4.2, 5, transfer and example | [`streaming::Sender`](crate::streaming::Sender), [`operation::WriteProgramStream`](crate::operation::WriteProgramStream) |

@@ -1,4 +1,4 @@
-//! serde for types that are neither a number nor a map of their fields.
+//! serde implementations for types that are neither a number nor a map of their fields.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -10,7 +10,7 @@ use crate::ads::AmsNetId;
 use crate::dynamic::DynamicValue;
 use crate::text::{CncString, Text, TextRef};
 
-/// Types that are strings, as they are displayed and parsed.
+/// Types that serialize as strings, in the format of `Display` and `FromStr`.
 macro_rules! strings {
     ($( $type:ty )+) => { $(
         impl Serialize for $type {
@@ -29,7 +29,7 @@ macro_rules! strings {
 
 strings! { AmsNetId CncString }
 
-/// A [`Text`]: a string if one NUL ends it, else a map with the bytes after its NUL.
+/// A [`Text`]: a string if it ends in one NUL, otherwise a map with the bytes after its NUL.
 #[derive(Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -40,7 +40,7 @@ pub(crate) enum TextShape {
     OneNul(CncString),
     Other {
         text: CncString,
-        // A missing `tail` is an error; without this it would be `None`.
+        // Makes a missing `tail` an error; by default it would be `None`.
         #[serde(deserialize_with = "Option::deserialize")]
         tail: Option<Vec<u8>>,
     },
@@ -64,7 +64,7 @@ impl From<Text> for TextShape {
     }
 }
 
-/// A text in a field of `N` bytes. NULs that only pad it are not a tail.
+/// A text in a field of `N` bytes. NULs that pad it are not a tail.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "Text", into = "Text")]
 pub(crate) struct Padded<const N: usize>([u8; N]);
@@ -93,7 +93,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     type Error = &'static str;
 
     fn try_from(Text { text, tail }: Text) -> Result<Self, &'static str> {
-        // A shorter text needs no NUL of its own: it is padded with NULs.
+        // A short text needs no NUL in its tail: it is padded with NULs.
         let tail = tail.iter().filter(|tail| !tail.is_empty());
         let nul_and_tail = tail.flat_map(|tail| [0].iter().chain(tail));
         let mut all = text.as_bytes().iter().chain(nul_and_tail);
@@ -106,7 +106,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     }
 }
 
-/// A REAL64: a number, or its bits if it is not finite.
+/// A REAL64: a number, or the bits of a number that is not finite.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, deny_unknown_fields, expecting = "expected REAL64: a number, or a map of `bits`")]
 pub(crate) enum Real {

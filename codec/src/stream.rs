@@ -4,10 +4,10 @@ use crate::bytes::{Reader, to_usize};
 use crate::error::Error;
 use crate::layout::{Size, Stream};
 
-/// Reads a stream from all of its bytes.
+/// Decodes a stream.
 ///
-/// `XRef` types borrow from the bytes and never allocate; `X` types own what they read. Both
-/// accept the same bytes and reject others with the same [`Error`].
+/// `XRef` types borrow from the bytes and never allocate; `X` types own their data. Both accept the same
+/// bytes and reject all others with the same [`Error`].
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
 ///
@@ -23,19 +23,19 @@ use crate::layout::{Size, Stream};
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 pub trait Decode<'a>: Sized {
-    /// The stream this reads, with its field table.
+    /// The stream that this type decodes, with its field table.
     const STREAM: Stream;
 
-    /// Reads the stream from all bytes.
+    /// Decodes the stream, which must consist of exactly these bytes.
     ///
     /// # Errors
-    /// The first fault, with its field and offset.
+    /// The first fault, with field and offset.
     fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
 
-    /// Reads the stream from the front of the bytes, and returns the bytes after it.
+    /// Decodes the stream at the front of the bytes, and returns the remaining bytes.
     ///
-    /// A stream of fixed fields ends after the last of them, a list after the items that are counted.
-    /// A stream that ends in text or in data takes all bytes.
+    /// A stream of fixed fields ends after its last field, a list after its counted items. A stream
+    /// that ends in text or data extends to the end of the bytes.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};
@@ -48,8 +48,11 @@ pub trait Decode<'a>: Sized {
     /// ```
     ///
     /// # Errors
-    /// Those of [`decode`](Self::decode), without [`Trailing`](crate::ErrorKind::Trailing). A type of
-    /// your own gets all bytes; override this method if its content tells where it ends.
+    /// Those of [`decode`](Self::decode), except [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// # For implementors
+    /// By default, content of your own types extends to the end of the bytes. Override this method if
+    /// the content determines its own end.
     fn decode_prefix(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), Error> {
         let (stream, rest) =
             bytes.split_at_checked(prefix(Self::STREAM, bytes)).unwrap_or((bytes, &[]));
@@ -87,7 +90,7 @@ fn prefix(stream: Stream, bytes: &[u8]) -> usize {
     at
 }
 
-/// Writes a stream. What was decoded encodes to the same bytes.
+/// Encodes a stream. A decoded value encodes to the same bytes.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
 ///
@@ -107,16 +110,16 @@ pub trait Encode {
     /// Writes the stream to the front of `buf` and returns the bytes written.
     ///
     /// # Errors
-    /// A value that no decoder would accept, or a buffer that is too small; nothing is written.
+    /// A value that the decoder would reject, or a buffer that is too small. Nothing is written then.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
-    /// The stream in a vector of its own.
+    /// Encodes the stream into a new vector.
     ///
     /// # Errors
-    /// A value that no decoder would accept.
+    /// A value that the decoder would reject.
     #[cfg(feature = "alloc")]
     fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
-        // `encode` rejects a longer stream, for which no memory is allocated.
+        // `encode` rejects a longer stream, so do not allocate memory for it.
         let len = self.encoded_len().min(crate::ads::FrameRef::LEN_MAX);
         let mut bytes = alloc::vec![0; len];
         self.encode(&mut bytes)?;
@@ -128,7 +131,7 @@ pub trait Encode {
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6, 4.3.7 and 4.3.11.
 ///
-/// `decode` rejects bytes with [`Trailing`](crate::ErrorKind::Trailing).
+/// `decode` can fail with [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::{Decode, NoData};
@@ -158,7 +161,7 @@ impl Encode for NoData {
     }
 }
 
-/// Implements [`Encode`] of an owned type by its borrowed type.
+/// Implements [`Encode`] for an owned type through its borrowed type.
 macro_rules! encode_as_ref {
     ($owned:ident) => {
         impl $crate::stream::Encode for $owned {

@@ -1,10 +1,11 @@
-//! The types of all streams, for code that is the same for each of them.
+//! The types of all streams, for code that treats all of them alike.
 
 use crate::layout::Stream;
 use crate::stream::Decode;
 
-/// Calls a macro with all streams: for each its name in [`Stream`](crate::layout::Stream), the type
-/// that borrows and, if it has one, the type that owns its data, which needs the feature `alloc`.
+/// Calls a macro with all streams: for each stream, its name in [`Stream`](crate::layout::Stream), the
+/// type that borrows its data and, if there is one, the type that owns its data (which needs the
+/// feature `alloc`).
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
@@ -117,7 +118,7 @@ macro_rules! streams {
     };
 }
 
-/// Each type reads the stream that it is listed for.
+/// Checks that each type decodes the stream that it is listed for.
 macro_rules! checked {
     ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => { $(
         const _: () = assert!(matches!(<$view as Decode<'_>>::STREAM, Stream::$stream));

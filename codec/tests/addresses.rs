@@ -1,4 +1,4 @@
-//! Every index group and index offset that the manuals print, put together and taken apart.
+//! Every index group and index offset in the manuals, built and parsed.
 
 mod kept;
 
@@ -13,7 +13,7 @@ fn channel(number: u32) -> Channel {
     Channel::new(number).unwrap()
 }
 
-/// Takes a printed group apart and puts it together again.
+/// Parses a printed group and builds it again.
 fn parts(printed: u32) -> Group {
     let group = IndexGroup::new(printed).parts().unwrap_or_else(|| panic!("{printed:#x}"));
     assert_eq!(group.index_group().get(), printed);
@@ -28,9 +28,9 @@ fn com(addressing: Addressing, access: Access, table: ComTable, instance: u8) ->
     Group::Com(ComGroup { addressing, access, table, instance })
 }
 
-/// ADR-1, ADR-11: channels 1 and 6, by number and by rank.
+/// ADR-1, ADR-11: channels 1 and 6, by number and by index.
 #[test]
-fn channels_by_number_and_by_rank() {
+fn channels_by_number_and_by_index() {
     let group = |channel: Channel| channel.class(Class::Interpolator, Attribute::Content).get();
     assert_eq!(group(channel(1)), 0x12_1301);
     assert_eq!(group(channel(6)), 0x12_1306);
@@ -47,9 +47,9 @@ fn channels_by_number_and_by_rank() {
     }
 }
 
-/// ADR-2, ADR-5: spindles have no logical form, with or without asking for one.
+/// ADR-2, ADR-5: spindles have no logical address, even if one is requested.
 #[test]
-fn spindles_by_index_only() {
+fn spindles_are_addressed_by_index_only() {
     let spindle = Spindle::new(2).unwrap();
     assert_eq!(spindle.class(Attribute::Content).get(), 0x2_5302);
     assert_eq!(parts(0x2_5302), class(Index, Class::Spindle, Attribute::Content, 2));
@@ -86,11 +86,11 @@ fn groups_of_the_com_task() {
         assert_eq!(built.get(), printed);
         assert_eq!(parts(printed), com(Logical, access, table, instance));
     }
-    // Printed as the base of all platform axes, and as a group of its own (E-04).
+    // Printed as the base of all platform axes, and also as a complete group (E-04).
     assert_eq!(parts(0x12_0200), com(Logical, Access::Element, ComTable::Axis, 0));
 }
 
-/// ADR-5: a base for each class; of channel 0, which the bases are printed with.
+/// ADR-5: the base of each class, which is printed for channel 0.
 #[test]
 fn bases_of_the_classes() {
     for (base, addressing, of) in [
@@ -102,7 +102,7 @@ fn bases_of_the_classes() {
         (0x2_5300, Index, Class::Spindle),
     ] {
         assert_eq!(parts(base), class(addressing, of, Attribute::Content, 0));
-        // ADR-6: the object address is 0x600 over the content, and names no instance.
+        // ADR-6: the object address is 0x600 above the content, without an instance.
         assert_eq!(ClassGroup::object_address(of).index_group().get(), base + 0x600);
     }
 }
@@ -123,7 +123,7 @@ fn attributes_of_an_element() {
     }
 }
 
-/// ADR-10, SDA-3: the printed queries of object addresses and what they answer.
+/// ADR-10, SDA-3: the printed queries of object addresses and their replies.
 #[test]
 fn object_addresses_are_as_printed() {
     let query = |of| class(Logical, of, Attribute::ObjectAddress, 0);
@@ -133,7 +133,7 @@ fn object_addresses_are_as_printed() {
     assert_eq!(parts(0x12_2301), class(Logical, Class::Decoder, Attribute::Content, 1));
 }
 
-/// SDA-1, E-02: an object address is asked for by number or by rank, of spindles by rank only.
+/// SDA-1, E-02: an object address is queried by number or by index; for spindles, by index only.
 #[test]
 fn queries_of_object_addresses() {
     let hld = FindInstance::new(Class::Hld, 1, 0);
@@ -144,9 +144,10 @@ fn queries_of_object_addresses() {
     assert_eq!(spindle.by_index(), spindle);
 }
 
-/// SDA-2: none but (0, 0) says that there is no instance, and an instance is in the group of a class.
+/// SDA-2: only (0, 0) means that the instance does not exist; other replies must have the group of a
+/// class.
 #[test]
-fn only_0_and_0_is_no_first_element() {
+fn only_address_0_0_has_no_first_element() {
     let first = |group, offset| {
         let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         ObjectAddress { index_group, index_offset }.first_element()
@@ -162,7 +163,7 @@ fn only_0_and_0_is_no_first_element() {
     }
 }
 
-/// ADR-12: each base is printed without the logical bit too, and is the same but for it.
+/// ADR-12: each base is also printed without the logical bit, and differs only in this bit.
 #[test]
 fn bases_without_the_logical_bit() {
     for (without, with) in [(0x2_0100, 0x12_0100), (0x2_0200, 0x12_0200), (0x2_0300, 0x12_0300)] {
@@ -174,9 +175,9 @@ fn bases_without_the_logical_bit() {
     }
 }
 
-/// ADR-10: a group that no manual has stays a number.
+/// ADR-10: an undocumented group does not parse, and keeps its number.
 #[test]
-fn unknown_groups_stay_numbers() {
+fn undocumented_groups_do_not_parse() {
     for number in [
         0,
         0xF005,
@@ -195,7 +196,7 @@ fn unknown_groups_stay_numbers() {
     }
 }
 
-/// ADR-7, ADR-8: both strides, as printed; the wide one unless asked otherwise.
+/// ADR-7, ADR-8: both printed strides; 0x10000 is the default.
 #[test]
 fn axes_with_both_strides() {
     let offset =
@@ -216,10 +217,10 @@ fn axes_with_both_strides() {
     // The first platform axis of the HLD (E-01).
     assert_eq!(offset(AxisStride::X1000, 1, 0), 0x1000);
     assert_eq!(offset(AxisStride::X1000, 1, 1), 0x1001);
-    // An offset does not tell its stride.
+    // An offset does not show its stride.
     assert_eq!(offset(AxisStride::X10000, 1, 1), offset(AxisStride::X1000, 16, 1));
     assert_eq!(IndexOffset::new(0x1_0001).axis_and_element(AxisStride::X1000), Ok((16, 1)));
-    // An axis of 17 bits, which no stride can have put there.
+    // An axis of 17 bits, which is invalid with either stride.
     let error = IndexOffset::new(0x1000_0000).axis_and_element(AxisStride::X1000).unwrap_err();
     assert_eq!((error.kind(), error.expected()), (ErrorKind::OutOfRange, 0xFFFF));
     assert_eq!((error.field().name(), error.found()), ("axis", 0x1_0000));
@@ -234,9 +235,9 @@ fn out_of_range<T: std::fmt::Debug>(result: Result<T, Error>) -> (&'static str, 
     (error.field().name(), error.expected(), error.found())
 }
 
-/// ADR-9, GEN-6: what does not fit its field is refused with the nearest value that does.
+/// ADR-9, GEN-6: a number that does not fit is rejected; the error has the nearest valid number.
 #[test]
-fn what_does_not_fit_is_refused() {
+fn numbers_that_do_not_fit_are_rejected() {
     assert_eq!(out_of_range(Channel::new(0)), ("instance", 1, 0));
     assert_eq!(out_of_range(Channel::new(256)), ("instance", 255, 256));
     assert_eq!(out_of_range(Channel::by_index(0)), ("instance", 1, 0));
@@ -252,10 +253,9 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(out_of_range(offset(narrow, 1, 0x1000)), ("element", 0xFFF, 0x1000));
 }
 
-/// SDA-4, ADR-9: elements follow one another to the last that 16 bits hold, and not into the next
-/// axis.
+/// SDA-4, ADR-9: the elements of an instance end at 16 bits, before the next axis.
 #[test]
-fn elements_follow_up_to_the_last() {
+fn elements_do_not_overflow_into_the_next_axis() {
     let axis = ChannelAxis::new(2).unwrap();
     let near = ElementAddress::for_axis(channel(1), Class::Decoder, axis, 0xFFFD).unwrap();
     let last = near.nth(2).unwrap();
@@ -266,9 +266,9 @@ fn elements_follow_up_to_the_last() {
     }
 }
 
-/// ADR-9: no class, attribute or instance changes another part of the sum.
+/// ADR-9: class, attribute and instance do not change the other parts of a group.
 #[test]
-fn groups_never_carry() {
+fn parts_of_a_group_are_independent() {
     for class in Class::ALL {
         for attribute in Attribute::ALL {
             for instance in 1..=u8::MAX {
@@ -294,9 +294,9 @@ fn groups_never_carry() {
 proptest! {
     #![proptest_config(kept::cases(1000, file!()))]
 
-    /// ADR-9: axis and element come back from the offset, or one of them is refused.
+    /// ADR-9: axis and element are parsed from the offset, or rejected when it is built.
     #[test]
-    fn offsets_never_carry(
+    fn axis_and_element_are_independent(
         axis in prop_oneof![0..=0x2_0000_u32, any::<u32>()],
         element in prop_oneof![0..=0x2000_u32, 0..=0x2_0000_u32, any::<u32>()],
     ) {

@@ -1,4 +1,4 @@
-//! The feature `arbitrary` makes values that a stream can hold.
+//! The feature `arbitrary` generates valid values of streams.
 
 #![cfg(feature = "arbitrary")]
 
@@ -13,7 +13,7 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(kept::cases(200, file!()))]
 
-    /// Values of all streams encode, whatever bytes they are made of.
+    /// Values of all streams encode, whatever bytes they are generated from.
     #[test]
     fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
         for subject in SUBJECTS {
@@ -22,12 +22,12 @@ proptest! {
     }
 }
 
-/// The makers reach what is rare on the wire: each end of a text, data or none, many items.
+/// The generators produce rare values: each end of a text, data and none, many items.
 #[test]
 fn values_vary() {
     let mut seen = std::collections::BTreeSet::new();
     for seed in 0..400_u32 {
-        // A full-period generator is random enough here.
+        // A full-period generator is sufficiently random here.
         let mut state = seed.wrapping_mul(2_654_435_761).wrapping_add(1);
         let bytes: Vec<u8> = std::iter::repeat_with(|| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -1,4 +1,4 @@
-//! `BinRead` and `BinWrite`: what the laws over all streams do not show.
+//! `BinRead` and `BinWrite`: behaviour that the laws of all streams do not cover.
 
 #![cfg(all(feature = "binrw", feature = "std"))]
 
@@ -8,7 +8,7 @@ use ads_cnc::ads::WriteRequest;
 use ads_cnc::binrw::{self, BinRead, BinWrite};
 use ads_cnc::{Description, Error, ErrorKind, ExtendedReply, Handle, HandleRead};
 
-/// Bytes one at a time, each after an interruption, and then an error.
+/// A reader that returns one byte at a time, each after an interruption, and then an error.
 struct Broken<'a> {
     bytes: Cursor<&'a [u8]>,
     interrupted: bool,
@@ -39,9 +39,9 @@ fn own(error: &binrw::Error) -> &Error {
 
 const READ: [u8; 12] = [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0];
 
-/// Interrupted reads are repeated; other errors are those of the reader.
+/// Interrupted reads are repeated; other errors of the reader are returned.
 #[test]
-fn errors_of_a_reader_are_its_own() {
+fn errors_of_a_reader_are_returned() {
     let broken = |bytes| {
         let bytes = Cursor::new(bytes);
         HandleRead::read(&mut Broken { bytes, interrupted: false })
@@ -52,7 +52,7 @@ fn errors_of_a_reader_are_its_own() {
     assert_eq!(error.kind(), io::ErrorKind::ConnectionReset);
 }
 
-/// What is wrong with a stream is the crate's error, at the reader's position.
+/// A fault of a stream is reported as an error of the crate, with the position in the reader.
 #[test]
 fn errors_have_positions() {
     let mut reader = Cursor::new(&[7, 7, 0x41, 0x23, 1, 0x20, 1, 0][..]);
@@ -65,9 +65,8 @@ fn errors_have_positions() {
     assert_eq!(own(&reply).kind(), ErrorKind::Truncated);
 }
 
-/// A value that no decoder would accept is not written.
 #[test]
-fn what_is_not_a_stream_is_not_written() {
+fn invalid_values_are_not_written() {
     let mut written = Cursor::new(Vec::new());
     let read = HandleRead { handle: Handle(1), indices: vec![0; 511] };
     let error = read.write(&mut written).unwrap_err();
@@ -77,7 +76,7 @@ fn what_is_not_a_stream_is_not_written() {
 
 /// A length of 4 MiB with three bytes after it, and counts of 4 GiB.
 #[test]
-fn a_length_is_not_believed() {
+fn lengths_are_checked_before_memory_is_allocated() {
     for length in [0x40_0000_u32, u32::MAX] {
         let bytes = [&[0; 8], &length.to_le_bytes()[..], &[1, 2, 3]].concat();
         let error = WriteRequest::read(&mut Cursor::new(&bytes)).unwrap_err();

@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{Synchronisation, U32List, Validity, VariableAccess, VariableType, WriteAccess};
 
-/// The names that the numbers up to 0xFFF have.
+/// The names of the numbers up to 0xFFF.
 macro_rules! names {
     ($code:ident) => {
         (0..0x1000).filter_map(|number| Some((number, $code(number).name()?))).collect::<Vec<_>>()
@@ -64,7 +64,7 @@ fn codes_of_ads_have_the_numbers_of_the_help_pages() {
     assert_eq!(names!(AdsError), errors);
 }
 
-/// Errors contain a type by its number: that of its code, or one after the codes if no variable has the type.
+/// Errors contain a type by its number: the code, or a greater number if variables do not use the type.
 #[test]
 fn types_have_their_sizes_and_their_numbers_in_errors() {
     let types = DataType::ALL.map(|ty| {

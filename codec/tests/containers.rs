@@ -1,9 +1,9 @@
-//! What holds several things says how many there are and hands out each.
+//! Lists and iterators: their lengths and items.
 
 use ads_cnc::value::DataType;
 use ads_cnc::*;
 
-/// At each step an iterator says exactly how many are left.
+/// Checks that an iterator reports the exact number of remaining items at each step.
 #[track_caller]
 fn counts_down(mut items: impl Iterator, count: usize) {
     for left in (0..=count).rev() {
@@ -13,7 +13,7 @@ fn counts_down(mut items: impl Iterator, count: usize) {
 }
 
 #[test]
-fn none_one_and_several_are_counted_and_handed_out() {
+fn views_of_lists_return_all_items() {
     let bytes = [1, 0, 2, 0, 3, 0];
     let dimensions = [[0], [1], [3]];
     for (count, dimensions) in [0, 1, 3].into_iter().zip(&dimensions) {
@@ -48,7 +48,7 @@ fn none_one_and_several_are_counted_and_handed_out() {
 
 #[cfg(feature = "alloc")]
 #[test]
-fn owned_lists_are_counted_and_handed_out() {
+fn owned_lists_return_all_items() {
     let object = |name| Descriptor::new(name, "UNS32").unwrap();
     for count in [0, 1, 3] {
         let list: Descriptors =

@@ -1,4 +1,4 @@
-//! Content: where it is, how long it is, and that no function is any.
+//! Content: its address and length, and the addresses of functions, which are not content.
 
 mod common;
 
@@ -15,9 +15,9 @@ fn content(group: u32, offset: u32) -> Call<'static> {
     Call { port, index_group, index_offset, ..call }
 }
 
-/// SDA-12, STM-1: where a function is, nothing is read or written as content, by anybody.
+/// SDA-12, STM-1: the address of a function is rejected for content, by clients and servers.
 #[test]
-fn functions_are_no_content() {
+fn addresses_of_functions_are_rejected_for_content() {
     let rows = Function::ALL.iter().map(|function| function.spec());
     let of_decoder = rows.filter(|spec| {
         spec.group == GroupRule::ChannelOf(Class::Decoder) && spec.service != Service::Read
@@ -31,8 +31,8 @@ fn functions_are_no_content() {
     let of_decoder = offsets.map(|offset| (0x12_2301, offset));
     for (group, offset) in of_decoder.chain([(0x12_0101, 0x90), (0x2_0106, 0x90)]) {
         let call = content(group, offset);
-        let refusal = call.dispatch().unwrap_err();
-        assert!(matches!(refusal, DispatchError::Service { .. }), "{call:?}: {refusal}");
+        let error = call.dispatch().unwrap_err();
+        assert!(matches!(error, DispatchError::Service { .. }), "{call:?}: {error}");
         let (group, offset) = (call.index_group, call.index_offset);
         let error = match call.port {
             AmsPort::COM => {
@@ -49,20 +49,20 @@ fn functions_are_no_content() {
         };
         assert_eq!((error.kind(), error.found()), (ErrorKind::Function, offset.get()));
     }
-    // A read of 0x02 … 0x05 is that function, and one of element 0 counts the elements.
+    // A Read of 0x02 … 0x05 is that function; a Read of element 0 counts the elements.
     for offset in 2..=5 {
         let reached = content(0x12_2301, offset).dispatch().unwrap();
         assert_eq!(reached.function(), Function::CountDynamic);
     }
     assert_eq!(content(0x12_3301, 0).dispatch().unwrap().function(), Function::CountElements);
-    // None of this holds for other classes, other channels' platforms, or the first axis.
+    // Other classes, platforms of other channels and the first axis have no such functions.
     for (group, offset) in [(0x12_1301, 0x44), (0x12_2300, 0x44), (0x12_2301, 7)] {
         assert_eq!(content(group, offset).dispatch().unwrap().function(), Function::ReadElement);
     }
 }
 
-/// E-01: what counts elements at an offset of the stride 0x1000 is a read of content to a server;
-/// that is its canonical form, and encodes to the same call.
+/// E-01: a server dispatches the count of elements at the stride 0x1000 as a read of content, which
+/// encodes to the same call.
 #[test]
 fn the_count_of_a_platform_axis_is_a_read_of_content() {
     let axis = content(0x12_3300, 0x1000);
@@ -74,8 +74,8 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
     assert_eq!(canonical.encode(&mut []), Ok(sent));
 }
 
-/// The content of a platform axis as the table of 2.1 and the example of 2.1.2 address it (E-04);
-/// its descriptors have one group only.
+/// The content of a platform axis has the address of the table in 2.1 and of the example in 2.1.2
+/// (E-04). Its descriptors have only one group.
 #[test]
 fn content_of_a_platform_axis_has_two_addresses() {
     let call = |group, offset| Call {
@@ -92,13 +92,12 @@ fn content_of_a_platform_axis_has_two_addresses() {
         assert_eq!(request.encode(&mut []), Ok(call));
     }
     let group = IndexGroup::new(0x13_0200);
-    let refused = Call { index_group: group, ..call(0, 0) }.dispatch();
-    assert_eq!(refused, Err(DispatchError::Group(group)));
+    let rejected = Call { index_group: group, ..call(0, 0) }.dispatch();
+    assert_eq!(rejected, Err(DispatchError::Group(group)));
 }
 
-/// Content is not longer than was asked for, and its addresses are those of content.
 #[test]
-fn content_is_where_and_as_long_as_was_asked_for() {
+fn content_has_a_valid_address_and_at_most_the_read_length() {
     let group = IndexGroup::new;
     let offset = IndexOffset::new(3);
     let read = ReadObject::new(group(0x12_0101), offset, 2).unwrap();

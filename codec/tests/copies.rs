@@ -1,4 +1,4 @@
-//! Owned copies hold what they were made of, and lists grow.
+//! Owned copies equal their originals, and lists grow.
 
 #![cfg(feature = "alloc")]
 
@@ -7,7 +7,7 @@ use ads_cnc::*;
 const DESCRIPTION: &[u8] =
     b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 
-/// A copy outlives the bytes, and is written as they were.
+/// A copy outlives the bytes, and encodes to the same bytes.
 #[test]
 fn copies_of_descriptions_outlive_the_bytes() {
     let (whole, nameless) = {
@@ -23,9 +23,8 @@ fn copies_of_descriptions_outlive_the_bytes() {
     assert_eq!((nameless.handle, nameless.size), (whole.handle, whole.size));
 }
 
-/// A list has what was added, in that order, and nothing behind it.
 #[test]
-fn lists_have_what_was_added_in_order() {
+fn lists_contain_the_added_items_in_order() {
     let names = ["first", "zweite Größe", "third"];
     let mut list = Descriptors::default();
     assert!(list.as_ref().is_empty() && list.encode_to_vec().is_err());
@@ -61,9 +60,9 @@ fn lists_have_what_was_added_in_order() {
     assert!(name == names[1] && name == *names[1] && name != names[0]);
 }
 
-/// Text from a program is CP1252 with its NUL, or refused.
+/// Text of a program is encoded as CP1252 with its NUL, or rejected.
 #[test]
-fn texts_of_a_program_are_cp1252_or_refused() {
+fn texts_of_a_program_are_cp1252_or_rejected() {
     let text: Text = "größer".parse().unwrap();
     assert_eq!(text, Text::from("größer".parse::<CncString>().unwrap()));
     assert_eq!((text.text.as_bytes(), text.tail), (&b"gr\xF6\xDFer"[..], Some(vec![])));

@@ -1,4 +1,4 @@
-//! Code page 1252 (GEN-3), judged by another implementation of it.
+//! Code page 1252 (GEN-3), compared with another implementation.
 
 mod common;
 mod kept;
@@ -9,7 +9,7 @@ use common::text::{CncStrBend, check_cp1252, check_utf8};
 use encoding_rs::WINDOWS_1252;
 use proptest::prelude::*;
 
-/// Every byte is the character that encoding_rs says.
+/// Every byte has the same character as in encoding_rs.
 #[test]
 fn bytes_decode_as_elsewhere() {
     for byte in 0..=u8::MAX {
@@ -21,7 +21,7 @@ fn bytes_decode_as_elsewhere() {
     }
 }
 
-/// Of all characters there are, those and only those have a byte that have one in encoding_rs.
+/// Exactly those characters have a byte that have one in encoding_rs.
 #[test]
 fn characters_encode_as_elsewhere() {
     let mut encoder = WINDOWS_1252.new_encoder();
@@ -42,9 +42,9 @@ fn characters_encode_as_elsewhere() {
     assert_eq!(with_byte, 256);
 }
 
-/// Text of any bytes but NUL comes back from its characters: the five bytes without one too.
+/// All bytes except NUL convert to characters and back, including the five without a character.
 #[test]
-fn texts_come_back_from_their_characters() {
+fn texts_convert_to_characters_and_back() {
     for byte in 1..=u8::MAX {
         let bytes = [b'V', byte, b'x'];
         let wire = CncStr::from_bytes(&bytes).unwrap();
@@ -58,10 +58,10 @@ fn texts_come_back_from_their_characters() {
     assert!(CncStr::new("V\0x").is_err());
 }
 
-/// The owned text has the same bytes, order and look as the borrowed one.
+/// Owned and borrowed texts have the same bytes, order and display.
 #[cfg(feature = "alloc")]
 #[test]
-fn owned_texts_are_the_borrowed_ones() {
+fn owned_and_borrowed_texts_are_equal() {
     use ads_cnc::CncString;
 
     let all: Vec<u8> = (1..=u8::MAX).collect();

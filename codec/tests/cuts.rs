@@ -1,5 +1,5 @@
-//! Every sample cut at every length, and with one byte too many: a typed error that names field
-//! and offset, or the clause that allows it, identical from every reading.
+//! Every sample truncated at every length, and with one extra byte: the result is an error with field
+//! and offset, or a requirement permits it. It is the same for each type of the stream.
 
 mod common;
 
@@ -10,15 +10,15 @@ use ads_cnc::ErrorKind::{self, *};
 use ads_cnc::layout::Stream;
 use common::{Fault, Sample, check, each_sample, fault};
 
-/// What has to come of changed bytes.
+/// The expected result of changed bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Expected {
-    /// The clause that allows it.
+    /// The requirement that permits it.
     Accepted(&'static str),
     Refused(Fault),
 }
 
-fn refused(
+fn rejected(
     kind: ErrorKind,
     field: &'static str,
     offset: usize,
@@ -44,7 +44,7 @@ const DYN_3: &str = "DYN-3: a name may come without its NUL";
 const STM_5: &str = "STM-5: whether lines are whole, the CNC says when it reads them";
 const VAR_16: &str = "VAR-16: V.G and V.A have no extended description";
 
-/// All clauses that allow a sample to lose or gain bytes. Each has to be met below.
+/// All requirements that permit a sample to lose or gain bytes. Each must occur below.
 const ALLOWED: [&str; 16] = [
     ADS_6,
     COM_3,
@@ -64,7 +64,7 @@ const ALLOWED: [&str; 16] = [
     STM_5,
 ];
 
-/// The clause by which bytes of any number end the stream.
+/// The requirement that permits any number of bytes at the end of the stream.
 fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     match stream {
         Stream::VariableValue | Stream::VariableHandleWrite | Stream::VariableNameWrite => {
@@ -76,19 +76,19 @@ fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     }
 }
 
-/// What a text does with a cut and with a byte more.
+/// How a text reacts to missing bytes and to an extra byte.
 #[derive(Clone, Copy, PartialEq)]
 enum Text {
-    /// Ends with a NUL, NULs may follow.
+    /// Ends with a NUL; more NULs may follow.
     Terminated,
-    /// Ends with a NUL, which NULs may follow, or with the stream.
+    /// Ends with a NUL, which more NULs may follow, or with the stream.
     MayTerminate,
     /// Ends with a NUL or with the stream, anything may follow: the clauses for what is behind the
     /// NUL, for the end of the stream, for a longer text.
     Open([&'static str; 3]),
 }
 
-/// Fields in which a cut or a byte more is not simply too little or too much.
+/// Text fields, for which missing or extra bytes are not always an error.
 fn text_of(stream: Stream, field: &str) -> Option<Text> {
     match (stream, field) {
         (Stream::VariableKind | Stream::VariableIndexKind, "kind") => Some(Text::Terminated),
@@ -103,7 +103,7 @@ fn text_of(stream: Stream, field: &str) -> Option<Text> {
     }
 }
 
-/// The first `cut` bytes of a sample, by the fields into which a person has cut it.
+/// The expected result for the first `cut` bytes of a sample, from its fields as split by hand.
 fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
     let (name, start, bytes) = sample
         .places()
@@ -114,12 +114,12 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         (Some(Text::Terminated), ..) => match there {
             0 if stream == Stream::VariableKind => Expected::Accepted(VAR_1),
             _ if bytes[..there].contains(&0) => Expected::Accepted(E_34),
-            _ => refused(MissingNul, name, start, (256, there)),
+            _ => rejected(MissingNul, name, start, (256, there)),
         },
         (Some(Text::MayTerminate | Text::Open(_)), stream, _)
             if there == 0 && stream != Stream::ElementText =>
         {
-            refused(Truncated, name, start, (1, 0))
+            rejected(Truncated, name, start, (1, 0))
         }
         (Some(Text::MayTerminate), ..) => match bytes[..there].contains(&0) {
             true => Expected::Accepted(E_34),
@@ -129,7 +129,7 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
             true => Expected::Accepted(behind),
             false => Expected::Accepted(open),
         },
-        (None, Stream::ProgramStream, _) if there == 0 => refused(Truncated, name, 0, (1, 0)),
+        (None, Stream::ProgramStream, _) if there == 0 => rejected(Truncated, name, 0, (1, 0)),
         (None, _, "value") if there == 0 && ends_in_bytes(stream).is_some() => {
             Expected::Accepted(VAR_14_EMPTY)
         }
@@ -138,9 +138,11 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         }
         (None, Stream::ElementLength, _) => match there {
             1 | 2 => Expected::Accepted(SDA_8),
-            _ => refused(Truncated, name, 0, (4, there)),
+            _ => rejected(Truncated, name, 0, (4, there)),
         },
-        (None, Stream::VariableNameWrite, "name") => refused(MissingNul, name, start, (256, there)),
+        (None, Stream::VariableNameWrite, "name") => {
+            rejected(MissingNul, name, start, (256, there))
+        }
         (None, Stream::VariableExtendedDescription, _) if cut == 0 => Expected::Accepted(VAR_16),
         (None, Stream::ObjectDescriptors, "id") if there == 0 && cut > 0 => {
             Expected::Accepted(COM_3)
@@ -150,19 +152,19 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         {
             Expected::Accepted(ADS_6)
         }
-        // Too few items are the fault of their number, which stands right before them.
+        // Too few items are a fault of their count, which precedes them.
         (None, _, "dimensions" | "indices") => {
             let of_items = |&(other, ..): &(&str, usize, &[u8])| other == name;
             let (_, first, _) = sample.places().find(of_items).unwrap();
             let count = sample.places().filter(of_items).count();
             let counter = sample.places().find(|&(_, at, _)| at + 4 == first).unwrap();
-            refused(TooMany, counter.0, counter.1, ((cut - first) / 4, count))
+            rejected(TooMany, counter.0, counter.1, ((cut - first) / 4, count))
         }
-        _ => refused(Truncated, name, start, (bytes.len(), there)),
+        _ => rejected(Truncated, name, start, (bytes.len(), there)),
     }
 }
 
-/// Bytes a text may have.
+/// The maximum length of a text.
 fn limit(stream: Stream) -> usize {
     match stream {
         Stream::DynamicName | Stream::DynamicNameRequest => 96,
@@ -170,38 +172,38 @@ fn limit(stream: Stream) -> usize {
     }
 }
 
-/// A sample and one byte more.
+/// The expected result for a sample with one extra byte.
 fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
     let len = sample.bytes().len();
     let last = sample.places().last();
-    let trailing = refused(Trailing, "stream", len, (len, len + 1));
+    let trailing = rejected(Trailing, "stream", len, (len, len + 1));
     match (stream, last) {
         (Stream::VariableKind, None) if extra == 0 => Expected::Accepted(E_34),
-        (Stream::VariableKind, None) => refused(MissingNul, "kind", 0, (256, 1)),
+        (Stream::VariableKind, None) => rejected(MissingNul, "kind", 0, (256, 1)),
         (Stream::ElementText, None) => Expected::Accepted(SDA_6),
         (stream, _) if ends_in_bytes(stream).is_some() => {
             Expected::Accepted(ends_in_bytes(stream).unwrap())
         }
         (Stream::ElementLength, _) => match len {
             1 => Expected::Accepted(SDA_8),
-            2 => refused(Truncated, "length", 0, (4, 3)),
+            2 => rejected(Truncated, "length", 0, (4, 3)),
             _ => trailing,
         },
         (Stream::VariableExtendedDescription, None) => {
-            refused(Truncated, "synchronisation", 0, (4, 1))
+            rejected(Truncated, "synchronisation", 0, (4, 1))
         }
-        (Stream::VariableExtendedDescription, _) => refused(TooLong, "stream", 8, (8, 9)),
-        (Stream::ObjectDescriptors, _) => refused(Truncated, "id", len, (4, 1)),
+        (Stream::VariableExtendedDescription, _) => rejected(TooLong, "stream", 8, (8, 9)),
+        (Stream::ObjectDescriptors, _) => rejected(Truncated, "id", len, (4, 1)),
         (Stream::ReadReply | Stream::ReadWriteReply, Some(("result", ..))) => {
-            refused(Truncated, "length", 4, (4, 1))
+            rejected(Truncated, "length", 4, (4, 1))
         }
         (_, Some((name, start, bytes))) => match text_of(stream, name) {
-            // The text fills the stream, or as much of it as a text may have.
+            // The text fills the stream, or has its maximum length.
             Some(Text::Open(_)) if stream == Stream::VariableDescription && bytes.len() == 256 => {
-                refused(TooLong, name, start, (256, 257))
+                rejected(TooLong, name, start, (256, 257))
             }
             Some(_) if bytes.len() == limit(stream) => {
-                refused(TooLong, "stream", len, (len, len + 1))
+                rejected(TooLong, "stream", len, (len, len + 1))
             }
             Some(Text::Terminated) if extra == 0 => Expected::Accepted(E_34),
             Some(Text::MayTerminate) if !bytes.contains(&0) => Expected::Accepted(DYN_3),
@@ -224,10 +226,10 @@ fn observed(verdict: Result<(), Error>, expected: Expected) -> Expected {
     }
 }
 
-/// Every cut and every byte more is refused where and why it has to be, or allowed by a clause of
-/// the list; and no clause of the list is idle.
+/// Missing and extra bytes are rejected with the expected error, or permitted by a listed requirement;
+/// each listed requirement occurs.
 #[test]
-fn every_cut_and_every_byte_more_has_one_outcome() {
+fn truncated_and_extended_samples_have_the_expected_result() {
     let mut met = BTreeSet::new();
     let mut judge = |stream, sample: &Sample, bytes: &[u8], expected: Expected| {
         let verdict = check(stream, bytes);
@@ -249,9 +251,9 @@ fn every_cut_and_every_byte_more_has_one_outcome() {
     assert_eq!(met, BTreeSet::from(ALLOWED));
 }
 
-/// Bytes other than NULs behind a request's NUL are trailing, wherever they begin (E-34).
+/// Bytes other than NUL after the NUL of a request are trailing, wherever they begin (E-34).
 #[test]
-fn text_behind_the_nul_of_a_request_is_trailing() {
+fn text_after_the_nul_of_a_request_is_trailing() {
     for (stream, bytes, end) in [
         (Stream::VariableName, &b"V.E.a\0b\0"[..], 6),
         (Stream::VariableName, b"V.E.a\0\0\0b", 8),
@@ -259,14 +261,14 @@ fn text_behind_the_nul_of_a_request_is_trailing() {
         (Stream::VariableIndexKind, b"\x02\0\0\0V.E\0V", 8),
         (Stream::DynamicNameRequest, b"P1\0\0P", 4),
     ] {
-        let expected = refused(Trailing, "stream", end, (end, bytes.len()));
+        let expected = rejected(Trailing, "stream", end, (end, bytes.len()));
         assert_eq!(observed(check(stream, bytes), expected), expected);
     }
 }
 
-/// What has no field is walked as it is decoded.
+/// A stream without fields is walked like it is decoded.
 #[test]
-fn no_data_has_no_tail() {
+fn no_data_rejects_bytes() {
     assert!(Stream::NoData.walk(&[], |_| ()).is_ok());
     for bytes in [&[0][..], &[0; 300]] {
         assert_eq!(

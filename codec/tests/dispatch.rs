@@ -1,4 +1,4 @@
-//! From a client's operation over the wire to a server's request, and what is refused on the way.
+//! Dispatch: from the operation of a client to the request of a server, and errors.
 
 mod common;
 mod kept;
@@ -12,10 +12,9 @@ use ads_cnc::{Encode as _, ErrorKind};
 use common::{CALLS, check_call};
 use proptest::prelude::*;
 
-/// Each call reaches the function that a person says, and encodes to itself; every function is
-/// reached.
+/// Each sample is dispatched to its function and encodes to the same call; every function occurs.
 #[test]
-fn calls_reach_their_functions() {
+fn calls_are_dispatched_to_their_functions() {
     let mut reached = BTreeSet::new();
     for sample in CALLS {
         let request = sample.call.dispatch();
@@ -31,9 +30,9 @@ fn calls_reach_their_functions() {
     assert_eq!(reached, Function::ALL.iter().copied().collect());
 }
 
-/// A Write has no room for what it would read, and a Read none for data.
+/// A Write has no read length, and a Read has no data.
 #[test]
-fn calls_ask_for_what_their_service_has() {
+fn calls_have_only_the_parts_of_their_service() {
     for sample in CALLS {
         let request = sample.call.dispatch().unwrap();
         let mut buf = [0; 4096];
@@ -53,21 +52,21 @@ fn refusal(change: impl FnOnce(&mut Call<'_>)) -> DispatchError {
     call.dispatch().unwrap_err()
 }
 
-/// A call that is wrong in one thing is refused for that, with the number that is sent back.
+/// A call with one fault is rejected for that fault, with the ADS error for the response.
 #[test]
-fn one_fault_is_refused_for_what_it_is() {
+fn a_call_with_one_fault_is_rejected_for_it() {
     let group = IndexGroup::new;
     let offset = IndexOffset::new;
     let cases = [
         (refusal(|call| call.port = AmsPort(851)), DispatchError::Port(AmsPort(851)), 0x6),
-        // COM answers for no class, SDA for no objects.
+        // COM does not serve classes, SDA does not serve objects.
         (refusal(|call| call.port = AmsPort::COM), DispatchError::Group(group(0x12_2301)), 0x702),
         (
             refusal(|call| call.index_group = group(0x13_0101)),
             DispatchError::Group(group(0x13_0101)),
             0x702,
         ),
-        // There is no channel 0 with variables, though elements may be there.
+        // Channel 0 has no variables, but may have elements.
         (
             refusal(|call| call.index_group = group(0x12_2300)),
             DispatchError::Offset(offset(0x46)),
@@ -78,7 +77,7 @@ fn one_fault_is_refused_for_what_it_is() {
             DispatchError::Service { expected: Service::Read, found: Service::ReadWrite },
             0x701,
         ),
-        // Object addresses are asked for without a channel in the group (SDA-1).
+        // The group of a query of object addresses has no channel (SDA-1).
         (
             refusal(|call| call.index_group = group(0x12_3901)),
             DispatchError::Group(group(0x12_3901)),
@@ -113,7 +112,7 @@ fn one_fault_is_refused_for_what_it_is() {
     assert_eq!(DispatchError::Stream(error).ads_error(), AdsError::INVALID_SIZE);
 }
 
-/// What a call reaches at this address: a function by its name, or why it is none.
+/// The name of the function at this address, or the error.
 fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
     let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
     let mut reached = String::new();
@@ -121,7 +120,7 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
         let call = Call { port, service, index_group, index_offset, read_length: 84, data };
         reached = match call.dispatch() {
             Ok(request) => return request.function().spec().name.to_owned(),
-            // Another function takes other data.
+            // Other functions require other data.
             Err(DispatchError::Stream(_)) => continue,
             Err(DispatchError::Port(_)) => "no port".to_owned(),
             Err(DispatchError::Group(_)) => "no group".to_owned(),
@@ -135,8 +134,8 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
     reached
 }
 
-/// What a Read, a Write and a ReadWrite reach near every group and offset there is: groups of which
-/// all is alike together, and so offsets.
+/// A snapshot of the functions of Read, Write and ReadWrite near every group and offset. Groups with
+/// equal results are combined, and so are offsets.
 #[test]
 #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
 fn dispatch_reaches_the_same_functions() {
@@ -180,8 +179,8 @@ fn dispatch_reaches_the_same_functions() {
     });
 }
 
-/// COM-3: a read that leaves no room for one descriptor is refused by its length; any other asks
-/// for as many as it is a multiple of, or for one.
+/// COM-3: a read length below one descriptor is rejected; a multiple of 84 requests that number of
+/// descriptors, any other length one.
 #[test]
 fn read_lengths_of_descriptors() {
     let sample = CALLS.iter().find(|sample| sample.slug == "descriptor-printed").unwrap();
@@ -208,10 +207,10 @@ fn read_lengths_of_descriptors() {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// Whatever is called: a refusal, or a request that encodes to the same call. Near the calls
-    /// there are, so that some are accepted.
+    /// Any call is rejected, or dispatched to a request that encodes to the same call. Calls are
+    /// generated near the samples, so that some are accepted.
     #[test]
-    fn any_call_is_refused_or_comes_back(
+    fn any_call_is_rejected_or_encodes_to_itself(
         sample in prop::sample::select(CALLS.iter().map(|sample| sample.call).collect::<Vec<_>>()),
         port in 550..=554_u16,
         group in prop::option::of((0..24_u32, 0..24_u32)),
@@ -233,9 +232,9 @@ proptest! {
     }
 }
 
-/// A reply is read as what the function answers, and no longer than was asked for.
+/// A reply is decoded by its function, and rejected if it is longer than the read length.
 #[test]
-fn replies_are_those_of_the_function() {
+fn replies_are_decoded_by_their_function() {
     let reply = |slug: &str, data: &[u8]| {
         let sample = CALLS.iter().find(|sample| sample.slug == slug).unwrap();
         let request = sample.call.dispatch().unwrap();

@@ -1,4 +1,4 @@
-//! What is equal has the same hash, and what is not, is not.
+//! Equality and hashes.
 
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
@@ -8,7 +8,7 @@ use ads_cnc::service::ServiceId;
 use ads_cnc::value::Boolean;
 use ads_cnc::*;
 
-/// All of `same` are equal, and none equals `other`, nor has its hash.
+/// Checks that all of `same` are equal, and differ from `other` in value and hash.
 #[track_caller]
 fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
     let state = BuildHasherDefault::<DefaultHasher>::default();
@@ -24,7 +24,7 @@ fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
     assert_eq!(distinct.len(), 2);
 }
 
-/// A text is its characters, from UTF-8 or from CP1252.
+/// Texts from UTF-8 and from CP1252 are equal if their characters are equal.
 #[test]
 fn texts_are_equal_by_their_characters() {
     let given =
@@ -38,7 +38,7 @@ fn texts_are_equal_by_their_characters() {
     }
 }
 
-/// A name is its text; it is read with the case it has.
+/// Names are compared with case.
 #[test]
 fn names_are_equal_by_their_text_and_its_case() {
     let path = |text| VariablePath::new(text).unwrap();
@@ -50,9 +50,9 @@ fn names_are_equal_by_their_text_and_its_case() {
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
 }
 
-/// A name that was read is requested without its end.
+/// A decoded name is used in a request without its end.
 #[test]
-fn names_that_were_read_are_requested_by_their_text() {
+fn decoded_names_are_requested_by_their_text() {
     let channel = address::Channel::new(1).unwrap();
     let expected = ReadByName::new(channel, "V.E.a").unwrap();
     let padded = VariableNameRef::decode(b"V.E.a\0\0").unwrap().name;
@@ -66,7 +66,7 @@ fn names_that_were_read_are_requested_by_their_text() {
     }
 }
 
-/// NULs after a kind are no part of it; they are of a text with its end (E-34).
+/// NULs after a kind are not part of it, but they are part of a text with its end (E-34).
 #[test]
 fn kinds_are_equal_by_their_text() {
     let padded = VariableKindRef::decode(b"V.E\0\0").unwrap().kind;
@@ -75,9 +75,8 @@ fn kinds_are_equal_by_their_text() {
     assert_ne!(padded.field(), Kind::V_E.field());
 }
 
-/// A UUID is the same in capitals.
 #[test]
-fn uuids_are_equal_in_capitals() {
+fn uuids_are_equal_without_regard_to_case() {
     let id = |text: &str| ServiceId::new(text).unwrap();
     check(
         &[
@@ -89,9 +88,9 @@ fn uuids_are_equal_in_capitals() {
     );
 }
 
-/// Numbers are equal wherever they come from, if all are, and all are there.
+/// Lists from all sources are equal if they have the same numbers and length.
 #[test]
-fn numbers_are_equal_wherever_they_come_from() {
+fn lists_of_numbers_from_all_sources_are_equal() {
     let name = VariablePath::new("V.E.a[3][0]").unwrap();
     let named = name.parts().next().unwrap().indices;
     let wire = b"\x01\0\0\0\x02\0\0\0\x03\0\0\0\0\0\0\0";
@@ -104,15 +103,15 @@ fn numbers_are_equal_wherever_they_come_from() {
     }
 }
 
-/// A value to write is its bytes, whatever it is made of.
+/// Values to write are equal if their bytes are equal.
 #[test]
 fn values_to_write_are_equal_by_their_bytes() {
     check(&[WriteValue::from(&[1_u8, 0, 0, 0][..]), WriteValue::from(1_u32)], 2_u32.into());
 }
 
-/// Of the bytes that are TRUE, one is written.
+/// Several bytes are TRUE; each is kept.
 #[test]
-fn any_byte_but_0_is_true_and_stays_what_it_is() {
+fn any_byte_but_0_is_true_and_is_kept() {
     for byte in 0..=u8::MAX {
         assert_eq!(Boolean(byte).is_true(), byte != 0);
         assert_eq!(Boolean(byte) == Boolean::TRUE, byte == 1);

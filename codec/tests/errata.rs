@@ -1,8 +1,7 @@
 //! The page on the errata of the manuals.
 
-/// It has every erratum of the register.
 #[test]
-fn the_page_has_every_erratum() {
+fn the_page_contains_every_erratum_of_the_register() {
     let page = include_str!("../src/errata.md");
     let words: Vec<&str> = page.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
     let register = ads_cnc_vectors::errata();

@@ -1,4 +1,4 @@
-//! Frames on a TCP stream, however their bytes arrive (ADS-5).
+//! Frames on a TCP stream, in pieces of any length (ADS-5).
 
 mod common;
 mod kept;
@@ -16,9 +16,9 @@ use common::{
 };
 use proptest::prelude::*;
 
-/// A frame comes out when its last byte is there, not before, and comes back byte for byte.
+/// A frame is returned when its last byte has arrived, and encodes to the same bytes.
 #[test]
-fn a_frame_comes_out_when_it_is_whole() {
+fn a_frame_is_returned_when_it_is_complete() {
     let bytes = frame(b"twelve bytes");
     for cut in 0..bytes.len() {
         assert_eq!(FrameRef::split(&bytes[..cut], 12), Ok(None), "{cut}");
@@ -35,9 +35,9 @@ fn a_frame_comes_out_when_it_is_whole() {
 const TARGET: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: AmsPort::SDA };
 const SOURCE: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
 
-/// A call as its service is in the manual (ADS-1 … ADS-3), and out of a frame again.
+/// A call encodes to the request of its service (ADS-1 … ADS-3), and decodes from a frame.
 #[test]
-fn a_call_is_the_request_of_its_service() {
+fn a_call_encodes_to_the_request_of_its_service() {
     let call = |service, data| Call {
         port: AmsPort::SDA,
         service,
@@ -62,7 +62,7 @@ fn a_call_is_the_request_of_its_service() {
         assert_eq!(Call::from_frame(&frame(command)), Ok(Some(call)));
         assert_eq!(Call::from_frame(&frame(Command::READ_STATE)), Ok(None));
         let header = AmsHeader::request(TARGET, SOURCE, command, 7);
-        // Whoever watches both ways looks at the flags first.
+        // A tool that sees both directions must check the flags first.
         let flagged = AmsHeader { state_flags: StateFlags::RESPONSE, ..header };
         assert_eq!(Call::from_frame(&FrameRef::new(flagged, bytes).unwrap()), Ok(Some(call)));
         let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();
@@ -72,9 +72,8 @@ fn a_call_is_the_request_of_its_service() {
     assert_eq!((error.kind(), error.expected(), error.found()), (Trailing, 12, 13));
 }
 
-/// A header to a target, and the one that comes back.
 #[test]
-fn a_response_answers_its_request() {
+fn the_header_of_a_response_matches_its_request() {
     let request = AmsHeader::request(TARGET, SOURCE, Command::WRITE, 7);
     let wanted = AmsHeader {
         target: TARGET,
@@ -92,9 +91,9 @@ fn a_response_answers_its_request() {
     assert_eq!(of_data.response(), wanted);
 }
 
-/// A fault shows with its last byte, and stays whatever follows.
+/// A fault is reported when its last byte has arrived, whatever follows.
 #[test]
-fn a_fault_shows_as_soon_as_its_bytes_are_there() {
+fn a_fault_is_reported_as_soon_as_its_bytes_arrive() {
     for (at, byte, seen, wanted) in [
         (1, 0x10, 6, fault(Mismatch, "reserved", 0, (0, 0x1000))),
         (2, 31, 6, fault(OutOfRange, "length", 2, (32, 31))),
@@ -113,13 +112,13 @@ fn a_fault_shows_as_soon_as_its_bytes_are_there() {
     }
 }
 
-/// A length that overflows with the header's is no short frame.
+/// A length that overflows with that of the header is not a short frame.
 #[test]
 fn lengths_do_not_wrap() {
     let mut bytes = frame(b"");
     bytes[2..6].copy_from_slice(&[0xFF; 4]);
     let error = FrameRef::split(&bytes, u32::MAX).unwrap_err();
-    // Refused by the named maximum before the data length is compared.
+    // Rejected by the named maximum before the data length is compared.
     assert_eq!((error.kind(), error.offset()), (TooLong, 2));
     let most = u32::try_from(ads_cnc::limits::ADS_DATA_MAX + 16 + 32).unwrap();
     bytes[2..6].copy_from_slice(&most.to_le_bytes());
@@ -134,9 +133,9 @@ fn config() -> ProptestConfig {
 proptest! {
     #![proptest_config(config())]
 
-    /// Frames one behind the other come out one by one, wherever the stream is cut.
+    /// Frames in sequence are returned one by one, wherever the stream is split.
     #[test]
-    fn frames_come_out_in_order(
+    fn frames_are_returned_in_order(
         datas in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 1..5),
         cuts in prop::collection::vec(any::<prop::sample::Index>(), 0..6),
         left in 0..38_usize,
@@ -151,9 +150,8 @@ proptest! {
         prop_assert_eq!((found, rest), (frames, Ok(bytes[bytes.len() - left..].to_vec())));
     }
 
-    /// More bytes never take back what fewer have shown, be it a frame or a fault.
     #[test]
-    fn verdicts_stay(
+    fn more_bytes_do_not_change_a_frame_or_a_fault(
         mut bytes in prop::collection::vec(any::<u8>(), 0..60).prop_map(|data| frame(&data)),
         change in prop::option::of((0..38usize, any::<u8>())),
     ) {
@@ -165,10 +163,10 @@ proptest! {
     }
 }
 
-/// The longest frame can be split, put together again and encoded; one byte more cannot.
+/// The longest frame is split and encoded; a frame with one more byte is rejected.
 #[cfg(feature = "alloc")]
 #[test]
-fn the_longest_frame_passes_and_no_longer() {
+fn the_longest_frame_is_accepted_and_a_longer_one_rejected() {
     let most = ads_cnc::limits::ADS_DATA_MAX + 16;
     let data = vec![7; most];
     let header = FrameRef::split(&frame(&[]), u32::MAX).unwrap().unwrap().0.header();

@@ -1,4 +1,4 @@
-//! What holds for every function of the table, by the streams that the table gives it.
+//! Laws of every function, from the streams in its row of the table.
 
 mod common;
 mod damage;
@@ -16,7 +16,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// Every sample and every vector of a stream; nothing where there is no stream.
+/// Every sample and vector of a stream; empty without a stream.
 fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
     let Some(stream) = stream else { return vec![vec![]] };
     let samples = each_sample().filter(|&(other, _)| other == stream);
@@ -25,13 +25,12 @@ fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
     samples.chain(vectors.map(|vector| vector.bytes())).collect()
 }
 
-/// Where to cut: everywhere in a short stream; at the ends of a long one and here and there between,
-/// for time.
+/// The lengths to truncate at: all of a short stream; some of a long one, to save time.
 fn cuts(len: usize) -> impl Iterator<Item = usize> {
     (0..=len).filter(move |&cut| len <= 300 || cut < 40 || len - cut < 8 || cut % 101 == 0)
 }
 
-/// A call that asks for as much as its function may answer.
+/// A call with the maximum read length of its function.
 fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
     let most = sample.function.spec().reply.map_or(0, |stream| stream.layout().max);
     let read_length = match sample.function {
@@ -41,8 +40,8 @@ fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
     Call { data, read_length, ..sample.call }
 }
 
-/// Each function takes and refuses what its request's stream does, every sample and vector of it
-/// and their cuts; what it takes encodes to the same call.
+/// Each function accepts and rejects the same data as the stream of its request, for every sample and
+/// vector and their truncations; accepted calls encode to themselves.
 #[test]
 fn requests_are_those_of_the_table() {
     let mut accepted = BTreeSet::new();
@@ -59,8 +58,7 @@ fn requests_are_those_of_the_table() {
     assert_eq!(accepted, Function::ALL.iter().copied().collect());
 }
 
-/// Each function takes and refuses for a reply what its reply's stream does, and nothing longer
-/// than was asked for.
+/// Each function accepts and rejects the same replies as the stream of its reply, up to the read length.
 #[test]
 fn replies_are_those_of_the_table() {
     let mut accepted = BTreeSet::new();
@@ -82,7 +80,7 @@ fn replies_are_those_of_the_table() {
 proptest! {
     #![proptest_config(kept::cases(2000, file!()))]
 
-    /// The same for damaged requests and replies.
+    /// The same for mutated requests and replies.
     #[test]
     fn damaged_requests_and_replies_are_those_of_the_table(
         sample in select((0..CALLS.len()).collect::<Vec<_>>()),

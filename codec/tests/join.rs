@@ -1,4 +1,4 @@
-//! Streams from the bytes of their fields: what a walk takes apart, `join` puts together.
+//! `join`: streams from the bytes of their fields.
 
 mod common;
 
@@ -27,7 +27,7 @@ fn join(stream: Stream, parts: &[Part<'_>], room: usize) -> Result<Vec<u8>, ads_
 }
 
 #[test]
-fn what_a_walk_takes_apart_is_put_together() {
+fn join_is_the_inverse_of_a_walk() {
     let mut counts = 0;
     for (stream, sample) in each_sample() {
         let bytes = sample.bytes();
@@ -42,7 +42,7 @@ fn what_a_walk_takes_apart_is_put_together() {
                 *part = &part[..end];
             }
         }
-        // A count without its items is not missed where a reply may end before it.
+        // A count without items can be omitted where a reply may end before the count.
         if !parts.iter().any(|(field, part)| is_count(stream, *field) && **part == [0; 4]) {
             assert_eq!(join(stream, &short, bytes.len()).as_ref(), Ok(&bytes), "{}", sample.slug);
         }
@@ -55,9 +55,9 @@ fn what_a_walk_takes_apart_is_put_together() {
     assert!(counts > 20, "{counts}");
 }
 
-/// A part left out, given twice or longer is an error, or leads to bytes that have just these parts.
+/// An omitted, repeated or longer part is an error, or the result has exactly these parts.
 #[test]
-fn parts_are_what_a_reader_finds() {
+fn joined_bytes_have_exactly_the_parts() {
     for (stream, sample) in each_sample() {
         let bytes = sample.bytes();
         let parts = walked(stream, &bytes);
@@ -93,7 +93,7 @@ fn trimmed((field, part): Part<'_>) -> (Field, Vec<u8>) {
 type JoinCase<'a> = (Stream, &'a [(&'a str, &'a [u8])], (ErrorKind, &'a str, u32, u32, u32));
 
 #[test]
-fn a_wrong_part_is_named() {
+fn errors_name_the_wrong_part() {
     let fault = |stream: Stream, parts: &[(&str, &[u8])]| {
         let part = |&(name, bytes)| (Field::by_name(stream, name).unwrap(), bytes);
         let parts: Vec<Part<'_>> = parts.iter().map(part).collect();
@@ -110,7 +110,7 @@ fn a_wrong_part_is_named() {
             &[("index", four), ("kind", b"V.E")],
             (MissingNul, "kind", 4, 256, 3),
         ),
-        // Out of order: the kind is not written.
+        // Out of order: the kind is missing.
         (
             Stream::VariableIndexKind,
             &[("kind", b"V.E\0"), ("index", four)],
@@ -121,7 +121,7 @@ fn a_wrong_part_is_named() {
             &[("handle", four), ("handle", four)],
             (Mismatch, "handle", 4, 0, 4),
         ),
-        // A name with a NUL in it would make the rest of it the value.
+        // After a NUL inside the name, the rest would be part of the value.
         (
             Stream::VariableNameWrite,
             &[("name", b"a\0b\0"), ("value", four)],
@@ -132,7 +132,7 @@ fn a_wrong_part_is_named() {
             &[("name", b"a"), ("value", four)],
             (Mismatch, "name", 0, 3, 1),
         ),
-        // A count that is not that of the items.
+        // A count that differs from the number of items.
         (
             Stream::VariableHandleRead,
             &[("handle", four), ("index_count", four), ("indices", four), ("indices", four)],

@@ -1,4 +1,4 @@
-//! The feature `serde`: every value comes back from JSON as it was.
+//! The feature `serde`: every value is unchanged by serialization to JSON and back.
 
 #![cfg(feature = "serde")]
 
@@ -15,7 +15,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
-/// Writes the value that the bytes are, reads it, and compares.
+/// Decodes a value, serializes and deserializes it, and compares.
 fn comes_back<T>(bytes: &[u8]) -> bool
 where
     T: for<'a> Decode<'a> + Encode + Serialize + DeserializeOwned + PartialEq + std::fmt::Debug,
@@ -43,9 +43,9 @@ macro_rules! each {
 ads_cnc::streams! { each }
 
 #[test]
-fn vectors_come_back() {
+fn vectors_are_unchanged() {
     let streams = vectors().iter().filter(|vector| vector.is_accepted()).filter_map(|vector| {
-        // Addresses, paths and frames are no streams of the codec.
+        // Addresses, paths and frames are not streams of the codec.
         let stream = Stream::by_name(&vector.stream)?;
         assert!(stream_comes_back(stream, &vector.bytes()), "{}", vector.id);
         Some(stream)
@@ -58,7 +58,7 @@ fn shape<T: for<'a> Decode<'a> + Serialize>(bytes: &[u8]) -> Value {
     to_value(T::decode(bytes).unwrap()).unwrap()
 }
 
-/// Fields have the names of the table, and what only counts is no field.
+/// Fields have the names of the table; counts are omitted.
 #[test]
 fn streams_are_maps_of_their_fields() {
     let description = b"\x02\0\0\x20\x09\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x04\0\0\0L\xE4nge\0";
@@ -76,7 +76,7 @@ fn streams_are_maps_of_their_fields() {
     assert_eq!(header.as_object().map(serde_json::Map::len), Some(9));
 }
 
-/// What a map of numbers and strings has no room for.
+/// Properties that need more than numbers and strings.
 #[test]
 fn ends_widths_and_absent_data_are_kept() {
     assert_eq!(shape::<VariableName>(b"a\0\0"), json!({ "name": { "text": "a", "tail": [0] } }));
@@ -103,7 +103,8 @@ fn blank() -> Description {
     Description::decode(&[&[0; 20][..], b"x"].concat()).unwrap()
 }
 
-/// What no value can hold is an error; what no stream can hold is one when it is encoded.
+/// Values that do not fit a type are errors of deserialization; those that do not fit a stream, of
+/// encoding.
 #[test]
 fn values_are_checked() {
     let error = |json: Value| from_value::<VariableName>(json).unwrap_err().to_string();
@@ -132,7 +133,7 @@ fn values_are_checked() {
     assert!(unsendable.encode_to_vec().is_err());
 }
 
-/// A text or a number in no known form is an error that says which forms there are.
+/// The error for a text or number in an unknown form lists the known forms.
 #[test]
 fn unknown_forms_are_rejected() {
     let name = |name: Value| {
@@ -158,10 +159,10 @@ fn unknown_forms_are_rejected() {
     assert_eq!(error, "invalid type: integer `1`, expected AMS header");
 }
 
-/// Any value that a stream can have.
+/// Any valid value of a stream.
 #[cfg(feature = "arbitrary")]
 #[test]
-fn made_values_come_back() {
+fn generated_values_are_unchanged() {
     for seed in 1..60_u32 {
         let bytes: Vec<u8> = (0..400_u32)
             .map(|at| (at * seed).wrapping_mul(2_654_435_761).to_be_bytes()[0])

@@ -1,4 +1,4 @@
-//! Random cases that failed are kept in files, and run again; the files are not needed.
+//! Random cases that failed are stored in files and run again. The files are optional.
 
 mod kept;
 
@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 use proptest::test_runner::{TestCaseError, TestRunner};
 
-/// So many seeds are in kept_cases.txt.
+/// The number of seeds in kept_cases.txt.
 const KEPT: usize = 2;
 const NEW: u32 = 3;
 
-/// What was tried, in its order, and whether all was well.
+/// The cases in order, and whether all passed.
 fn run(config: ProptestConfig, well: impl Fn(u64) -> bool) -> (Vec<u64>, bool) {
     let seen = std::cell::RefCell::new(Vec::new());
     let result = TestRunner::new(config).run(&any::<u64>(), |number| {
@@ -28,7 +28,7 @@ fn kept_in(folder: &Path) -> ProptestConfig {
     ProptestConfig { cases: NEW, failure_persistence, ..ProptestConfig::default() }
 }
 
-/// A folder that nobody else has.
+/// A unique folder.
 fn folder(name: &str) -> PathBuf {
     let folder =
         Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
@@ -36,7 +36,6 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Those in the folder beside this file come first, each time.
 #[test]
 #[cfg_attr(miri, ignore = "reads files")]
 fn kept_cases_are_run_before_new_ones() {
@@ -51,10 +50,10 @@ fn kept_cases_are_run_before_new_ones() {
     assert_ne!(once.0[KEPT..], again.0[KEPT..]);
 }
 
-/// A case that fails is written down, and is the first of the next run.
+/// A failed case is stored, and is the first case of the next run.
 #[test]
 #[cfg_attr(miri, ignore = "writes files")]
-fn failures_are_kept() {
+fn failed_cases_are_stored() {
     let folder = folder("failures");
     let (seen, well) = run(kept_in(&folder), |_| false);
     assert!(!well && !seen.is_empty());
@@ -65,10 +64,10 @@ fn failures_are_kept() {
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// Where nothing can be read or written the tests run, and failures are failures.
+/// Without access to files, the tests run and failures are reported.
 #[test]
 #[cfg_attr(miri, ignore = "writes files")]
-fn a_tree_that_cannot_be_written_does_no_harm() {
+fn tests_run_without_access_to_files() {
     let base = folder("no-folder");
     fs::create_dir_all(&base).unwrap();
     let file = base.join("file");

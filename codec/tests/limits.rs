@@ -1,4 +1,4 @@
-//! Limits: the last that is allowed, the first that is not, when decoding and when encoding.
+//! Limits: the largest valid and the smallest invalid value, when decoding and encoding.
 
 mod common;
 
@@ -14,16 +14,16 @@ use ads_cnc::streaming::*;
 use ads_cnc::*;
 use common::{Fault, check, fault};
 
-/// The first byte over a stream's limit is refused, and the last one within is not.
+/// A stream of maximum length is accepted, and a stream with one more byte rejected.
 #[test]
-fn streams_are_as_long_as_they_may_be_and_no_longer() {
+fn streams_are_accepted_up_to_their_maximum_length() {
     let filled = |parts: &[&[u8]], len: usize| {
         let mut bytes = parts.concat();
         bytes.resize(len, 7);
         bytes
     };
     let data_length = [0, 0, 0x40, 0];
-    // The other streams tell their end themselves.
+    // The fields of the other streams determine their end.
     let has_limit = |stream: &Stream| !stream.layout().is_fixed() && !stream.layout().repeats;
     let mut rest: BTreeSet<_> = Stream::all().filter(has_limit).collect();
     rest.remove(&Stream::ElementLength);
@@ -59,14 +59,14 @@ fn streams_are_as_long_as_they_may_be_and_no_longer() {
     assert!(rest.is_empty(), "no longest stream of {rest:?}");
 }
 
-/// A count that does not fit is refused at the count, with what would fit (VAR-24).
+/// A count that does not fit is rejected at the count, with the maximum in the error (VAR-24).
 #[test]
-fn counts_that_do_not_fit_are_refused_at_the_count() {
+fn counts_that_do_not_fit_are_rejected() {
     let counted = |before: usize, count: u32, rest: usize| {
         [&vec![1; before][..], &count.to_le_bytes(), &vec![7; rest]].concat()
     };
     for (stream, count, rest, fits) in [
-        // 507 dimensions would fill the stream and leave no byte to the name.
+        // 507 dimensions would fill the stream and leave no byte for the name.
         (Stream::VariableDescription, 507, 2028, 506),
         (Stream::VariableDescription, 3, 11, 2),
         (Stream::VariableDescription, u32::MAX, 300, 75),
@@ -89,9 +89,8 @@ fn counts_that_do_not_fit_are_refused_at_the_count() {
     }
 }
 
-/// An encoder refuses what no decoder would accept, and writes nothing.
 #[test]
-fn encoders_refuse_what_decoders_would() {
+fn encoders_reject_what_decoders_reject() {
     const UNTOUCHED: [u8; 4096] = [0x55; 4096];
     let refusal = |value: &dyn Encode| {
         let mut buf = UNTOUCHED;
@@ -199,9 +198,9 @@ fn encoders_refuse_what_decoders_would() {
     assert_eq!(refusal(&none), fault(Truncated, "id", 0, (4, 0)));
 }
 
-/// DYN-5: parameters are counted from 1, however the index is read.
+/// DYN-5: parameters are counted from 1.
 #[test]
-fn there_is_no_parameter_0() {
+fn parameter_0_is_rejected() {
     let error = check(Stream::DynamicIndex, &[0; 4]).unwrap_err();
     assert_eq!(Fault::of(error), fault(OutOfRange, "index", 0, (1, 0)));
     for index in [1_u32, 0x100, 0x1_0000, 0x100_0000] {
@@ -209,9 +208,8 @@ fn there_is_no_parameter_0() {
     }
 }
 
-/// A descriptor's texts have 32 bytes, all of which may be used.
 #[test]
-fn descriptor_texts_have_32_bytes() {
+fn descriptor_texts_have_up_to_32_characters() {
     let full = Descriptor::new(&"n".repeat(32), &"t".repeat(32)).unwrap();
     assert_eq!((full.name().len(), full.type_name().len()), (32, 32));
     let name = Descriptor::new(&"n".repeat(33), "BOOL").unwrap_err();

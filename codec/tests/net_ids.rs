@@ -8,9 +8,9 @@ use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
 use common::{Fault, fault};
 
-/// Every byte in every place, as it is written and with zeros before it.
+/// Every byte at every position, with and without leading zeros.
 #[test]
-fn what_is_written_is_read() {
+fn displayed_net_ids_are_parsed() {
     for place in 0..6 {
         for byte in 0..=u8::MAX {
             let mut id = AmsNetId([1, 20, 255, 0, 100, 9]);
@@ -22,9 +22,9 @@ fn what_is_written_is_read() {
     }
 }
 
-/// Six numbers, dots between, digits only; the offset is that of the number.
+/// The offset of an error is that of the wrong number.
 #[test]
-fn what_is_no_net_id_is_refused() {
+fn invalid_net_ids_are_rejected() {
     for (text, wanted) in [
         ("", fault(Digits, "number", 0, (3, 0))),
         ("1..3.4.5.6", fault(Digits, "number", 2, (3, 0))),
@@ -45,7 +45,6 @@ fn what_is_no_net_id_is_refused() {
     }
 }
 
-/// Ends of a conversation differ in device or port, and are shown as they are written.
 #[test]
 fn addresses_show_device_and_port() {
     let net_id: AmsNetId = "192.0.2.7.1.1".parse().unwrap();

@@ -1,4 +1,4 @@
-//! Any operation that a client can make: it dispatches to itself.
+//! Any valid operation is dispatched to itself: `dispatch(encode(op)) = op`.
 
 mod common;
 mod kept;
@@ -30,7 +30,7 @@ fn text() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// dispatch(encode(op)) = op: the functions of the COM task, of each kind of list.
+    /// The functions of the COM task, for each kind of list.
     #[test]
     fn operations_on_objects(
         channel in channel(),
@@ -44,7 +44,7 @@ proptest! {
         }
     }
 
-    /// dispatch(encode(op)) = op: what is written, and the functions of the axis interface.
+    /// Writes, and the functions of the axis interface.
     #[test]
     fn operations_that_write_and_of_axes(
         (channel, place) in (channel(), 1..=0xFFFF_u32),
@@ -64,7 +64,7 @@ proptest! {
         check_operation(DescribeExtended::new(channel, number, Kind::new(&text).unwrap()));
     }
 
-    /// dispatch(encode(op)) = op: the functions of the channel interface, by number and by rank.
+    /// The functions of the channel interface, by number and by index.
     #[test]
     fn operations_on_variables(
         channel in channel(),
@@ -81,7 +81,7 @@ proptest! {
         check_operation(ReadByName::new(channel, &text).unwrap());
     }
 
-    /// dispatch(encode(op)) = op: dynamic parameters of each kind.
+    /// Dynamic parameters of each kind.
     #[test]
     fn operations_on_dynamic_parameters(
         channel in channel(), index in 1..=u32::MAX, text in text(),
@@ -95,8 +95,7 @@ proptest! {
         }
     }
 
-    /// dispatch(encode(op)) = op: instances and elements of each class, in every channel, by
-    /// number and by rank.
+    /// Instances and elements of each class, in every channel, by number and by index.
     #[test]
     fn operations_on_elements(
         channel in channel(), (number, axis) in any::<(u32, u32)>(), element in 0..=0xFFFF_u32,
@@ -120,7 +119,7 @@ proptest! {
                 check_operation(ReadElementLength::new(address));
                 check_operation(ReadElementUnit::new(address));
                 check_operation(ReadElementWriteFlag::new(address));
-                // A function, or an element; the first one counts the others.
+                // A function or an element; the first element counts the others.
                 match ReadElement::new(address, length) {
                     Ok(read) => {
                         check_operation(read);
@@ -138,7 +137,7 @@ proptest! {
         check_operation(CountElements::new(first).unwrap());
     }
 
-    /// dispatch(encode(op)) = op: content of COM objects, and the program stream among them.
+    /// The content of COM objects, including the program stream.
     #[test]
     fn operations_on_content(
         channel in channel(), axis in 1..=255_u32, offset in 0..0x2_0000_u32,
@@ -160,7 +159,7 @@ proptest! {
         check_operation(WriteProgramStream::new(channel, &content));
     }
 
-    /// dispatch(encode(op)) = op, whichever the function is.
+    /// Every function.
     #[test]
     fn operations_of_every_function(
         channel in channel(),
@@ -181,7 +180,7 @@ proptest! {
         };
         for &function in Function::ALL {
             if let Err(error) = check_made(function, &of, &|_| ()) {
-                // It is another function that is there.
+                // The address belongs to another function.
                 prop_assert_eq!(error.kind(), ErrorKind::Function, "{:?}: {}", function, error);
                 prop_assert!(function.spec().is_content() || function == Function::CountElements);
             }

@@ -1,5 +1,4 @@
-//! What applications build their own streams from: arrays of fixed streams, and content that they read
-//! member by member.
+//! Streams of applications: arrays of fixed streams, and content that is decoded member by member.
 
 mod common;
 
@@ -11,9 +10,8 @@ use ads_cnc::value::Reader;
 use ads_cnc::*;
 use common::{fault, fault_of};
 
-/// Fixed streams are arrays of the bytes that they are encoded to.
 #[test]
-fn fixed_streams_are_arrays() {
+fn to_bytes_equals_encode() {
     macro_rules! check {
         ($( $type:ty, $bytes:expr; )+) => { $(
             let bytes = $bytes;
@@ -57,9 +55,9 @@ impl<'a> Decode<'a> for Tool<'a> {
     }
 }
 
-/// The members come one after the other, and a fault is where its member begins.
+/// The error of a member has the offset of the member.
 #[test]
-fn content_is_read_member_by_member() {
+fn content_is_decoded_member_by_member() {
     let bytes = b"\x07\0\0\0\x01ab\0\xFF\x01\x02";
     let tool = Tool::decode(bytes).unwrap();
     let name = CncStr::new("ab").unwrap();
@@ -72,7 +70,7 @@ fn content_is_read_member_by_member() {
     }
     let longer = [&bytes[..], b"x"].concat();
     assert_eq!(fault_of(Tool::decode(&longer)), fault(Trailing, "stream", 11, (11, 12)));
-    // A content ends with its bytes: there is nothing after it.
+    // Content extends to the end of the bytes.
     assert_eq!(Tool::decode_prefix(bytes).unwrap().1, []);
     assert!(Tool::decode_prefix(&longer).is_err());
 
@@ -81,15 +79,14 @@ fn content_is_read_member_by_member() {
     assert_eq!((input.rest(), input.finish()), (&[][..], Ok(())));
 }
 
-/// Streams in sequence are taken apart from the front.
 #[test]
-fn streams_follow_one_another() {
+fn streams_in_sequence_are_decoded() {
     let bytes = b"\x04\0\0\x02\x01\0\0\0\x09\0\0\0V.E.a\0\x2A\0";
     let (read, rest) = HandleReadRef::decode_prefix(bytes).unwrap();
     let (write, rest) = NameWriteRef::decode_prefix(rest).unwrap();
     assert_eq!((read.handle, write.name.to_string()), (Handle(0x200_0004), "V.E.a".to_owned()));
     assert_eq!((write.value, rest), (&[42, 0][..], &[][..]));
-    // A count that is not there, and one of more than a stream has.
+    // A missing count, and a count that exceeds the stream.
     let cut = HandleReadRef::decode_prefix(&bytes[..6]).map(|_| ());
     assert_eq!(fault_of(cut), fault(Truncated, "index_count", 4, (4, 2)));
     let many = [&bytes[..4], &[0xFF; 8000]].concat();

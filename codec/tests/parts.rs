@@ -1,4 +1,4 @@
-//! What operations and replies are made of is what they were made from, at both ends.
+//! The parts of operations and replies equal the arguments, for clients and servers.
 
 use ads_cnc::address::{
     Access, Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, ElementAddress,
@@ -11,19 +11,18 @@ use ads_cnc::sda::*;
 use ads_cnc::streaming::Ack;
 use ads_cnc::*;
 
-/// The request that a server gets of this operation.
+/// The request of a server for this operation.
 fn dispatched<'b>(request: Request<'_>, buf: &'b mut [u8]) -> Request<'b> {
     let call = request.encode(buf).unwrap();
-    call.dispatch().unwrap_or_else(|refusal| panic!("{request:?}: {refusal}"))
+    call.dispatch().unwrap_or_else(|error| panic!("{request:?}: {error}"))
 }
 
 fn channel(number: u32) -> Channel {
     Channel::new(number).unwrap()
 }
 
-/// An instance is asked for by class, channel and axis, and by number or by rank.
 #[test]
-fn instances_are_asked_for_by_number_or_by_rank() {
+fn instances_are_queried_by_number_or_by_index() {
     for class in Class::ALL {
         let op = FindInstance::new(class, 3, 7);
         let mut buf = [0; 8];
@@ -36,7 +35,7 @@ fn instances_are_asked_for_by_number_or_by_rank() {
     }
 }
 
-/// What answers where an instance is has the address of its first element, and of no attribute.
+/// An object address is that of the first element, without an attribute.
 #[test]
 fn elements_keep_their_address() {
     let axis = ChannelAxis::new(2).unwrap();
@@ -60,7 +59,6 @@ fn elements_keep_their_address() {
     }
 }
 
-/// A list of objects keeps what it is of, its objects their group and offset.
 #[test]
 fn lists_and_objects_keep_their_address() {
     for (list, table, instance) in [
@@ -85,9 +83,9 @@ fn lists_and_objects_keep_their_address() {
     }
 }
 
-/// Objects are counted from 1, and are as many as fit into one answer.
+/// Objects are counted from 1; one reply limits their number.
 #[test]
-fn descriptors_are_asked_for_from_1_and_as_many_as_fit() {
+fn reads_of_descriptors_check_first_and_count() {
     const MOST: u32 = ReadDescriptors::COUNT_MAX;
     let ask = |first, count| {
         let read = ReadDescriptors::new(ObjectList::PLATFORM, first, count);
@@ -101,7 +99,7 @@ fn descriptors_are_asked_for_from_1_and_as_many_as_fit() {
     assert!(most.read_length() as usize + limits::DESCRIPTOR_LEN > limits::ADS_DATA_MAX);
 }
 
-/// The bits of a dynamic parameter's value survive, those of every NaN too.
+/// The value of a dynamic parameter keeps its bits, including those of a NaN.
 #[test]
 fn dynamic_values_keep_their_bits() {
     for value in [4711.0, -0.0, f64::INFINITY, f64::MIN_POSITIVE / 2.0, f64::NAN] {
@@ -115,26 +113,26 @@ fn dynamic_values_keep_their_bits() {
     }
 }
 
-/// What a codec's user refuses as this crate does is refused for good (STM-6).
+/// The ADS errors of `DispatchError` are final rejections for a sender (STM-6).
 #[test]
-fn what_dispatch_refuses_is_not_written_again() {
+fn dispatch_errors_are_not_retried() {
     let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
     let error = Handle::decode(&[]).unwrap_err();
     let service = DispatchError::Service { expected: Service::Write, found: Service::Read };
-    for refusal in [
+    for error in [
         DispatchError::Port(port),
         DispatchError::Group(group),
         DispatchError::Offset(offset),
         service,
         DispatchError::Stream(error),
     ] {
-        assert_eq!(Ack::from_result(refusal.ads_error()), Ack::Rejected, "{refusal}");
+        assert_eq!(Ack::from_result(error.ads_error()), Ack::Rejected, "{error}");
     }
 }
 
-/// Every axis has a list of its own; none is the platform's or the channel's.
+/// Every axis has its own list, which differs from those of the platform and the channels.
 #[test]
-fn no_list_is_another() {
+fn lists_have_different_addresses() {
     let groups = [ObjectList::PLATFORM, channel(1).into(), channel(2).into()];
     let axes = [1, 2].map(|place| PlatformAxis::new(place).unwrap().into());
     let all: std::collections::BTreeSet<_> =

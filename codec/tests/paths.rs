@@ -1,4 +1,4 @@
-//! Names of variables: taken apart, put together, refused.
+//! Names of variables: parsing, building and errors.
 
 mod common;
 mod kept;
@@ -19,7 +19,7 @@ fn path(name: &str) -> VariablePath<'_> {
 /// VAR-20: the names printed in section 4.1 of `ads-en` 1.05 and `ads-de` 1.051, and those of the
 /// examples in 4.3 that have an index or an axis.
 #[test]
-fn printed_names_come_apart() {
+fn printed_names_are_parsed() {
     let s = "struct1";
     for (name, kind, parts, axis) in [
         ("V.A.ACT_POS", Kind::V_A, &[("ACT_POS", &[][..])][..], None),
@@ -82,9 +82,9 @@ fn the_misprint_is_another_variable() {
     assert_ne!(printed, ruled);
 }
 
-/// What the manuals write about names but no CNC takes for one; the blank index is E-10's.
+/// Notations in the manuals that are not names; the empty index is from E-10.
 #[test]
-fn prose_is_no_name() {
+fn notations_of_the_manuals_are_rejected() {
     for (prose, wanted) in [
         ("V.G.array[0 .. 9]", fault(Unexpected, "index", 11, (0, 0x20))),
         ("V.G.NP[0].V[n]", fault(Unexpected, "index", 12, (0, 0x6E))),
@@ -95,13 +95,13 @@ fn prose_is_no_name() {
 }
 
 #[test]
-fn malformed_names_are_refused_where_they_are_wrong() {
+fn malformed_names_are_rejected_at_the_fault() {
     let unexpected = |field, at, character: char| {
         fault(Unexpected, field, at, (0, u32::from(character) as usize))
     };
     let cut = |field, at| fault(Truncated, field, at, (1, 0));
     for (name, wanted) in [
-        // No kind, or half of one.
+        // No kind, or an incomplete kind.
         ("", cut("kind", 0)),
         ("V", cut("kind", 1)),
         ("V.", cut("kind", 2)),
@@ -111,7 +111,7 @@ fn malformed_names_are_refused_where_they_are_wrong() {
         (".E.test", unexpected("kind", 0, '.')),
         ("V..test", unexpected("kind", 2, '.')),
         ("V[0].E.test", unexpected("kind", 1, '[')),
-        // A kind alone, also with an index.
+        // A kind alone, with or without an index.
         ("V.E", cut("part", 3)),
         ("V.E[0].test", unexpected("part", 3, '[')),
         // Empty parts.
@@ -137,7 +137,7 @@ fn malformed_names_are_refused_where_they_are_wrong() {
         ("V.E.a[0x1]", unexpected("index", 7, 'x')),
         // Offsets count characters.
         ("V.E.Länge[€]", unexpected("index", 10, '€')),
-        // Indices that no array can have.
+        // Indices that exceed every array.
         ("V.E.a[4294967295]", fault(OutOfRange, "index", 6, (4_294_967_294, 4_294_967_295))),
         ("V.E.ä[0][4294967296]", fault(OutOfRange, "index", 9, (4_294_967_294, 4_294_967_295))),
         ("V.E.a[99999999999999999999]", {
@@ -153,9 +153,9 @@ fn malformed_names_are_refused_where_they_are_wrong() {
     assert_eq!(greek.kind(), NotCp1252);
 }
 
-/// VAR-9: 255 characters, which is not bytes of UTF-8.
+/// VAR-9: 255 characters, not bytes of UTF-8.
 #[test]
-fn names_have_255_characters() {
+fn names_have_at_most_255_characters() {
     for letter in ["a", "ä"] {
         let longest = format!("V.E.{}", letter.repeat(251));
         assert_eq!(path(&longest).text().len(), NAME_MAX);
@@ -169,7 +169,7 @@ fn names_have_255_characters() {
         let longer = Pieces::new("V.E", &[(&letter.repeat(252), &[])]);
         assert_eq!(Fault::of(longer.write(&mut [0; 512]).unwrap_err()), wanted);
     }
-    // As many indices as fit: less than a handle's header holds.
+    // The maximum number of indices in a name: fewer than in a request by handle.
     let full = format!("V.E.ab{}", "[0]".repeat(83));
     assert_eq!((full.len(), path(&full).elements().len()), (NAME_MAX, 83));
     let endless =
@@ -177,7 +177,7 @@ fn names_have_255_characters() {
     assert_eq!(VariablePath::write(Kind::V_E, endless, &mut []).unwrap_err().kind(), TooLong);
 }
 
-/// The largest index of the largest array; more dimensions; digits that say nothing.
+/// The largest index; several dimensions; leading zeros.
 #[test]
 fn indices_go_to_the_largest_of_any_dimension() {
     let largest = path("V.E.a[4294967294][0][10]");
@@ -188,10 +188,10 @@ fn indices_go_to_the_largest_of_any_dimension() {
         path("V.E.a").write_element(elements, &mut [0; 64]).unwrap().text(),
         "V.E.a[4294967294][0][10]"
     );
-    // Leading zeros are read, and are not the same characters.
+    // Leading zeros are parsed, but the texts differ.
     assert_eq!(path("V.E.a[007]").elements(), U32List::from(&[7]));
     assert_ne!(path("V.E.a[007]"), path("V.E.a[7]"));
-    // The indices of a name go by handle as they are.
+    // The indices of a name can be used in a request by handle.
     let by_handle = HandleReadRef { handle: Handle(1), indices: path("V.E.a[3][258]").elements() };
     let mut buf = [0; 16];
     let wire = [1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 2, 1, 0, 0];
@@ -199,7 +199,7 @@ fn indices_go_to_the_largest_of_any_dimension() {
     assert_eq!(HandleReadRef::decode(&wire).unwrap(), by_handle);
 }
 
-/// A kind that no manual has is one; so is any text without the three characters of the syntax.
+/// Undocumented kinds are accepted, and any part without the characters of the syntax.
 #[test]
 fn kinds_and_parts_are_open() {
     for (name, kind) in [
@@ -221,9 +221,9 @@ fn kinds_and_parts_are_open() {
     );
 }
 
-/// From UTF-8 and from CP1252, a name is the same.
+/// Names from UTF-8 and from CP1252 are equal.
 #[test]
-fn both_encodings_are_one_name() {
+fn names_from_both_encodings_are_equal() {
     let (utf8, wire) = ("V.G.Größe[2].€[3]", b"V.G.Gr\xF6\xDFe[2].\x80[3]");
     let wire = VariablePath::from_text(CncStr::from_bytes(wire).unwrap()).unwrap();
     assert_eq!((path(utf8), Pieces::of(path(utf8))), (wire, Pieces::of(wire)));
@@ -232,9 +232,9 @@ fn both_encodings_are_one_name() {
     assert_eq!(format!("{utf8:?}"), format!("{:?}", wire));
 }
 
-/// The axis of the channel interface, and the way to the axis interface and back.
+/// Conversion between names of the channel interface and of the axis interface.
 #[test]
-fn axes_come_into_names_and_out_again() {
+fn axes_are_added_to_names_and_removed() {
     let x = CncStr::new("X").unwrap();
     for (on_axis, on_channel) in [
         ("V.A.ACT_POS", "V.A.ACT_POS.X"),
@@ -246,38 +246,38 @@ fn axes_come_into_names_and_out_again() {
         let there = path(on_axis).write_axis(x, &mut buf).unwrap();
         assert_eq!((there, there.axis()), (path(on_channel), Some(x)));
         assert_eq!(there.write_without_axis(&mut [0; 64]).unwrap(), path(on_axis));
-        // And from a name of the caller's.
+        // From a name of the caller.
         assert_eq!(path(on_channel).write_without_axis(&mut [0; 64]).unwrap(), path(on_axis));
     }
-    // An index before the last dot stays where it is.
+    // An index before the last dot keeps its position.
     let indexed = path("V.A.LIST[2].X[3]");
     assert_eq!(indexed.write_without_axis(&mut [0; 64]).unwrap(), path("V.A.LIST[2][3]"));
 
-    let refused = |name: &'static str, axis: &str| {
+    let rejected = |name: &'static str, axis: &str| {
         let axis = CncStr::new(axis).unwrap();
         Fault::of(path(name).write_axis(axis, &mut [0; 64]).unwrap_err())
     };
-    assert_eq!(refused("V.E.a", "X"), fault(Unexpected, "kind", 2, (0, 0x45)));
-    assert_eq!(refused("V.AB.a", "X"), fault(Unexpected, "kind", 3, (0, 0x42)));
-    assert_eq!(refused("V.A.a", ""), fault(Truncated, "part", 6, (1, 0)));
-    assert_eq!(refused("V.A.a[0]", "X.Y"), fault(Unexpected, "part", 7, (0, 0x2E)));
+    assert_eq!(rejected("V.E.a", "X"), fault(Unexpected, "kind", 2, (0, 0x45)));
+    assert_eq!(rejected("V.AB.a", "X"), fault(Unexpected, "kind", 3, (0, 0x42)));
+    assert_eq!(rejected("V.A.a", ""), fault(Truncated, "part", 6, (1, 0)));
+    assert_eq!(rejected("V.A.a[0]", "X.Y"), fault(Unexpected, "part", 7, (0, 0x2E)));
     let without = |name| Fault::of(path(name).write_without_axis(&mut [0; 64]).unwrap_err());
     assert_eq!(without("V.A.ACT_POS[1]"), fault(Missing, "part", 11, (0, 0)));
     assert_eq!(without("V.G.a.b"), fault(Unexpected, "kind", 2, (0, 0x47)));
 }
 
-/// What cannot be a name is not written, and a refusal writes nothing.
+/// Invalid names are rejected; after an error, nothing is written.
 #[test]
-fn builders_refuse_and_write_nothing() {
-    let refused = |build: &dyn Fn(&mut [u8]) -> Option<Error>| {
+fn builders_reject_invalid_names_and_write_nothing() {
+    let rejected = |build: &dyn Fn(&mut [u8]) -> Option<Error>| {
         let mut buf = [0x55; 300];
-        let error = build(&mut buf).expect("refused");
+        let error = build(&mut buf).expect("rejected");
         assert_eq!(buf, [0x55; 300]);
         Fault::of(error)
     };
     let pieces = |kind, parts: &[(&str, &[u32])]| {
         let pieces = Pieces::new(kind, parts);
-        refused(&|buf| pieces.write(buf).err())
+        rejected(&|buf| pieces.write(buf).err())
     };
     assert_eq!(pieces("V.E", &[]), fault(Truncated, "part", 3, (1, 0)));
     assert_eq!(pieces("V.E", &[("", &[])]), fault(Truncated, "part", 4, (1, 0)));
@@ -292,13 +292,13 @@ fn builders_refuse_and_write_nothing() {
         fault(OutOfRange, "index", 10, (4_294_967_294, 4_294_967_295))
     });
     let element = path("V.E.a[1]");
-    let again = refused(&|buf| element.write_element(U32List::from(&[2]), buf).err());
+    let again = rejected(&|buf| element.write_element(U32List::from(&[2]), buf).err());
     assert_eq!(again, fault(Unexpected, "index", 5, (0, 0x5B)));
 
-    // One byte less than it takes.
+    // One byte less than needed.
     let short = |build: &dyn Fn(&mut [u8]) -> Option<Error>, len: usize| {
         let mut buf = [0x55; 64];
-        let error = build(&mut buf[..len - 1]).expect("refused");
+        let error = build(&mut buf[..len - 1]).expect("rejected");
         assert_eq!(buf, [0x55; 64]);
         assert_eq!(Fault::of(error), fault(BufferTooSmall, "stream", 0, (len, len - 1)));
         assert_eq!(build(&mut buf[..len]), None);
@@ -308,7 +308,6 @@ fn builders_refuse_and_write_nothing() {
     short(&|buf| path("V.A.a.X").write_without_axis(buf).err(), 5);
 }
 
-/// No indices are all of the array.
 #[test]
 fn an_element_without_index_is_the_variable() {
     let array = path("V.G.NP[0].V");
@@ -339,9 +338,9 @@ fn pieces() -> impl Strategy<Value = Pieces> {
 proptest! {
     #![proptest_config(kept::cases(4000, file!()))]
 
-    /// What is built is taken apart into what it was built of, and looks as it should.
+    /// A built name has the expected text, and parses into the same pieces.
     #[test]
-    fn built_names_come_apart(pieces in pieces()) {
+    fn built_names_are_parsed(pieces in pieces()) {
         let name = pieces.name();
         let mut buf = [0; NAME_MAX];
         match pieces.write(&mut buf) {
@@ -364,9 +363,8 @@ proptest! {
         }
     }
 
-    /// Any text.
     #[test]
-    fn any_text_comes_apart_as_split(text in "(V\\.[EA]\\.)?[VEaä.\\[\\]019]{0,24}") {
+    fn any_text_is_parsed_like_split(text in "(V\\.[EA]\\.)?[VEaä.\\[\\]019]{0,24}") {
         let text: Vec<u8> = CncStr::new(&text).unwrap().bytes().collect();
         let _ = check_name(&text, NameBend::NONE);
     }

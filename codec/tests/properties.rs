@@ -1,4 +1,4 @@
-//! The laws of all streams over bytes: random ones, and samples and vectors with damage.
+//! The laws of all streams, for random bytes and for mutated samples and vectors.
 
 mod common;
 mod damage;
@@ -49,7 +49,7 @@ fn damaged_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
     )
 }
 
-/// Samples and golden vectors obey the laws; what vectors are to come to stands elsewhere.
+/// `tests/vectors.rs` checks the results of vectors.
 #[test]
 fn samples_and_vectors_obey_the_laws() {
     for (stream, bytes) in samples_and_vectors() {
@@ -57,7 +57,7 @@ fn samples_and_vectors_obey_the_laws() {
     }
 }
 
-/// Nor does a bit of any byte make a difference to that, nor one that is all zeros or all ones.
+/// Samples with one bit flipped, or one byte of all zeros or ones.
 #[test]
 fn every_byte_of_every_sample_changed_obeys_the_laws() {
     for (stream, sample) in each_sample() {
@@ -76,23 +76,23 @@ fn every_byte_of_every_sample_changed_obeys_the_laws() {
 proptest! {
     #![proptest_config(kept::cases(4000, file!()))]
 
-    /// Random bytes: view, owned and walk agree, and what they accept comes back.
+    /// For random bytes, view, owned type and walk agree, and accepted bytes encode to themselves.
     #[test]
     fn any_bytes_obey_the_laws((stream, bytes) in random_bytes()) {
         let _ = check(stream, &bytes);
     }
 
-    /// Damaged samples and vectors: the same, near what is valid.
+    /// The same for mutated samples and vectors, which are nearly valid.
     #[test]
     fn damaged_samples_obey_the_laws((stream, bytes) in damaged_bytes()) {
         let _ = check(stream, &bytes);
     }
 }
 
-/// Damage leaves some bytes of every stream to be accepted, and some to be refused unless the
-/// stream takes any: without that the property above would say little.
+/// Mutated bytes of every stream include accepted and, unless the stream accepts any bytes, rejected
+/// ones. Otherwise the property above would be weak.
 #[test]
-fn damage_reaches_both_verdicts_of_every_stream() {
+fn mutations_are_accepted_and_rejected_for_every_stream() {
     let (mut runner, maker) = (TestRunner::deterministic(), damaged_bytes());
     let mut seen = BTreeSet::new();
     for _ in 0..5000 {

@@ -1,4 +1,4 @@
-//! The samples: all streams have some, and the field tables cut them as a person did.
+//! The samples: all streams have some, and the field tables split them like the hand-written fields.
 
 mod common;
 
@@ -7,9 +7,9 @@ use std::collections::HashSet;
 use ads_cnc::layout::Stream;
 use common::{SAMPLES, SUBJECTS, check, each_sample};
 
-/// A new stream cannot be added without samples and readings, once each.
+/// Every stream has samples and types.
 #[test]
-fn no_stream_is_forgotten() {
+fn every_stream_has_samples_and_types() {
     let sampled: Vec<Stream> = SAMPLES.iter().map(|&(stream, _)| stream).collect();
     let read: Vec<Stream> = SUBJECTS.iter().map(|subject| subject.stream).collect();
     for stream in Stream::all() {
@@ -30,15 +30,15 @@ fn samples_differ() {
     }
 }
 
-/// Every sample is accepted and comes back byte for byte from each reading.
+/// Every sample is accepted and encodes to itself, for each type.
 #[test]
-fn samples_are_accepted_and_come_back() {
+fn samples_are_accepted_and_encode_to_themselves() {
     for (stream, sample) in each_sample() {
         assert_eq!(check(stream, &sample.bytes()), Ok(()), "{stream} {}", sample.slug);
     }
 }
 
-/// A walk finds the fields where a person, not the tables, has put them.
+/// A walk finds the fields that are split by hand.
 #[test]
 fn walks_find_the_fields_of_the_samples() {
     for (stream, sample) in each_sample() {

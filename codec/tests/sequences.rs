@@ -1,4 +1,4 @@
-//! The golden sequences of NC text: packets, errors and findings.
+//! The golden sequences of NC text: packets, errors and diagnostics.
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
 #[cfg(feature = "alloc")]

@@ -1,4 +1,4 @@
-//! The Service Interface: its variables, the UUIDs, and a host that is told anything.
+//! The Service Interface: variables, UUIDs, and a host with any input.
 
 mod common;
 mod kept;
@@ -24,7 +24,7 @@ fn text(text: &str) -> CncStr<'_> {
     CncStr::new(text).unwrap()
 }
 
-/// What a program that asks for the square root of 3 has written.
+/// The variables after a request for the square root of 3.
 fn asked(variable: ServiceVariable) -> &'static [u8] {
     match variable {
         Uuid => ROOT.as_bytes(),
@@ -35,7 +35,7 @@ fn asked(variable: ServiceVariable) -> &'static [u8] {
     }
 }
 
-/// Reads the request, as often as the host wants.
+/// Answers the reads of the host with the request.
 fn read(host: &mut Host<'_>) {
     while let HostStep::Read(variable) = host.step() {
         host.read(asked(variable)).unwrap();
@@ -100,7 +100,7 @@ fn uuids_are_checked_and_keep_their_case() {
     assert_eq!((uuid.to_string(), request, request_state), (upper, text("3"), 1));
 }
 
-/// SVC-1: 128 bytes with the NUL, of each text; and four bytes of a state.
+/// SVC-1: a text has 128 bytes including the NUL, a state four bytes.
 #[test]
 fn values_have_their_sizes() {
     for (variable, field) in [(Uuid, "uuid"), (Request, "request"), (Response, "response")] {
@@ -121,7 +121,7 @@ fn values_have_their_sizes() {
 
 /// SVC-4, SVC-5: RESPONSE, REQUEST_STATE and RESPONSE_STATE are written, in this order.
 #[test]
-fn an_answer_is_written_in_its_order() {
+fn an_answer_is_written_in_order() {
     let ids = [id(COMMAND), id(ROOT)];
     let mut host = Host::new(&ids);
     read(&mut host);
@@ -188,9 +188,9 @@ fn malformed_values_are_rejected() {
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
-/// After a write that failed, the host looks what arrived, and writes what is missing.
+/// After a failed write, the host reads the interface and repeats the write if necessary.
 #[test]
-fn writes_that_fail() {
+fn failed_writes_are_checked_and_repeated() {
     for (failing, arrives) in [Response, RequestState, ResponseState]
         .into_iter()
         .flat_map(|one| [(one, false), (one, true)])
@@ -222,7 +222,7 @@ fn writes_that_fail() {
             }
         }
         assert_eq!(host.outcome(), Some(Outcome::Answered), "{failing}");
-        // Only a response that arrived is written again: that does no harm.
+        // Only a RESPONSE that took effect is written again, which has no effect.
         let times = writes.iter().filter(|variable| **variable == failing).count();
         assert_eq!(times, if arrives && failing == Response { 2 } else { 1 }, "{failing}");
     }
@@ -244,7 +244,7 @@ fn value() -> impl Strategy<Value = Vec<u8>> {
     ]
 }
 
-/// The values of one request, as a program leaves them.
+/// The values of a request, as a program writes them.
 fn request() -> impl Strategy<Value = [Vec<u8>; 3]> {
     (1..3_u8, 0..3_usize, b'0'..b'3').prop_map(|(state, id, digit)| {
         let ids = service_ids().map(|id| id.to_string().into_bytes());
@@ -256,10 +256,10 @@ fn request() -> impl Strategy<Value = [Vec<u8>; 3]> {
 proptest! {
     #![proptest_config(kept::cases(600, file!()))]
 
-    /// A host serves what it found twice, answers what it found once more, writes in its order, and
-    /// does nothing that it was not asked for.
+    /// With any input, a host serves requests that it has read twice, checks them again before it
+    /// answers, and writes in order.
     #[test]
-    fn a_host_that_is_told_anything(
+    fn a_host_obeys_the_laws_with_any_input(
         events in vec((0..24_u8, value(), request(), 0..4_u32), 0..150),
     ) {
         let ids = service_ids();

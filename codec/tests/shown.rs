@@ -1,5 +1,4 @@
-//! What is shown to people: in logs, in the messages of programs, in failed assertions. Errors are
-//! in `shown_errors.rs`.
+//! `Display` and `Debug`. `shown_errors.rs` checks those of errors.
 
 use std::fmt::{Debug, Display};
 
@@ -26,7 +25,7 @@ fn debugs(value: impl Debug, text: &str) {
     assert_eq!(format!("{value:?}"), text);
 }
 
-/// Groups, offsets and return codes in hexadecimal, as the manuals print them.
+/// Index groups, index offsets and error numbers are in hexadecimal, as in the manuals.
 #[test]
 fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(IndexGroup::new(0x12_2301), "0x122301");
@@ -49,9 +48,9 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(Handle(0x2001_2341), "0x20012341");
 }
 
-/// Codes by their names; undocumented ones by their numbers.
+/// Undocumented codes are displayed as numbers.
 #[test]
-fn codes_have_their_names() {
+fn codes_are_displayed_by_name() {
     shows(VariableType::REAL64, "REAL64");
     debugs(VariableType::REAL64, "8 REAL64");
     shows(VariableType(10), "10");
@@ -73,7 +72,7 @@ fn codes_have_their_names() {
     assert!(VariableAccess::READ_WRITE.is_writable());
 }
 
-/// Of what has a number, the number; of classes and attributes the words of the manual.
+/// Classes and attributes are displayed with the terms of the manual.
 #[test]
 fn parts_of_addresses_are_numbers_and_words() {
     shows(Channel::new(3).unwrap(), "3");
@@ -89,7 +88,7 @@ fn parts_of_addresses_are_numbers_and_words() {
     shows(ObjectCount(16), "16");
 }
 
-/// Success is no error, any other number is one.
+/// 0 is success, any other number is an error.
 #[test]
 fn results_are_errors_unless_0() {
     assert_eq!(AdsError::NO_ERROR.into_result(), Ok(()));
@@ -206,7 +205,7 @@ fn services_have_their_names() {
 }
 
 #[test]
-fn streaming_says_where_it_stands_and_not_the_text() {
+fn streaming_displays_progress_and_not_the_text() {
     let text = NcText::new(b"N10 $WHILE 1\nN20 M30\nN30").unwrap();
     debugs(text, "NcText(3 lines, 24 bytes)");
     #[cfg(feature = "alloc")]
@@ -235,7 +234,7 @@ fn streaming_says_where_it_stands_and_not_the_text() {
 
 #[cfg(feature = "alloc")]
 #[test]
-fn what_owns_is_shown_as_what_it_holds() {
+fn owned_types_are_displayed_like_borrowed_ones() {
     let text: CncString = "Größe".parse().unwrap();
     shows(&text, "Größe");
     debugs(&text, r#""Größe""#);

@@ -1,4 +1,4 @@
-//! What a person is told: errors and refusals.
+//! The texts of errors.
 
 use std::error::Error as _;
 
@@ -11,15 +11,15 @@ use ads_cnc::value::{DataType, Shape};
 use ads_cnc::*;
 
 fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
-    let error = result.expect_err("refused");
-    // Where it is shown in a test that fails, the class is named too.
+    let error = result.expect_err("rejected");
+    // `Debug` also contains the class.
     assert_eq!(format!("{error:?}"), format!("Error({:?}, {error})", error.kind()));
     (error.kind(), error.to_string())
 }
 
-/// The text of each kind of error says in words what its numbers mean.
+/// The text of each kind of error explains its numbers.
 #[test]
-fn errors_say_what_is_wrong() {
+fn errors_explain_the_fault() {
     let kind = TextRef::with_tail(CncStr::new("V.E").unwrap(), None);
     let kind = VariableKindRef { kind: Kind::from_field(kind) };
     let channel = Channel::new(1).unwrap();
@@ -113,7 +113,7 @@ fn errors_say_what_is_wrong() {
     }
 }
 
-/// What a caller gave is named in the caller's words.
+/// Errors of arguments use the terms of the caller.
 #[test]
 fn errors_of_arguments_name_the_argument() {
     let text = |error: Error| error.to_string();
@@ -155,9 +155,9 @@ fn errors_of_arguments_name_the_argument() {
     assert_eq!(read, "expected REAL32, found SGN32");
 }
 
-/// Elements, indices and numbers are not bytes at an offset.
+/// Errors of elements, indices and numbers have no byte offset.
 #[test]
-fn errors_of_values_count_what_they_are_about() {
+fn errors_of_values_have_no_byte_offset() {
     let text = |error: Error| error.to_string();
     let dimensions = [2, 3];
     let bytes = [0; 24];
@@ -189,7 +189,7 @@ fn errors_of_values_count_what_they_are_about() {
     assert_eq!(to_i64, "0xffffffffffffffff does not fit LINT");
 }
 
-/// A count may be wrong although a longer stream may have as many items.
+/// The limit of a count is the maximum of its list, or the remaining bytes.
 #[test]
 fn errors_of_counts_name_their_limit() {
     let cut = DescriptionRef::decode(&[&[0; 16][..], &[1, 0, 0, 0]].concat()).unwrap_err();
@@ -204,9 +204,9 @@ fn errors_of_counts_name_their_limit() {
     assert_eq!(error.to_string(), wanted);
 }
 
-/// Each class of errors has words of its own.
+/// Each class of errors has its own text.
 #[test]
-fn kinds_have_words() {
+fn kinds_have_different_texts() {
     assert_eq!(ErrorKind::Truncated.to_string(), "truncated");
     assert_eq!(ErrorKind::OutOfRange.to_string(), "out of range");
     assert_eq!(ErrorKind::Mismatch.to_string(), "mismatch");
@@ -214,9 +214,9 @@ fn kinds_have_words() {
     assert_eq!(ErrorKind::Unexpected.to_string(), "unexpected character");
 }
 
-/// What a server refuses is told in words, once, and as the number that goes back.
+/// A dispatch error has a text without repetition, and an ADS error number.
 #[test]
-fn refusals_say_what_is_refused() {
+fn dispatch_errors_have_a_text_and_a_number() {
     let call = Call {
         port: AmsPort::SDA,
         service: Service::ReadWrite,
@@ -226,29 +226,29 @@ fn refusals_say_what_is_refused() {
         data: b"V.E.vartest\0",
     };
     assert!(call.dispatch().is_ok());
-    let refused = |call: Call<'_>| {
-        let refusal = call.dispatch().unwrap_err();
-        assert!(refusal.source().is_none(), "a chain of errors would show it again");
-        (refusal.to_string(), refusal.ads_error())
+    let rejected = |call: Call<'_>| {
+        let fault = call.dispatch().unwrap_err();
+        assert!(fault.source().is_none(), "a chain of errors would show it again");
+        (fault.to_string(), fault.ads_error())
     };
     let plain = |text: &str, number| (text.to_string(), number);
     assert_eq!(
-        refused(Call { port: AmsPort(554), ..call }),
+        rejected(Call { port: AmsPort(554), ..call }),
         plain("no task has port 554", AdsError::TARGET_PORT_NOT_FOUND)
     );
     assert_eq!(
-        refused(Call { index_group: IndexGroup::new(0xF005), ..call }),
+        rejected(Call { index_group: IndexGroup::new(0xF005), ..call }),
         plain("no function has index group 0xf005", AdsError::INVALID_GROUP)
     );
     assert_eq!(
-        refused(Call { index_offset: IndexOffset::new(0x4E), ..call }),
+        rejected(Call { index_offset: IndexOffset::new(0x4E), ..call }),
         plain("no function has index offset 0x4e", AdsError::INVALID_OFFSET)
     );
     assert_eq!(
-        refused(Call { service: Service::Write, ..call }),
+        rejected(Call { service: Service::Write, ..call }),
         plain("the function takes ReadWrite, not Write", AdsError::SERVICE_NOT_SUPPORTED)
     );
     let stream =
         "variable-name: name at offset 0: no NUL, expected one within 256 bytes, found 1 without";
-    assert_eq!(refused(Call { data: b"V", ..call }), plain(stream, AdsError::INVALID_SIZE));
+    assert_eq!(rejected(Call { data: b"V", ..call }), plain(stream, AdsError::INVALID_SIZE));
 }

@@ -1,4 +1,4 @@
-//! Data streaming: text to packets, and the sender.
+//! Data streaming: texts, packets and the sender.
 
 mod common;
 mod kept;
@@ -13,7 +13,7 @@ use proptest::sample::select;
 const ENDS: [&str; 3] = ["\n", "\r\n", "\r"];
 
 #[test]
-fn texts_of_no_and_one_byte_have_their_lines() {
+fn texts_of_zero_and_one_byte_have_their_lines() {
     assert_eq!(packets(b""), [[0; 0]; 0]);
     assert_eq!(packets(b"X"), [b"X\r\n"]);
     assert_eq!(packets(b"\n"), [b"\r\n"]);
@@ -22,25 +22,25 @@ fn texts_of_no_and_one_byte_have_their_lines() {
     assert_eq!(packets(b"\r\r\n\n"), [b"\r\n\r\n\r\n"]);
 }
 
-/// A service, address, access or size that is not taken is refused for good, all else for now.
+/// Errors of service, address, access and size are final rejections; all other errors mean busy.
 #[test]
-fn results_say_whether_to_write_again() {
+fn results_are_converted_to_acknowledgements() {
     use ads_cnc::ads::AdsError;
 
-    let refused = [6, 7, 0x701, 0x702, 0x703, 0x704, 0x705];
+    let rejected = [6, 7, 0x701, 0x702, 0x703, 0x704, 0x705];
     for number in (0..0x1_0000).chain([u32::MAX]) {
         let wanted = match number {
             0 => Ack::Accepted,
-            number if refused.contains(&number) => Ack::Rejected,
+            number if rejected.contains(&number) => Ack::Rejected,
             _ => Ack::Busy,
         };
         assert_eq!(Ack::from_result(AdsError(number)), wanted, "{number:#x}");
     }
 }
 
-/// 989 and 990 characters pass, 991 do not, wherever the line is and however it ends.
+/// 989 and 990 characters are accepted, 991 rejected, at any position and with any line end.
 #[test]
-fn lines_up_to_the_limit_pass_and_no_longer() {
+fn lines_are_accepted_up_to_990_characters() {
     for end in ["", "\n", "\r\n", "\r"] {
         for before in ["", "N1\n", "N1\r\n"] {
             for len in [989, 990] {
@@ -61,7 +61,7 @@ fn lines_up_to_the_limit_pass_and_no_longer() {
     }
 }
 
-/// Two lines that fill a packet to the last byte but one, to the last, and are one too much.
+/// Two lines that leave one byte of a packet, fill it, and exceed it by one byte.
 #[test]
 fn packets_are_filled_to_the_last_byte() {
     for end in ENDS {
@@ -76,9 +76,9 @@ fn packets_are_filled_to_the_last_byte() {
     }
 }
 
-/// Controls that look like line ends to a quick look are text.
+/// Control characters other than CR and LF are text.
 #[test]
-fn other_controls_are_text() {
+fn other_control_characters_are_text() {
     let line = "\t\x0B\x0C\x08\x0E\x7F".repeat(5);
     assert_eq!(packets(line.as_bytes()), [format!("{line}\r\n").into_bytes()]);
     for control in 1..0x20_u8 {
@@ -130,7 +130,7 @@ fn a_sender_of_nothing_is_done() {
 }
 
 #[test]
-fn a_sender_takes_one_acknowledgement_for_one_packet() {
+fn a_sender_accepts_one_acknowledgement_per_packet() {
     for (ack, state) in [
         (Ack::Accepted, SenderState::Done),
         (Ack::Busy, SenderState::Waiting),
@@ -144,16 +144,16 @@ fn a_sender_takes_one_acknowledgement_for_one_packet() {
     }
 }
 
-/// Refusals for now are counted for each packet anew.
+/// Busy results are counted for each packet separately.
 #[test]
-fn a_sender_counts_refusals() {
+fn a_sender_counts_busy_results() {
     let line = [&[b'X'; NC_LINE_MAX][..], b"\r\n"].concat();
     let two = line.repeat(2);
     let mut sender = Sender::new(NcText::new(&two).unwrap());
     for _ in 0..2 {
-        for refusals in 0..3 {
+        for busy in 0..3 {
             assert_eq!(sender.packet(), Some(&line[..]));
-            assert_eq!(sender.busy_count(), refusals);
+            assert_eq!(sender.busy_count(), busy);
             assert_eq!(sender.acknowledge(Ack::Busy), Ok(()));
         }
         assert_eq!(sender.packet(), Some(&line[..]));
@@ -162,7 +162,7 @@ fn a_sender_counts_refusals() {
     assert_eq!((sender.busy_count(), sender.packet()), (0, None));
 }
 
-/// Lines of many lengths, ended in all ways, the last perhaps open.
+/// Lines of many lengths with all line ends; the last may lack its line end.
 fn text() -> impl Strategy<Value = Vec<u8>> {
     let len = prop_oneof![8 => 0..60_usize, 1 => 60..=990_usize, 1 => 980..=990_usize];
     let line =
@@ -209,13 +209,13 @@ proptest! {
         check_packets(&text);
     }
 
-    /// One fault put into a good text is found at its place; nothing is sent then.
+    /// A fault inserted into a valid text is reported at its position; nothing is sent.
     #[test]
-    fn a_fault_is_found(text in text(), at in any::<prop::sample::Index>(), byte in select(vec![0, 0x80, 0xFF, 0xE4])) {
+    fn a_fault_is_reported_at_its_position(text in text(), at in any::<prop::sample::Index>(), byte in select(vec![0, 0x80, 0xFF, 0xE4])) {
         let at = at.index(text.len() + 1);
         let line = reference_lines(&text[..at]).len() + usize::from(at == 0 || b"\r\n".contains(&text[at - 1]));
         let column = at - text[..at].iter().rposition(|byte| b"\r\n".contains(byte)).map_or(0, |end| end + 1) + 1;
-        // Within CR LF it makes a line of its own; a line of 990 becomes too long behind it.
+        // Between CR and LF, it is a separate line; a line of 990 characters becomes too long after it.
         let bad = [&text[..at], &[byte], &text[at..]].concat();
         prop_assert!(check_text(&bad, TextBend::NONE).is_err());
         let error = NcText::new(&bad).unwrap_err();
@@ -227,8 +227,8 @@ proptest! {
         }
     }
 
-    /// Whatever the answers are: what was accepted is the text from its start on, without gap
-    /// and without repetition, and the counts agree.
+    /// For any acknowledgements, the accepted data is the start of the text, without gaps and
+    /// repetitions, and the counts agree.
     #[test]
     fn a_sender_loses_and_repeats_nothing(text in text(), acks in vec(0..20_u8, 0..200), twice in any::<bool>()) {
         let mut sender = CheckedSender::new(&text, SenderBend::NONE);
@@ -246,7 +246,7 @@ proptest! {
         sender.check_left();
     }
 
-    /// The first line end that is not CR LF is found, and no other.
+    /// The first line end other than CR LF is reported.
     #[test]
     fn line_ends_are_checked(text in text(), wire in any::<bool>()) {
         let text = if wire { reference_wire(&text) } else { text };

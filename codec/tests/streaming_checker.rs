@@ -1,4 +1,4 @@
-//! The checks of a text that comes packet by packet: where it is cut matters only where it is said to.
+//! The checks of a text packet by packet. The split only matters where it is documented.
 #![cfg(feature = "alloc")]
 
 mod common;
@@ -11,7 +11,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-/// The example of 2.3.6, packet by packet, and with its last jump turned round.
+/// The example of 2.3.6, packet by packet, also with its last jump reversed.
 #[test]
 fn jumps_of_the_example() {
     let packets = [
@@ -33,7 +33,7 @@ fn jumps_of_the_example() {
 }
 
 #[test]
-fn blocks_ends_and_programs_go_over() {
+fn blocks_ends_and_programs_are_carried_over() {
     let mut checker = Checker::new();
     assert_eq!(check(&mut checker, b"N1: X1\r\n  #COMMENT BEGIN\r\n"), (vec![], vec![]));
     let open = checker.open_comment().unwrap();
@@ -43,14 +43,14 @@ fn blocks_ends_and_programs_go_over() {
     assert_eq!(checker.open_comment(), None);
     let (findings, _) = check(&mut checker, b"\r\n(X)\r\n%next\r\nN2:\r\n");
     assert_eq!(findings[0].to_string(), "line 8, column 1: text after the M17 of line 5 (STM-10)");
-    // The label is that of another program.
+    // The label belongs to another program.
     assert_eq!(check(&mut checker, b"$GOTO N1\r\n"), (vec![], vec![]));
     assert_eq!(check(&mut checker, b"$GOTO N2\r\n").0.len(), 1);
 }
 
-/// A jump to what is above and below, and the borders that decide it.
+/// A jump to a label before and after it; the split decides.
 #[test]
-fn a_label_below_counts_if_it_came_along() {
+fn a_later_label_counts_if_it_is_in_the_same_part() {
     let lines = [&b"N1:\r\n"[..], b"$GOTO N1\r\n", b"N1:\r\n"];
     let mut checker = Checker::new();
     assert_eq!(check(&mut checker, &lines.concat()).0, []);
@@ -58,18 +58,18 @@ fn a_label_below_counts_if_it_came_along() {
     assert_eq!(lines.map(|line| check(&mut checker, line).0.len()), [0, 1, 0]);
 }
 
-/// An end that nobody asked for is known all the same.
+/// A program end counts even if its event was not requested.
 #[test]
-fn what_is_not_asked_for_counts() {
+fn events_that_are_not_requested_count() {
     let mut checker = Checker::new();
     drop(checker.check(b"N1:\r\nM30\r\n"));
     let found: Vec<_> = checker.check(b"$GOTO N1\r\n").map(|found| found.line()).collect();
     assert_eq!(found, [3, 3]);
 }
 
-/// What is found is told with its line, and behind a program end there is what the CNC discards.
+/// Events have their lines; after a program end, `remaining` returns the lines that the CNC discards.
 #[test]
-fn what_is_below_an_end_is_at_hand() {
+fn remaining_lines_are_available_after_a_program_end() {
     let lines = b"N10 X1\r\nN20 $DO X\r\nN30 M30\r\nN40 X2\r\nN50 X3\r\n";
     let mut checker = Checker::new();
     checker.check(b"%main\r\n").for_each(drop);
@@ -91,9 +91,9 @@ fn what_is_below_an_end_is_at_hand() {
     assert_eq!(checker.lines(), 6);
 }
 
-/// Any bytes are taken, as they come through the interface.
+/// Any bytes are accepted, as received through the interface.
 #[test]
-fn bytes_that_no_text_has() {
+fn bytes_that_are_not_text_are_accepted() {
     let mut checker = Checker::new();
     let line = [&b"\xFF".repeat(5000)[..], b"\0 $DO M2\r\n\r\r\n\nM30"].concat();
     let (findings, ends) = check(&mut checker, &line);
@@ -101,9 +101,9 @@ fn bytes_that_no_text_has() {
     assert_eq!(ends, [(ProgramEnd::M2, 1, 5007), (ProgramEnd::M30, 5, 1)]);
 }
 
-/// The labels that are known are enough, and not without end.
+/// The documented number of labels is remembered, but not an unlimited number.
 #[test]
-fn labels_are_forgotten_late() {
+fn only_recent_labels_are_remembered() {
     for (length, known) in [(0, Checker::LABELS_KNOWN), (990, Checker::CHARACTERS_KNOWN / 990)] {
         let name = |n: usize| format!("{n:0>length$}").replace('0', "A");
         let mut checker = Checker::new();
@@ -117,7 +117,7 @@ fn labels_are_forgotten_late() {
     }
 }
 
-/// Lines out of which trouble is made.
+/// Lines that are difficult in combination.
 fn line() -> impl Strategy<Value = Vec<u8>> {
     let piece = select(vec![
         "$FOR",
@@ -147,7 +147,7 @@ fn line() -> impl Strategy<Value = Vec<u8>> {
         .prop_map(|(pieces, end)| (pieces.concat() + end).into_bytes())
 }
 
-/// Lines, and how many come together each time. An LF alone, cut off a CR, would join it.
+/// Lines, and the number of lines in each part. A lone LF, separated from a CR, would join it.
 fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
     vec(vec(line(), 1..6), 0..14).prop_filter("LF behind CR", |lots| {
         let lines: Vec<&Vec<u8>> = lots.iter().flatten().collect();
@@ -158,30 +158,29 @@ fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
 proptest! {
 #![proptest_config(kept::cases(2000, file!()))]
 
-/// After each lot: what is found in it is what is found there in all that came, as one lot.
+/// The events of each part equal those of the same lines in the whole text so far.
 #[test]
-fn lot_by_lot_is_as_the_whole_so_far(lots in lots()) {
+fn events_by_part_equal_those_of_the_text_so_far(lots in lots()) {
     let mut checked = CheckedLots::new(|_, _| ());
     for lot in lots {
         checked.lot(&lot.concat());
     }
 }
 
-/// Any bytes, in any lots.
 #[test]
-fn any_bytes_in_any_lots_are_taken(lots in vec(vec(any::<u8>(), 0..60), 0..6)) {
+fn any_bytes_in_any_parts_are_accepted(lots in vec(vec(any::<u8>(), 0..60), 0..6)) {
     check_any_lots(lots.iter().map(Vec::as_slice));
 }
 
-/// Where each label is there once, it does not matter at all where the text is cut.
+/// If labels are unique, the split does not matter.
 #[test]
-fn cuts_do_not_matter(
+fn the_split_does_not_matter_for_unique_labels(
     mut lines in vec(line(), 0..60),
     cuts in vec(any::<prop::sample::Index>(), 0..10),
 ) {
     let mut seen = std::collections::BTreeSet::new();
     for (at, line) in lines.iter_mut().enumerate() {
-        // A label that may be in the line, hidden or not, is made one of its own.
+        // Makes a label in the line unique, even in a comment.
         let mut text = String::from_utf8(line.clone()).unwrap().replace(['\r', '\n'], "");
         for label in ["N1:", "N2:", "N01 :", "[A]"] {
             if text.contains(label) && !seen.insert(label.replace(['0', ' '], "")) {

@@ -1,4 +1,4 @@
-//! What a streamed text may contain.
+//! The diagnostics of a text.
 #![cfg(feature = "alloc")]
 
 mod common;
@@ -47,13 +47,13 @@ fn printed_examples_are_clean() {
         "%streaming-spline\n#SPLINE TYPE BSPLINE\nG151\nN36335 X-1.5586 Y-16.3853 (M122\n\
         N36336 X-1.5666 Y-16.4702 Z2.9971\nN36348 X-1.657 Y-17.4202 (Z2.4442\n",
     );
-    // `$IF` and what belongs to it.
+    // `$IF` and the related words.
     clean(
         "$IF P1 == 1\nX1\n$ELSEIF P1 == 2\nX2\n$ELSE\nX3\n$ENDIF\n$SWITCH P1\n$DEFAULT\n$ENDSWITCH\n",
     );
 }
 
-/// What a name may not have ends it: what follows is read on.
+/// A name ends at a character that it must not contain.
 #[test]
 fn names_of_files_end() {
     for behind in [" M30", "\tM30", "[1] M30", "\"x\" M30", "(x) M30"] {
@@ -67,18 +67,18 @@ fn names_of_files_end() {
     clean("L M30\nL sub_M30.nc\nX1\n");
 }
 
-/// A comment may stand between an address and its number.
+/// A comment may be between an address and its number.
 #[test]
-fn numbers_behind_comments_are_passed() {
+fn numbers_after_comments_are_skipped() {
     for text in ["X(a)5 M30\nX1\n", "X(a)12.5M30\nX1\n", "X(a)5.M30\nX1\n"] {
         let wanted = "line 2, column 1: text after the M30 of line 1 (STM-10)";
         assert_eq!(findings(text), [wanted], "{text}");
     }
 }
 
-/// The same examples with one thing changed.
+/// The same examples with one change.
 #[test]
-fn printed_examples_changed_are_not_clean() {
+fn changed_examples_have_diagnostics() {
     let with = |text: &str, from: &str, to: &str| {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         findings(&text.replace(from, to))
@@ -185,13 +185,13 @@ fn jumps_back_are_found_and_no_others() {
         assert!(found[0].ends_with(&format!(": $GOTO back to line {to} (STM-8)")), "{found:?}");
     }
     for no_back in [
-        // forward, forward as well as back, nowhere
+        // A label after the jump, before and after it, or nowhere.
         "$GOTO N1\nN1:",
         "N1:\n$GOTO N1\nN1:",
         "$GOTO N1",
         "N1:\n$GOTO N11\nN11:",
         "N1:\n$GOTO N11",
-        // no jump, or one to an expression
+        // No jump, or a jump to an expression.
         "N1:\n($GOTO N1)",
         "N1:\n;$GOTO N1",
         "N1:\n\"$GOTO N1\"",
@@ -201,7 +201,7 @@ fn jumps_back_are_found_and_no_others() {
         "N1:\n$GOTOX N1",
         "[A]\n$GOTO V.E.A",
         "[A]\n$GOTO [A",
-        // no label
+        // No label.
         "N1\n$GOTO N1",
         "(N1:)\n$GOTO N1",
         ";N1:\n$GOTO N1",
@@ -211,7 +211,7 @@ fn jumps_back_are_found_and_no_others() {
         "N[1]:\n$GOTO N1",
         "N1:\n$GOTO [1]",
         "[1]\n$GOTO N1",
-        // that of another program
+        // The label of another program.
         "%L sub\nN1:\nM29\n%main\n$GOTO N1",
     ] {
         let jumps: Vec<_> =
@@ -279,7 +279,7 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
     ] {
         clean(&format!("{no_end}\nX1"));
     }
-    // Each end has its finding, and the words behind it theirs.
+    // Each program end has its diagnostic, and so do the words after it.
     assert_eq!(
         findings("M30\n$DO\nX1\nM17\nX1\n%next\nM2"),
         [
@@ -291,14 +291,14 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
 }
 
 #[test]
-fn findings_say_clause_and_consequence() {
+fn diagnostics_have_a_requirement_and_a_consequence() {
     let text = NcText::new(b"N1:\n$GOTO N1\n$DO\nM30\nX1\n#COMMENT BEGIN").unwrap();
     let found: Vec<_> =
         text.diagnostics().map(|at| (at.kind.clause(), at.kind.ends_streaming())).collect();
     assert_eq!(found, [("STM-8", true), ("STM-8", true), ("STM-10", false), ("STM-9", false)]);
 }
 
-/// As many jumps as no table holds: far, near, back and forward.
+/// Very many jumps: far and near, back and forward.
 #[test]
 fn jumps_back_are_found_among_many_labels() {
     let count = 5000;
@@ -374,7 +374,7 @@ fn jumps_back(program: &[Line]) -> Vec<(usize, usize)> {
     back
 }
 
-/// Pieces out of which trouble is made.
+/// Pieces that are difficult in combination.
 fn pieces() -> impl Strategy<Value = String> {
     let piece = select(vec![
         "$FOR",
@@ -426,8 +426,8 @@ fn jumps_back_are_found_as_defined(program in program()) {
     prop_assert_eq!(found, wanted);
 }
 
-/// Any text: the findings end, are in the text and in its order, and do not depend on how
-/// lines end; the text as a comment has none.
+/// For any text, diagnostics are finite, within the text, in its order, and independent of line ends;
+/// the text as a comment has none.
 #[test]
 fn findings_of_any_text(text in pieces()) {
     check_findings(text.as_bytes(), |_, _| ());

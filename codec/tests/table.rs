@@ -1,4 +1,4 @@
-//! The numbers that clients and servers share, each written down a second time; of functions, as a
+//! The numbers that clients and servers share, each written a second time; those of functions as a
 //! snapshot.
 
 mod common;
@@ -12,8 +12,8 @@ use ads_cnc::operation::{Call, CountDynamic, DispatchError, Effect, Function, Op
 use ads_cnc::*;
 use common::CALLS;
 
-/// Every function as its row has it, and the read length of a call. What a gate lets through by
-/// itself rests on the effect.
+/// A snapshot of the row of each function and the read length of its call. A gateway may decide by the
+/// effect.
 #[test]
 fn functions_are_where_the_manuals_put_them() {
     let mut shown = String::new();
@@ -38,7 +38,7 @@ fn functions_are_where_the_manuals_put_them() {
     });
 }
 
-/// The writes, and which of them may move an axis: a gate lets through what its effect permits.
+/// The effect of each write. A gateway may decide by the effect.
 #[test]
 fn writes_have_these_effects() {
     let writes = Function::ALL.iter().filter(|it| it.spec().effect != Effect::Query);
@@ -54,7 +54,7 @@ fn writes_have_these_effects() {
     assert_eq!(writes, wanted);
 }
 
-/// Each kind of dynamic parameters has its own four offsets, and no other offset is one.
+/// Each kind of dynamic parameters has exactly four offsets.
 #[test]
 fn offsets_of_dynamic_parameters() {
     let offsets = |function: Function| -> Vec<u32> {
@@ -79,7 +79,7 @@ fn offsets_of_dynamic_parameters() {
     }
 }
 
-/// VAR-26: the elements of the axis interface are other functions at axis 0, and none elsewhere.
+/// VAR-26: with axis 0, the elements of the axis interface are other functions.
 #[test]
 fn the_axis_interface_begins_at_axis_1() {
     let call = |offset| Call {
@@ -196,9 +196,9 @@ fn types_of_com() {
     }
 }
 
-/// GEN-6, ADR-13: platform axes are counted from 1; a list of axis 0 is none.
+/// GEN-6, ADR-13: platform axes are counted from 1; axis 0 has no list.
 #[test]
-fn there_is_no_axis_0() {
+fn axis_0_is_rejected() {
     let call = |group| Call {
         port: AmsPort::COM,
         service: Read,
@@ -211,7 +211,7 @@ fn there_is_no_axis_0() {
     for absent in [0x13_0200, 0x3_0200] {
         assert_eq!(call(absent).dispatch(), Err(DispatchError::Group(IndexGroup::new(absent))));
     }
-    // Nor is there a channel 0 with variables.
+    // Channel 0 has no variables.
     let variables = Channel::new(1).unwrap().class(Class::Decoder, Attribute::Content);
     assert_eq!(variables.get() & 0xFF, 1);
     let data = b"V.E\0";
@@ -225,7 +225,7 @@ fn there_is_no_axis_0() {
     assert!(matches!(of_channel_0.dispatch(), Err(DispatchError::Offset(_))));
 }
 
-/// A server that sizes its answer by the count asked for is not made to allocate 4 GiB.
+/// A server that allocates by the requested count does not allocate 4 GiB.
 #[test]
 fn counts_of_descriptors_are_bounded() {
     let call = Call {

@@ -1,4 +1,4 @@
-//! The field tables: what the documentation shows of them, and that they fit the streams.
+//! The field tables: their documentation, and their consistency with the streams.
 
 mod common;
 
@@ -10,7 +10,7 @@ use ads_cnc::layout::{FieldSpec, Layout, Size, Stream, Type};
 use ads_cnc::limits::*;
 use common::each_sample;
 
-/// `codec/doc` shows the tables that no declaration shows.
+/// `codec/doc` contains the tables of types that are written by hand.
 #[test]
 fn documentation_shows_the_tables() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
@@ -104,13 +104,13 @@ fn size(size: Size, counter: Option<&FieldSpec>) -> String {
     }
 }
 
-/// The letter by which the manual calls a count: the meaning of the counter has it.
+/// The letter of a count in the manual, from the meaning of the count.
 fn letter(fields: &[FieldSpec]) -> &'static str {
     let words = fields.iter().flat_map(|row| row.meaning.split(|c: char| !c.is_alphanumeric()));
     words.into_iter().find(|word| ["m", "n"].contains(word)).expect("a letter for the count")
 }
 
-/// Where the table puts a field there the walk finds it, counted items included.
+/// A walk finds each field at the offset of the table, including counted items.
 #[test]
 fn offsets_are_where_walks_find_the_fields() {
     for (stream, sample) in each_sample() {
@@ -127,7 +127,7 @@ fn offsets_are_where_walks_find_the_fields() {
                     _ => 0,
                 };
                 let before = text;
-                // The table counts a text with more behind it by its NUL alone.
+                // The table counts only the NUL of a text that other fields follow.
                 if let Size::CStringPrefix { .. } = row.size {
                     text = segment.bytes.len() as u32 - 1;
                 }
@@ -140,7 +140,7 @@ fn offsets_are_where_walks_find_the_fields() {
     }
 }
 
-/// Fields of a fixed place follow each other without a gap (GEN-2).
+/// Fields with a fixed offset have no gaps between them (GEN-2).
 #[test]
 fn streams_are_packed() {
     for stream in Stream::all() {
@@ -174,7 +174,6 @@ fn requirements_are_ids() {
     }
 }
 
-/// A name finds one stream and, in it, one field.
 #[test]
 fn names_are_unique() {
     let names: HashSet<_> = Stream::all().map(|stream| stream.layout().name).collect();
@@ -187,24 +186,24 @@ fn names_are_unique() {
     }
 }
 
-/// A BOOLEAN is read like an UNS08, so that the type shows in the table alone.
+/// A BOOLEAN is decoded like an UNS08; only the table shows the type.
 #[test]
 fn the_write_flag_is_a_boolean() {
     assert_eq!(Stream::ElementWriteFlag.layout().fields[0].ty, Type::Boolean);
 }
 
-/// The named limits, which the declarations give, are the numbers of the clauses.
+/// The named limits, from the declarations, equal the numbers of the requirements.
 #[test]
 fn limits_are_the_numbers_of_the_clauses() {
     assert_eq!([TEXT_MAX, NAME_MAX, INDEX_KIND_MAX], [256, 255, 260]);
     assert_eq!([VARIABLE_MAX, HANDLE_VALUE_MAX, NAME_VALUE_MAX], [2048, 2040, 2047]);
-    // VAR-24: what is left of 2048 bytes beside the headers and the shortest name.
+    // VAR-24: the rest of 2048 bytes after the headers and the shortest name.
     assert_eq!([DIMENSIONS_MAX, NAMELESS_DIMENSIONS_MAX, INDICES_MAX], [506, 507, 510]);
     assert_eq!([DYNAMIC_NAME_MAX, SERVICE_TEXT_MAX], [96, 128]);
     assert_eq!([DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN], [84, 32]);
     assert_eq!([AMS_TCP_HEADER_LEN, AMS_HEADER_LEN, ADS_DATA_MAX], [6, 32, 0x40_0000]);
     assert_eq!([STREAM_PACKET_MAX, STREAM_MAX, NC_LINE_MAX], [992, 4094, 990]);
-    // Streams that no limit is named for.
+    // Streams without a named limit.
     for (stream, max) in [
         (Stream::ReadReply, 8 + ADS_DATA_MAX),
         (Stream::ReadWriteReply, 8 + ADS_DATA_MAX),

@@ -1,4 +1,4 @@
-//! Values by their types: what the manuals print, each type, each way of finding an element.
+//! Values by their types: the printed values, each type, each access to elements.
 
 mod common;
 
@@ -19,7 +19,7 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Result<Shape<'_>
     Shape::new(data_type, dimensions.into(), size)
 }
 
-/// What sections 4.3.4, 4.3.5 and 4.3.10 print; SGN32 and REAL64 are assumed.
+/// The values of sections 4.3.4, 4.3.5 and 4.3.10; SGN32 and REAL64 are assumed.
 #[test]
 fn printed_replies() {
     let channel = Channel::new(1).unwrap();
@@ -77,7 +77,7 @@ fn each_type_is_read_and_written() {
     assert_eq!((text.text(), text.tail()), (CncStr::new("Länge").unwrap(), Some(&b"rest"[..])));
 }
 
-/// GEN-5: the names of objects and of elements are those of one list; any other is none.
+/// GEN-5: names of types of objects and elements; other names are unknown.
 #[test]
 fn names_of_types() {
     let rows = [
@@ -114,7 +114,7 @@ fn names_of_types() {
     }
 }
 
-/// A client that knows a variable only by its description reads all of it, and one element.
+/// A client decodes a whole variable and one element by the description.
 #[test]
 fn values_by_description() {
     let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
@@ -125,7 +125,7 @@ fn values_by_description() {
     let one = ValueRef { bytes: &[7] };
     assert_eq!(variable.element(&one), Ok(Element::Boolean(Boolean(7))));
 
-    // Neither stands in for the other.
+    // One cannot be decoded as the other.
     assert_eq!(fault_of(variable.element(&value)), fault(Trailing, "value", 1, (1, 2)));
     assert_eq!(fault_of(variable.elements(&one)), fault(Truncated, "value", 0, (2, 1)));
 
@@ -143,7 +143,7 @@ fn values_by_description() {
     }
 }
 
-/// Content of an object of the COM task and of an element of a class, typed by their names.
+/// The content of a COM object and of an element, decoded by the names of their types.
 #[test]
 fn content_by_name_of_its_type() {
     let object = Descriptor::new("mc_active_single_block_r", "BOOL").unwrap().with_size(1);
@@ -158,7 +158,8 @@ fn content_by_name_of_its_type() {
     assert!(elements(element, &[], content).iter().eq([Element::Real64(123.456)]));
 }
 
-/// VAR-22, VAR-25: one STRING has any length; the texts of an array share its bytes (assumed).
+/// VAR-22, VAR-25: a STRING has any length; the texts of an array have equal shares of the bytes
+/// (assumed).
 #[test]
 fn texts_of_an_array_share_its_bytes() {
     let one = shape(DataType::String, &[], 21).unwrap();
@@ -188,9 +189,9 @@ fn texts_of_an_array_share_its_bytes() {
     assert_eq!(shares(0), fault(Mismatch, "size", 0, (4, 0)));
 }
 
-/// Each wrong index is named by its place, its bound and itself.
+/// The error of a wrong index has its position, its maximum and its value.
 #[test]
-fn wrong_indices_are_named() {
+fn errors_name_the_wrong_index() {
     let bytes = [0; 24];
     let dimensions = [2, 3];
     let elements = elements(DataType::Sgn32, &dimensions, &bytes);
@@ -212,12 +213,12 @@ fn wrong_indices_are_named() {
     let other = elements.items::<u32>().map(|_| ());
     assert_eq!(fault_of(other), fault(Mismatch, "type", 0, (7, 6)));
 
-    // As they stand in a name.
+    // Indices of a name.
     let path = VariablePath::new("V.E.field[1][2]").unwrap();
     assert_eq!(elements.shape().index_of(path.elements()), Ok(5));
 }
 
-/// However one comes by an element, it is the one of that place.
+/// All ways to access an element return the same element.
 #[test]
 fn elements_in_their_order() {
     let bytes: Vec<u8> = (0..24).collect();
@@ -239,7 +240,7 @@ fn elements_in_their_order() {
     assert_eq!(every_fifth, [all[0], all[5], all[10]]);
 }
 
-/// A dimension of 0 has no element, whatever the others are.
+/// A dimension of 0 has no elements, whatever the other dimensions.
 #[test]
 fn a_dimension_of_0_has_no_element() {
     let huge = [u32::MAX, 0, u32::MAX];
@@ -256,13 +257,13 @@ fn a_dimension_of_0_has_no_element() {
         assert!(Elements::new(data_type, U32List::from(&[0]), &[1]).is_err());
         assert_eq!(fault_of(shape(data_type, &[0, 7], 1)), fault(Mismatch, "size", 0, (0, 1)));
     }
-    // The others alone are more than 32 bits hold.
+    // The product of the others exceeds 32 bits.
     let late = [u32::MAX, u32::MAX, 0];
     assert!(elements(DataType::Uns08, &late, &[]).is_empty());
     assert_eq!(ValueRef { bytes: &[] }.iter::<f64>().unwrap().len(), 0);
 }
 
-/// A product beyond 32 bits is not the size it wraps to, nor the largest there is.
+/// A product that exceeds 32 bits neither wraps nor saturates.
 #[test]
 fn sizes_do_not_wrap() {
     let wraps = [0x1_0000, 0x1_0000];
@@ -280,9 +281,9 @@ fn sizes_do_not_wrap() {
     );
 }
 
-/// Nor do bytes fit a product beyond 32 bits, or a type that no manual has.
+/// Values with a product that exceeds 32 bits, or with an undocumented type.
 #[test]
-fn values_of_no_size_are_refused() {
+fn values_without_a_valid_size_are_rejected() {
     let value = ValueRef { bytes: &[] };
     let dimensions = [0x4000_0000, 4];
     let error = value.elements(VariableType::SGN32, U32List::from(&dimensions)).unwrap_err();
@@ -293,7 +294,7 @@ fn values_of_no_size_are_refused() {
     }
 }
 
-/// Any element becomes a number of any type that holds it exactly, and no other.
+/// An element converts to a number of any type that represents it exactly, and to no other.
 #[test]
 fn elements_become_numbers_that_hold_them() {
     fn as_all(element: Element<'_>) -> ([bool; 8], [bool; 2]) {

@@ -1,4 +1,4 @@
-//! Values to bytes and back: what is written, what a shape refuses, and random ones of every type.
+//! Encoding of values: printed values, errors of a shape, and random values of every type.
 
 mod common;
 mod kept;
@@ -21,7 +21,7 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Shape<'_> {
     Shape::new(data_type, dimensions.into(), size).unwrap()
 }
 
-/// A value to write is its bytes, wherever they come from.
+/// Values to write from all sources have the expected bytes.
 #[test]
 fn values_to_write_are_their_bytes() {
     let bytes = 1.5_f64.to_le_bytes().to_vec();
@@ -40,9 +40,8 @@ fn values_to_write_are_their_bytes() {
     assert_eq!([true, false].encode_value(&mut room).unwrap(), [1, 0]);
 }
 
-/// A name is taken from text of any kind.
 #[test]
-fn names_are_text_of_any_kind() {
+fn names_are_accepted_from_all_text_types() {
     let channel = Channel::new(1).unwrap();
     let wanted = ReadByName::new(channel, "V.E.x").unwrap();
     #[cfg(feature = "alloc")]
@@ -53,7 +52,7 @@ fn names_are_text_of_any_kind() {
     assert_eq!(ReadByName::new(channel, &String::from("V.E.x")).unwrap(), wanted);
 }
 
-/// An object is addressed by its descriptor, whether it is owned, borrowed or an item of a list.
+/// An owned, borrowed or listed descriptor addresses its object.
 #[test]
 fn objects_are_addressed_by_their_descriptors() {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(3));
@@ -65,7 +64,7 @@ fn objects_are_addressed_by_their_descriptors() {
     assert!(items.iter().all(|item| ReadObject::of(item).unwrap() == wanted));
 }
 
-/// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.
+/// The writes of sections 4.3.6, 4.3.7 and 4.3.11; SGN32 and REAL64 are assumed.
 #[test]
 fn printed_writes() {
     let channel = Channel::new(1).unwrap();
@@ -89,9 +88,9 @@ fn printed_writes() {
     assert_eq!(op.encode(&mut buf).unwrap(), b"V.A.WCS\0\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40");
 }
 
-/// VAR-12, VAR-13: requests take values up to their limits, and refuse the next one.
+/// VAR-12, VAR-13: requests accept values up to their limits, and reject longer ones.
 #[test]
-fn requests_take_values_up_to_their_limits() {
+fn requests_accept_values_up_to_their_limits() {
     let channel = Channel::new(1).unwrap();
     let (mut value, mut buf) = ([0; 4000], [0; 4000]);
     let mut by_handle = |numbers: &[u8], indices: U32List<'_>| {
@@ -112,7 +111,7 @@ fn requests_take_values_up_to_their_limits() {
     assert_eq!(by_name(&[1; 2040], "V.E.abc"), Ok(2048));
     assert_eq!(by_name(&[1; 2041], "V.E.abc").unwrap_err().kind(), TooLong);
 
-    // A content takes more, but no more than ADS data.
+    // Content may be longer, up to the limit of ADS data.
     let content = vec![0_u64; limits::ADS_DATA_MAX / 8 + 1];
     let error = content.encode_value(&mut []).unwrap_err();
     assert_eq!((error.kind(), error.expected()), (TooLong, 0x40_0000));
@@ -122,7 +121,7 @@ fn requests_take_values_up_to_their_limits() {
     assert!(content.value_to_vec().is_err() && content[1..].value_to_vec().is_ok());
 }
 
-/// A shape takes its own type and number of elements, and nothing is written of another.
+/// A shape accepts only its type and number of elements; after an error, nothing is written.
 #[test]
 fn writes_fit_the_description() {
     let dimensions = [2, 2];
@@ -141,13 +140,13 @@ fn writes_fit_the_description() {
 
     assert_eq!(array.encode(&[-1_i16, 2, 3, 4], &mut buf).unwrap(), b"\xff\xff\x02\0\x03\0\x04\0");
     assert_eq!(array.element_shape().encode(&-2_i16, &mut buf).unwrap(), b"\xfe\xff");
-    // What was read of it goes back as it is.
+    // A decoded value is written unchanged.
     let read = array.elements(b"\x01\0\x02\0\x03\0\x04\0").unwrap();
     assert_eq!(array.encode(&read, &mut buf), Ok(read.as_bytes()));
     assert_eq!(array.element_shape().encode(&read.get(3).unwrap(), &mut buf).unwrap(), b"\x04\0");
 }
 
-/// A STRING is written with its NUL, and neither text nor NUL is ever cut off.
+/// A STRING is written with its NUL; neither text nor NUL is truncated.
 #[test]
 fn texts_fit_their_size() {
     let mut buf = [0x55; 16];
@@ -158,7 +157,7 @@ fn texts_fit_their_size() {
     assert_eq!(one.encode_texts(&[text("")], &mut buf).unwrap(), b"\0");
     let too_long = one.encode(&text("abcd"), &mut buf);
     assert_eq!(fault_of(too_long), fault(TooLong, "value", 0, (4, 5)));
-    // A text keeps the end it was read with.
+    // A decoded text keeps its end.
     let open = TextRef::with_tail(text("abcd"), None);
     assert_eq!(one.encode(&open, &mut buf).unwrap(), b"abcd");
 
@@ -176,13 +175,13 @@ fn texts_fit_their_size() {
     assert_eq!(fault_of(too_long), fault(TooLong, "value", 3, (3, 4)));
     let two = three.encode_texts(&texts[..2], buf);
     assert_eq!(fault_of(two), fault(Mismatch, "count", 0, (3, 2)));
-    // Three texts of another size each.
+    // Three texts of different sizes.
     let strings = Elements::new(DataType::String, U32List::from(&dimensions), b"abcabc").unwrap();
     assert_eq!(fault_of(three.encode(&strings, buf)), fault(Mismatch, "size", 0, (9, 6)));
     assert_eq!(*buf, [0x55; 16]);
 }
 
-/// NaNs that signal stay those.
+/// Signalling NaNs stay signalling.
 #[test]
 fn nans_keep_their_bits() {
     let (single, double) = (b"\x01\0\x80\xff", b"\x01\0\0\0\0\0\xf0\x7f");
@@ -193,7 +192,7 @@ fn nans_keep_their_bits() {
     }
 }
 
-/// Bits of every number, NaN with its payload among them.
+/// The bits of every number, including NaNs with payloads.
 fn check_numbers<T: Scalar>(numbers: &[T], bits: &[u8]) {
     let mut buf = vec![0; bits.len()];
     assert_eq!(numbers.encode_value(&mut buf), Ok(bits));
@@ -205,7 +204,7 @@ fn check_numbers<T: Scalar>(numbers: &[T], bits: &[u8]) {
     }
 }
 
-/// Dimensions of few elements in all, and bytes for them.
+/// Dimensions with a small number of elements, and their bytes.
 fn array() -> impl Strategy<Value = (Vec<u32>, Vec<u8>)> {
     vec(0..5_u32, 0..5).prop_flat_map(|dimensions| {
         let count = dimensions.iter().product::<u32>() as usize;
@@ -213,7 +212,7 @@ fn array() -> impl Strategy<Value = (Vec<u32>, Vec<u8>)> {
     })
 }
 
-/// Every index of these dimensions, in nested loops: the last one runs fastest.
+/// Every index of these dimensions, in nested loops: the last index varies fastest.
 fn all_indices(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let Some((&first, rest)) = dimensions.split_first() else { return vec![vec![]] };
     let rest = all_indices(rest);
@@ -224,9 +223,9 @@ fn all_indices(dimensions: &[u32]) -> Vec<Vec<u32>> {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// Every value of every type comes back, bit for bit.
+    /// Every value of every type is encoded and decoded bit by bit.
     #[test]
-    fn values_come_back(
+    fn values_are_encoded_and_decoded(
         bytes in vec(any::<u8>(), 0..40), words in vec(any::<u16>(), 0..40),
         numbers in vec(any::<u32>(), 0..40), long in vec(any::<u64>(), 0..40),
     ) {
@@ -253,7 +252,7 @@ proptest! {
         check_typed(&bytes, |_| ());
     }
 
-    /// By its indices an element is where nested loops over the dimensions find it.
+    /// The indices of an element select the same element as nested loops over the dimensions.
     #[test]
     fn elements_are_in_row_major_order((dimensions, bytes) in array()) {
         let elements =
@@ -270,9 +269,9 @@ proptest! {
         }
     }
 
-    /// Every index beyond its dimension is refused by its place, in any dimensions.
+    /// An index outside its dimension is rejected with its position.
     #[test]
-    fn indices_beyond_are_refused(
+    fn indices_outside_their_dimension_are_rejected(
         dimensions in prop_oneof![
             vec(1..=u32::MAX, 1), vec(1..=0xFFFF_u32, 2), vec(1..=0xFF_u32, 3..5)
         ],
@@ -286,7 +285,7 @@ proptest! {
         prop_assert!(find(&indices).is_ok_and(|index| index < array.count()));
         indices[at] = dimensions[at].saturating_add(over % 3);
         let error = fault_of(find(&indices));
-        // The largest dimension has no number beyond it.
+        // No UNS32 exceeds the largest dimension.
         if indices[at] >= dimensions[at] {
             let (last, index) = (dimensions[at] as usize - 1, indices[at] as usize);
             prop_assert_eq!(error, fault(OutOfRange, "index", at, (last, index)));
@@ -295,7 +294,7 @@ proptest! {
 
     /// No type, dimension, size or value makes a shape panic, loop or disagree with itself.
     #[test]
-    fn shapes_hold(
+    fn shapes_obey_the_laws(
         pick in 0..DataType::ALL.len(), bytes in vec(any::<u8>(), 0..64), size in any::<u32>(),
         given in vec(prop_oneof![1 => Just(0), 8 => 1..5_u32, 1 => any::<u32>()], 0..5),
         picks in vec(0..5_u32, 5),

@@ -1,4 +1,4 @@
-//! The laws of all streams over values: each encodes to bytes that are read as that value.
+//! The laws of all streams for values: each value encodes to bytes that decode to the value.
 
 #![cfg(feature = "alloc")]
 
@@ -20,7 +20,7 @@ fn text(max: usize) -> impl Strategy<Value = CncString> {
     vec(1..=u8::MAX, 0..=max).prop_map(|bytes| CncStr::from_bytes(&bytes).expect("no NUL").into())
 }
 
-/// Text of a request: padded with NULs or not.
+/// Text of a request, with or without padding.
 fn request_text() -> impl Strategy<Value = Text> {
     (text(255), 0..256_usize).prop_map(|(text, padding)| {
         let room = 255 - text.as_bytes().len();
@@ -28,7 +28,7 @@ fn request_text() -> impl Strategy<Value = Text> {
     })
 }
 
-/// Text of a description: each of its ends, in one byte at least.
+/// Text of a description with any of its ends, at least one byte.
 fn open_text() -> impl Strategy<Value = Text> {
     (text(255), prop::option::of(vec(any::<u8>(), 0..256))).prop_map(|(text, tail)| {
         let room = 255 - text.as_bytes().len();
@@ -42,7 +42,7 @@ fn data() -> impl Strategy<Value = Vec<u8>> {
     vec(any::<u8>(), 0..300)
 }
 
-/// Result and data of a reply; without data only behind an error (ADS-6).
+/// Result and data of a reply; only an error may have no data (ADS-6).
 fn reply() -> impl Strategy<Value = (AdsError, Option<Vec<u8>>)> {
     prop_oneof![
         (any::<u32>(), data()).prop_map(|(result, data)| (AdsError(result), Some(data))),
@@ -79,9 +79,8 @@ fn descriptor() -> impl Strategy<Value = Descriptor> {
 proptest! {
     #![proptest_config(kept::cases(128, file!()))]
 
-    /// Every value of a stream that is one number comes back.
     #[test]
-    fn numbers_come_back(number in any::<u32>(), reserved in any::<u16>()) {
+    fn numbers_obey_the_laws(number in any::<u32>(), reserved in any::<u16>()) {
         check_value(&ObjectCount(number));
         check_value(&VariableCount(number));
         check_value(&Handle(number));
@@ -89,9 +88,8 @@ proptest! {
         check_value(&AmsTcpHeader { reserved, length: number });
     }
 
-    /// Every AMS header comes back.
     #[test]
-    fn ams_headers_come_back(
+    fn ams_headers_obey_the_laws(
         (target, source) in (end(), end()),
         (command, flags) in any::<(u16, u16)>(),
         (data_length, error, invoke_id) in any::<(u32, u32, u32)>(),
@@ -103,33 +101,30 @@ proptest! {
         });
     }
 
-    /// Every ADS request comes back, with data or without.
     #[test]
-    fn ads_requests_come_back((index_group, index_offset) in place(), length in any::<u32>(), data in data()) {
+    fn ads_requests_obey_the_laws((index_group, index_offset) in place(), length in any::<u32>(), data in data()) {
         check_value(&ReadRequest { index_group, index_offset, length });
         check_value(&WriteRequest { index_group, index_offset, data: data.clone() });
         check_value(&ReadWriteRequest { index_group, index_offset, read_length: length, data });
     }
 
-    /// Every ADS reply comes back, of success and of failure.
     #[test]
-    fn ads_replies_come_back((result, data) in reply()) {
+    fn ads_replies_obey_the_laws((result, data) in reply()) {
         check_value(&ReadReply { result, data: data.clone() });
         check_value(&ReadWriteReply { result, data });
     }
 
-    /// Every content, packet and attribute comes back.
+    /// Contents, packets and attributes.
     #[test]
-    fn contents_come_back(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
+    fn contents_obey_the_laws(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
         check_value(&Content { bytes: bytes.clone() });
         check_value(&ProgramStream { bytes });
         check_value(&ElementText { text });
         check_value(&ElementWriteFlag(flag));
     }
 
-    /// Every address of an instance comes back.
     #[test]
-    fn instances_come_back((index_group, index_offset) in place()) {
+    fn instances_obey_the_laws((index_group, index_offset) in place()) {
         check_value(&ObjectAddress { index_group, index_offset });
         let (channel, axis) = (index_group.get(), index_offset.get());
         check_value(&ObjectAddressQuery { channel, axis });
@@ -139,9 +134,8 @@ proptest! {
         check_value(&DynamicIndex(axis.max(1)));
     }
 
-    /// Every dynamic parameter comes back, bit by bit.
     #[test]
-    fn dynamic_parameters_come_back(text in text(95), tail in vec(any::<u8>(), 0..96), bits in any::<u64>()) {
+    fn dynamic_parameters_obey_the_laws(text in text(95), tail in vec(any::<u8>(), 0..96), bits in any::<u64>()) {
         let room = 95 - text.as_bytes().len();
         let tail: Vec<u8> = tail.into_iter().take(room).collect();
         let nuls = vec![0; tail.len()];
@@ -150,16 +144,16 @@ proptest! {
         check_value(&DynamicValue::from_bits(bits));
     }
 
-    /// Every descriptor comes back, alone and among others.
+    /// Single descriptors and lists.
     #[test]
-    fn descriptors_come_back(objects in vec(descriptor(), 1..5)) {
+    fn descriptors_obey_the_laws(objects in vec(descriptor(), 1..5)) {
         check_value(&objects[0]);
         check_value(&objects.into_iter().collect::<Descriptors>());
     }
 
-    /// Every request about variables comes back, padding included.
+    /// Requests with and without padding.
     #[test]
-    fn variable_requests_come_back(
+    fn variable_requests_obey_the_laws(
         text in request_text(), index in any::<u32>(), indices in vec(any::<u32>(), 0..=510),
     ) {
         check_value(&VariableName { name: text.clone() });
@@ -168,9 +162,9 @@ proptest! {
         check_value(&HandleRead { handle: Handle(index), indices });
     }
 
-    /// Every write comes back, with and without a value.
+    /// Writes with and without a value.
     #[test]
-    fn variable_writes_come_back(
+    fn variable_writes_obey_the_laws(
         name in text(255), handle in any::<u32>(), indices in vec(any::<u32>(), 0..=250),
         value in vec(any::<u8>(), 0..=1040),
     ) {
@@ -178,18 +172,18 @@ proptest! {
         check_value(&NameWrite { name, value });
     }
 
-    /// Every extended description comes back, and none does.
+    /// Extended descriptions, and empty replies.
     #[test]
-    fn extended_descriptions_come_back((synchronisation, validity) in any::<(u32, u32)>()) {
+    fn extended_descriptions_obey_the_laws((synchronisation, validity) in any::<(u32, u32)>()) {
         let (synchronisation, validity) = (Synchronisation(synchronisation), Validity(validity));
         check_value(&ExtendedReply(Some(ExtendedDescription { synchronisation, validity })));
         check_value(&ExtendedReply(None));
     }
 
-    /// Every description comes back: unknown codes, many dimensions, each end of the name. Without
-    /// the name it is the one by name.
+    /// Descriptions with unknown codes, many dimensions, each end of the name. Without the name, they
+    /// equal descriptions by name.
     #[test]
-    fn descriptions_come_back(
+    fn descriptions_obey_the_laws(
         name in open_text(),
         (handle, var_type, access, size) in any::<(u32, u32, u32, u32)>(),
         dimensions in vec(any::<u32>(), 0..=443),
@@ -214,16 +208,15 @@ proptest! {
         check_value(&description);
     }
 
-    /// Every value comes back.
     #[test]
-    fn values_come_back(bytes in vec(any::<u8>(), 0..=2048)) {
+    fn values_obey_the_laws(bytes in vec(any::<u8>(), 0..=2048)) {
         check_value(&Value { bytes });
     }
 }
 
-/// The kind that is no byte at all is not the kind that is one NUL, though both mean all (VAR-1).
+/// The kind without bytes and the kind of one NUL differ, although both mean all kinds (VAR-1).
 #[test]
-fn both_forms_of_no_kind_stay_apart() {
+fn empty_kinds_keep_their_form() {
     let absent = VariableKind { kind: Text { text: CncString::default(), tail: None } };
     check_value(&absent);
     assert_eq!(absent.encode_to_vec(), Ok(vec![]));
@@ -231,7 +224,6 @@ fn both_forms_of_no_kind_stay_apart() {
     assert_eq!(VariableKind::decode(&[]).map(|kind| kind.encode_to_vec()), Ok(Ok(vec![])));
 }
 
-/// A list grows at its end, and is then what is read back.
 #[test]
 fn a_list_grows_at_its_end() {
     let object = |name| Descriptor::new(name, "UNS32").unwrap();

@@ -1,4 +1,4 @@
-//! The golden vectors, decoded: what a person would hold beside the manual.
+//! The golden vectors, decoded, as snapshots for comparison with the manual.
 
 #![cfg(feature = "alloc")]
 
@@ -17,7 +17,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::*;
 use ads_cnc_vectors::{Expect, Vector, vectors};
 
-/// Decodes both readings, encodes both again, and shows the owned one.
+/// Decodes both types, encodes both again, and displays the owned value.
 macro_rules! show {
     ($bytes:expr, $view:ty, $owned:ty) => {{
         let view = <$view>::decode($bytes).and_then(|view| view.encode_to_vec());
@@ -31,7 +31,7 @@ macro_rules! show {
     }};
 }
 
-/// Why bytes are no value: the class under the name vectors give it, and what is said of it.
+/// The reason for rejecting bytes: the class by its name in the vectors, and the text of the error.
 #[derive(Debug)]
 struct Refusal(&'static str, String);
 
@@ -96,14 +96,14 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
     Ok(format!("{shown}\n{}", elements(vector, value)?))
 }
 
-/// The group of a base and the number that was added to it, put together from both.
+/// The group built from a base and the number added to it.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Error> {
     let number = group.get().wrapping_sub(base.get());
     Ok(match base.parts().expect("a documented base") {
         Group::Com(com) if com.table == ComTable::Axis => {
             PlatformAxis::new(number)?.com(com.access)
         }
-        // The platform has the number 0.
+        // The platform is number 0.
         Group::Com(_) if number == 0 => base,
         Group::Com(com) => channel(com.addressing, number)?.com(com.access),
         Group::Class(class) if base.get() == 0x2_5300 => {
@@ -122,11 +122,11 @@ fn channel(addressing: Addressing, number: u32) -> Result<Channel, Error> {
     }
 }
 
-/// Takes a name apart and puts it together again.
+/// Parses a name and builds it again.
 fn path(bytes: &[u8]) -> Result<String, Error> {
     let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
     let again = without_zeros(bytes)?;
-    // Zeros in front of an index are not written, so the name may have become another.
+    // Leading zeros of an index are not written, so the built name may differ.
     let again = VariablePath::from_text(CncStr::from_bytes(&again)?)?;
     assert!(again.parts().eq(path.parts()), "{path} and {again}");
     let parts: Vec<String> = path.parts().map(|part| part.to_string()).collect();
@@ -139,19 +139,19 @@ fn without_zeros(path: &[u8]) -> Result<Vec<u8>, Error> {
     Ok(VariablePath::write(path.kind(), path.parts(), &mut buf)?.text().bytes().collect())
 }
 
-/// Splits a whole frame off, decodes what its service says, and encodes both again.
+/// Splits a frame, decodes the data of its service, and encodes both again.
 fn frame(bytes: &[u8]) -> Result<String, Refusal> {
     let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
-        // More has to come: what is there is cut.
+        // The frame is not complete: truncated.
         let (tcp, rest) = bytes.split_at(bytes.len().min(limits::AMS_TCP_HEADER_LEN));
         AmsTcpHeader::decode(tcp)?;
         let (header, data) = rest.split_at(rest.len().min(limits::AMS_HEADER_LEN));
         let header = AmsHeader::decode(header)?;
         service(&header, data)?;
-        // No service that says what it lacks: the codec waits for the rest.
+        // Without a service, the codec waits for the rest.
         return Err(Refusal("truncated", format!("more of {} bytes", header.data_length)));
     };
-    // What follows is another frame's; here it is too much for the service.
+    // Bytes after the frame belong to the next frame; here, they are trailing bytes of the service.
     let shown = service(&frame.header(), &bytes[FrameRef::HEADERS_LEN..])?;
     if len != bytes.len() {
         return Err(Refusal("trailing", format!("a frame of {len} bytes, and another")));
@@ -181,7 +181,7 @@ fn service(header: &AmsHeader, data: &[u8]) -> Result<String, Error> {
     }
 }
 
-/// A value or content means something only by its type.
+/// The elements of a value or content, decoded by its type.
 fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     let name = vector.context.kind.expect("a value has a type").name();
     let data_type = DataType::by_name(CncStr::new(name)?).expect("a type of the manuals");
@@ -190,22 +190,22 @@ fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     Ok(format!("{name} {:?}", elements.iter().collect::<Vec<_>>()))
 }
 
-/// Where the codec names a fault otherwise than the vector, and why; class and place are advice.
+/// Errors of the codec that differ from those of the vector, which are only recommendations.
 const OTHERWISE: &[(&str, &str)] = &[
-    // The codec looks at records one by one and says which field of which is cut.
+    // The codec decodes record by record and reports the truncated field.
     ("descriptors-cut", "truncated"),
     ("descriptors-trailing", "truncated"),
     ("descriptors-none", "truncated"),
     ("descriptors-83-bytes", "truncated"),
     ("descriptors-85-bytes", "truncated"),
-    // The codec asks first whether the stream is longer than any.
+    // The codec checks the maximum length of the stream first.
     ("handle-read-2052-bytes", "too-long"),
     ("handle-write-511-indices", "too-long"),
-    // A stream that may be empty has its length for its limit.
+    // The limit of a stream that may be empty is its length.
     ("extended-trailing", "too-long"),
-    // The codec asks first whether any service has so much data.
+    // The codec checks the maximum data of all services first.
     ("frame-tcp-length-huge", "too-long"),
-    // To the codec, size and dimensions of texts contradict each other.
+    // The codec reports that size and dimensions of texts are inconsistent.
     ("value-strings-2-odd", "mismatch"),
     ("value-strings-2-none", "mismatch"),
     ("value-strings-2-by-2-three", "mismatch"),
@@ -227,9 +227,9 @@ fn class(error: &Error) -> &'static str {
     }
 }
 
-/// The vector's value as a careful writer puts it, if the vector says that this differs.
+/// The canonical form of the value of a vector, if it differs.
 fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
-    /// With one NUL behind this text.
+    /// The bytes with one NUL after this text.
     macro_rules! plain {
         ($stream:ident.$text:ident) => {{
             let mut value = $stream::decode(bytes)?;
@@ -275,7 +275,7 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     }
 }
 
-/// Texts ended by one NUL and a TRUE written as 1 are what the codec makes of a plain value.
+/// The codec encodes a plain text with one NUL, and TRUE as 1.
 #[test]
 fn canonical_forms_are_written() {
     let mut seen = 0;
@@ -296,8 +296,8 @@ fn canonical_forms_are_written() {
     assert!(seen >= 26, "{seen} vectors have a canonical form");
 }
 
-/// Puts up to sixteen numbers of a list on a line, bytes as a manual and a text as an NC program has
-/// them, and cuts what no person reads to the end.
+/// Formats a snapshot: up to sixteen numbers of a list per line, bytes as in a manual, text as in an
+/// NC program; long output is shortened.
 fn short(text: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut numbers: Vec<&str> = Vec::new();
@@ -333,8 +333,8 @@ fn row_of(field: &str, row: &[&str]) -> String {
     format!("{:47}  |{}|", hex.join(" "), bytes.iter().map(seen).collect::<String>())
 }
 
-/// Every vector is accepted or refused as it says, by both readings and with the same bytes again,
-/// and looks as it did when a person last compared it with the manual.
+/// Every vector is accepted or rejected as specified, by both types, and encodes to the same bytes.
+/// The snapshot was compared with the manual by a person.
 #[test]
 fn vectors_decode_as_they_did() {
     let mut streams: BTreeMap<&str, String> = BTreeMap::new();

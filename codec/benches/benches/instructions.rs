@@ -3,8 +3,9 @@
 use ads_cnc_benches::{Case, Work, gate, others};
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
-/// Large copies that are one instruction of the processor are counted byte by byte, and those past
-/// the caches are done otherwise again; the C library is told to do all as it does smaller ones.
+/// callgrind counts large copies, which are one instruction of the processor, byte by byte; copies
+/// larger than the caches use yet another method. This makes the C library copy all of them like small
+/// ones.
 fn config() -> LibraryBenchmarkConfig {
     let thresholds = ["rep_movsb", "rep_stosb", "non_temporal"]
         .map(|it| format!("glibc.cpu.x86_{it}_threshold=0x7fffffff"));
@@ -23,12 +24,12 @@ fn prepare_other(at: usize) -> Work {
 
 fn prepare(case: Case) -> Work {
     let mut work = (case.prepare)();
-    // What is done once only, such as resolving a symbol, is done by now.
+    // One-time work, such as resolving symbols, is finished at this point.
     (work.run)();
     work
 }
 
-// The work is given back so that tidying up is not counted.
+// Return the work, so that dropping it is not counted.
 #[library_benchmark(config = config())]
 #[benches::case(iter = 0..gate().count(), setup = prepare_gated)]
 fn gated(mut work: Work) -> Work {

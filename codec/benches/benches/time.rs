@@ -1,4 +1,4 @@
-//! Time of every case, for people; `results.py` makes ratios of it.
+//! Time of every case with criterion, for interactive use; `results.py` computes ratios.
 
 use ads_cnc_benches::all;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

@@ -1,4 +1,4 @@
-"""Runs the clients of all languages in turns over the same bytes, and puts medians into the README."""
+"""Runs the clients of all languages alternately on the same bytes, and writes the medians to the README."""
 
 import os
 import subprocess

@@ -1,5 +1,4 @@
-// What clients in JavaScript do: Node's Buffer over the bytes of a reply. Prints nanoseconds for
-// each record.
+// A typical client in JavaScript: Node's Buffer on the bytes of a reply. Prints nanoseconds per record.
 
 import { strict as assert } from "node:assert";
 import { readFileSync } from "node:fs";
@@ -31,7 +30,7 @@ function descriptors(data) {
 }
 
 function description(data) {
-  if (data.length < 21) throw new Error("cut");
+  if (data.length < 21) throw new Error("truncated");
   const count = data.readUInt32LE(16);
   if (count > (data.length - 21) >> 2) throw new Error("too many dimensions");
   const dimensions = [];

@@ -1,4 +1,4 @@
-"""What clients in Python do: struct over the bytes of a reply. Prints nanoseconds for each record."""
+"""A typical client in Python: struct on the bytes of a reply. Prints nanoseconds per record."""
 
 import struct
 import sys
@@ -22,7 +22,7 @@ def descriptors(data):
 
 def description(data):
     if len(data) < 21:
-        raise ValueError("cut")
+        raise ValueError("truncated")
     handle, kind, access, size, count = struct.unpack_from("<5I", data)
     if count > (len(data) - 21) // 4:
         raise ValueError("too many dimensions")

@@ -1,28 +1,28 @@
-//! What is measured, and against what it is held.
+//! The cases, with their limits.
 
-/// One thing measured.
+/// A measured case.
 #[derive(Clone, Copy)]
 pub struct Case {
-    /// What it is about: `description`.
+    /// The subject, such as `description`.
     pub subject: &'static str,
-    /// Who does it: `borrowed`, `by hand`.
+    /// The implementation, such as `borrowed` or `by hand`.
     pub who: &'static str,
-    /// Makes what is needed, which is not measured.
+    /// Creates the inputs; not measured.
     pub prepare: fn() -> Work,
-    /// What it may cost.
+    /// The limits of its cost.
     pub limits: &'static [Limit],
-    /// Whether it takes too long to be counted for every change.
+    /// Whether it takes too long to be counted on every change.
     pub is_long: bool,
 }
 
-/// What a case may cost.
+/// A limit of the cost of a case.
 #[derive(Clone, Copy)]
 pub enum Limit {
-    /// So many times the instructions of another of the same subject.
+    /// A multiple of the instructions of another case of the same subject.
     Instructions(&'static str, f64),
-    /// So many times the time of another of the same subject.
+    /// A multiple of the time of another case of the same subject.
     Time(&'static str, f64),
-    /// So many instructions for each unit more than another of the same subject.
+    /// A number of instructions per unit more than another case of the same subject.
     Over(&'static str, f64),
 }
 
@@ -35,16 +35,16 @@ impl Limit {
     }
 }
 
-/// Work that may be done again and again.
+/// Work that can be repeated.
 pub struct Work {
-    /// How many records, bytes or calls a go has; figures are for one of them.
+    /// The number of units in a run: records, bytes or calls. Figures are per unit.
     pub units: u64,
-    /// One go.
+    /// One run.
     pub run: Box<dyn FnMut()>,
 }
 
 impl Case {
-    /// Of `subject`, by `who`, without limits.
+    /// A case of `subject`, by the implementation `who`, without limits.
     pub(crate) const fn new(
         subject: &'static str,
         who: &'static str,
@@ -53,17 +53,17 @@ impl Case {
         Self { subject, who, prepare, limits: &[], is_long: false }
     }
 
-    /// With these limits.
+    /// Adds these limits.
     pub(crate) const fn within(self, limits: &'static [Limit]) -> Self {
         Self { limits, ..self }
     }
 
-    /// Counted with `--renew` only.
+    /// Makes the case counted with `--renew` only.
     pub(crate) const fn long(self) -> Self {
         Self { is_long: true, ..self }
     }
 
-    /// Whether something depends on what this costs.
+    /// Whether a limit depends on the cost of this case.
     pub(crate) fn is_gated(&self) -> bool {
         if self.is_long {
             return false;
@@ -74,8 +74,8 @@ impl Case {
     }
 }
 
-/// Work on each of the inputs in turn. The compiler may foresee neither what goes in nor that
-/// nothing of what comes out is needed.
+/// Processes each input in turn. The compiler can predict neither the inputs nor that the results are
+/// unused.
 macro_rules! each {
     ($inputs:expr, |$input:ident| $work:expr) => {
         $crate::case::each!($inputs, 1, |$input| $work)

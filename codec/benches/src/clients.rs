@@ -1,4 +1,4 @@
-//! The bytes that clients in other languages are given too, and what this crate takes for them.
+//! The bytes for clients in other languages, and the time of this crate for them.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::cases::descriptors::record;
 const RECORDS: u64 = 10_000;
 const TURNS: usize = 15;
 
-/// Writes `descriptors.bin`, one list, and `descriptions.bin`, each with its length in front.
+/// Writes `descriptors.bin`, one list, and `descriptions.bin`, each description after its length.
 pub fn write(folder: &Path) -> io::Result<()> {
     let list: Vec<u8> = (0..RECORDS).flat_map(record).collect();
     fs::write(folder.join("descriptors.bin"), list)?;
@@ -25,7 +25,7 @@ pub fn write(folder: &Path) -> io::Result<()> {
     fs::write(folder.join("descriptions.bin"), all)
 }
 
-/// An array of the user: handle, type, access, size, two dimensions, name.
+/// A user-defined array: handle, type, access, size, two dimensions, name.
 fn description(at: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     for number in [0x0200_0000 + at, 6, 2, 4 * 3 * 5, 2, 3, 5] {
@@ -35,7 +35,7 @@ fn description(at: u32) -> Vec<u8> {
     bytes
 }
 
-/// Prints nanoseconds for each record: what was done, and the median of the turns.
+/// Prints the operation and the median of nanoseconds per record.
 pub fn time(folder: &Path) -> io::Result<()> {
     let list = fs::read(folder.join("descriptors.bin"))?;
     let all = fs::read(folder.join("descriptions.bin"))?;

@@ -1,4 +1,4 @@
-//! The codec's samples: bytes of every stream, written by hand.
+//! The samples of the codec: bytes of every stream, written by hand.
 
 #[expect(dead_code, reason = "the codec's tests use more of it")]
 #[path = "../../tests/common/samples.rs"]
@@ -11,7 +11,7 @@ mod samples_elements;
 use ads_cnc::layout::Stream;
 use samples::Sample;
 
-/// So many streams are read in one go, or one round more.
+/// The minimum number of streams in a run, which is rounded up to whole rounds.
 const STREAMS: usize = 100;
 
 fn each(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
@@ -19,17 +19,17 @@ fn each(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     of.map(|(_, sample)| Sample::bytes(sample))
 }
 
-/// Its samples, often enough for what is done once to vanish.
+/// The samples, repeated so that one-time work is negligible.
 pub(crate) fn many(stream: Stream) -> Vec<&'static [u8]> {
     round(each(stream).collect())
 }
 
-/// Faulty bytes: cut anywhere, one too many or too long, as far as the stream has such a fault.
+/// Faulty bytes: truncated, with an extra byte, or too long, where these are faults of the stream.
 pub(crate) fn refused(stream: Stream, accepts: fn(&[u8]) -> bool) -> Vec<&'static [u8]> {
     round(faulty(stream).filter(|bytes| !accepts(bytes)).collect())
 }
 
-/// What may be faulty.
+/// The bytes to try as faulty.
 pub(crate) fn faulty(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     let cut = each(stream)
         .flat_map(|bytes| (0..bytes.len()).map(|len| bytes[..len].to_vec()).collect::<Vec<_>>());
@@ -45,8 +45,8 @@ fn round(of: Vec<Vec<u8>>) -> Vec<&'static [u8]> {
     of.repeat(times)
 }
 
-/// Every sample, every cut of each, each with a byte more, each with every byte changed, and
-/// too many bytes.
+/// Every sample: unchanged, truncated at every length, with an extra byte, with every byte changed,
+/// and too long.
 #[cfg(test)]
 pub(crate) fn all(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     let flip = |(at, by): (usize, u8), bytes: &[u8]| {

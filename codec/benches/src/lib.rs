@@ -1,4 +1,4 @@
-//! What the codec costs beside code written by hand, other libraries and a plain copy.
+//! The cost of the codec compared with code written by hand, other libraries and a plain copy.
 
 mod case;
 mod cases;

@@ -1,4 +1,4 @@
-// Reads and writes the simulated CNC by ads-client.
+// Reads and writes the simulated CNC with ads-client.
 //
 //     node ads_client.mjs TCP-PORT EXPECTED.json
 import assert from 'node:assert/strict';
@@ -11,12 +11,12 @@ const expected = JSON.parse(readFileSync(expectedFile, 'utf8'));
 const client = new Client({
   targetAmsNetId: '127.0.0.1.1.1',
   targetAdsPort: 552,
-  // Straight to the CNC, which needs no route: both ends of the connection are then given.
+  // A direct connection to the CNC, without a router: requires the addresses of both ends.
   routerAddress: '127.0.0.1',
   routerTcpPort: Number(tcpPort),
   localAmsNetId: '127.0.0.1.1.9',
   localAdsPort: 32900,
-  // No PLC is there, whose symbols and state could be read.
+  // A CNC has neither the symbols nor the state of a PLC.
   rawClient: true,
 });
 
@@ -45,7 +45,7 @@ async function read(name) {
 }
 
 async function main() {
-  // The variables, by their index.
+  // The variables, by index.
   const count = await send(cnc.countVariables(1, 'V.E'));
   const listed = [];
   for (let index = 0; index < count; index += 1) {
@@ -61,7 +61,7 @@ async function main() {
     shown(`${name}, written`, await read(name), value);
   }
 
-  // An element of SDA, by its name: the instance of the class, then the names of its elements.
+  // An element of SDA, by name: first the instance of the class, then the names of its elements.
   const { indexGroup, indexOffset } = await send(cnc.findInstance('HLD', 1, 0));
   const elements = await send(cnc.countElements(indexGroup, indexOffset));
   const names = [];
@@ -79,7 +79,7 @@ async function main() {
   const failure = await read('V.E.nothing').catch((error) => error);
   shown('V.E.nothing, ADS error', failure.adsError?.errorCode, 0x710);
 
-  // What happens without the length: zeros up to the length that was asked for.
+  // A reply padded with zeros to the read length, as from a library that does not return the length.
   const request = cnc.describeByIndex(1, 0, 'V.E');
   const { indexGroup: group, indexOffset: offset, readLength, data } = request;
   const reply = await client.readWriteRaw(group, offset, readLength, Buffer.from(data));

@@ -1,4 +1,4 @@
-"""Reads and writes the simulated CNC by pyads, over the AdsLib in its wheel.
+"""Reads and writes the simulated CNC with pyads, over the AdsLib in its wheel.
 
 python pyads_client.py HOST EXPECTED.json: AdsLib always connects to TCP port 48898.
 """
@@ -14,7 +14,7 @@ from pyads.pyads_ex import _adsDLL as ads_lib
 NET_ID = "127.0.0.1.1.1"
 
 
-# What was received, and no more: Connection.read_write of pyads does not say how much that is.
+# Returns only the received bytes: Connection.read_write of pyads does not return their number.
 def send(request):
     reply, received = ctypes.create_string_buffer(request.read_length), ctypes.c_uint32()
     to = local_port, ctypes.byref(pyads.AmsAddr(NET_ID, request.port).amsAddrStruct())
@@ -55,7 +55,7 @@ local_port = pyads.open_port()
 pyads.set_local_address("127.0.0.1.1.7")
 pyads.add_route(NET_ID, host)
 
-# The variables, by their index.
+# The variables, by index.
 types = {type.code: type.name for type in ads_cnc.TYPES}
 count = send(ads_cnc.count_variables(1, "V.E"))
 listed = [send(ads_cnc.describe_by_index(1, index, "V.E")) for index in range(count)]
@@ -68,7 +68,7 @@ for name, (type, value) in expected["write"].items():
     send(ads_cnc.write_by_name(1, name, ads_cnc.pack(type, value)))
     shown(f"{name}, written", read(name), value)
 
-# An element of SDA, by its name: the instance of the class, then the names of its elements.
+# An element of SDA, by name: first the instance of the class, then the names of its elements.
 instance = send(ads_cnc.find_instance("HLD", 1, 0))
 group, first = instance.index_group, instance.index_offset
 for at in range(first + 1, first + 1 + send(ads_cnc.count_elements(group, first))):
@@ -86,13 +86,13 @@ try:
 except pyads.ADSError as error:
     shown("V.E.nothing, ADS error", error.err_code, 0x710)
 
-# Connection.read_write raises an exception for a reply shorter than its buffer, or adds zeros at its end.
+# Connection.read_write raises an exception for a reply shorter than its buffer, or appends zeros to it.
 request = ads_cnc.describe_by_index(1, 0, "V.E")
 room, data = ctypes.c_ubyte * request.read_length, ctypes.c_ubyte * len(request.data)
 ask = request.index_group, request.index_offset, room, list(request.data), data
 with pyads.Connection(NET_ID, request.port, host) as plc:
     try:
-        sys.exit(f"not refused: {plc.read_write(*ask)}")
+        sys.exit(f"not rejected: {plc.read_write(*ask)}")
     except RuntimeError as error:
         check("a short reply", str(error).split(" (")[0], "Insufficient data")
     padded = bytes(plc.read_write(*ask, check_length=False))

@@ -1,12 +1,12 @@
 #!/usr/bin/env node
-// The npm package as a testee: conformance/adapters/README.md has the protocol.
+// The npm package as a testee; conformance/adapters/README.md describes the protocol.
 //
 //     ads-cnc run --testee "node codec/bindings/javascript/testee.mjs"
 
 import { createInterface } from 'node:readline';
 import * as cnc from './dist/index.js';
 
-// What the streams say needs a type beside the bytes.
+// The field of each stream whose value needs a type in addition to its bytes.
 const TYPED = {
   content: 'content',
   'variable-value': 'value',
@@ -93,7 +93,7 @@ const openText = (value) => ({ type: 'STRING', hex: hex(cnc.textToCp1252(value))
 const count = (data) => cnc.decode('object-count', data);
 const WORDS = { objectClass: 'class' };
 
-// What is no stream of the table. A group and an offset are numbers of four bytes, as a count is.
+// Subjects that are not streams of the table. A group and an offset are numbers of four bytes, like a count.
 const OTHERS = {
   'variable-path': {
     decode(data) {
@@ -122,7 +122,7 @@ const OTHERS = {
       const number = count(data),
         out = { index_group: numberOf('UNS32', number) };
       if (base && !(number >= Number(base) && number - Number(base) <= 255))
-        throw new RangeError('not of this base');
+        throw new RangeError('index group outside the range of its base');
       const group = cnc.groupParts(number);
       if (!group) return out;
       for (const [name, value] of Object.entries(group)) {
@@ -147,7 +147,7 @@ const OTHERS = {
 
 function decodeFrame(data) {
   const found = cnc.readFrame(data);
-  if (found?.length !== data.length) throw new RangeError('not one frame');
+  if (found?.length !== data.length) throw new RangeError('not exactly one frame');
   const { frame } = found;
   const out = {
     ams_tcp_header: decode('ams-tcp-header', data.slice(0, 6), {}),

@@ -1,5 +1,5 @@
-"""Builds the wheel, as PEP 517 has it: pure Python and the library of this platform, which `../build python`
-puts beside it. Needs only the standard library, as does installing the wheel."""
+"""The PEP 517 backend: builds a wheel of pure Python and the library for this platform, which `../build python`
+copies into the package. Needs only the standard library."""
 
 import base64
 import collections
@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 LICENCES = [HERE.parent.parent / f"LICENSE-{name}" for name in ("APACHE", "MIT")]
 LIBRARIES = ("libads_cnc.so", "libads_cnc.dylib", "ads_cnc.dll")
 
-# What the metadata of a wheel has.
+# The metadata of a wheel.
 About = collections.namedtuple("About", "name version summary licence python readme")
 
 
@@ -23,7 +23,7 @@ def field(name):
 
 def platform():
     name = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    # It needs memcpy, memset and bcmp of any C library: codec/bindings/run sees to it.
+    # The library only needs memcpy, memset and bcmp of any C library; codec/bindings/run verifies that.
     return name.replace("linux_", "manylinux_2_17_") if name.startswith("linux_") else name
 
 
@@ -32,9 +32,9 @@ def digest(data):
 
 
 def write_wheel(directory, about, platforms, files, executable=()):
-    """Writes a wheel of these files, by path; `platforms` are separated by dots. Returns its name.
+    """Writes a wheel with these files, by path; dots separate `platforms`. Returns the name of the wheel.
 
-    All wheels of one version have the same bytes, whenever they are made.
+    The wheel is reproducible: the same input always produces the same bytes.
     """
     name, tag = about.name.replace("-", "_"), f"py3-none-{platforms}"
     info = f"{name}-{about.version}.dist-info"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Python package, and by it the C library, as a testee: conformance/adapters/README.md has the protocol.
+"""The Python package and its C library as a testee; conformance/adapters/README.md describes the protocol.
 
 ads-cnc run --testee "python3 codec/bindings/python/testee.py"
 """
@@ -10,7 +10,7 @@ import sys
 
 import ads_cnc
 
-# What the streams say needs a type beside the bytes.
+# The field of each stream whose value needs a type in addition to its bytes.
 TYPED = {
     "content": "content",
     "variable-value": "value",
@@ -122,11 +122,11 @@ def decode_path(data, _):
 
 
 def decode_group(data, context):
-    # Both are numbers of four bytes, as a count is.
+    # Both are numbers of four bytes, like a count.
     number = ads_cnc.decode("object-count", data)
     out = {"index_group": number_of("UNS32", number)}
     if "base" in context and not 0 <= number - int(context["base"], 16) <= 255:
-        raise ValueError("not of this base")
+        raise ValueError("index group outside the range of its base")
     group = ads_cnc.group_parts(number)
     if group:
         words = {"object_class": "class", "attribute": "attribute"}
@@ -170,7 +170,7 @@ def encode_offset(given, context):
     return ads_cnc.encode("object-count", ads_cnc.axis_offset(axis, element, int(context["stride"], 16)))
 
 
-# What is no stream of the table.
+# Subjects that are not streams of the table.
 OTHERS = {
     "variable-path": (decode_path, encode_path),
     "index-group": (decode_group, encode_group),
@@ -181,7 +181,7 @@ OTHERS = {
 def decode_frame(data):
     found = ads_cnc.read_frame(data)
     if found is None or found[1] != len(data):
-        raise ValueError("not one frame")
+        raise ValueError("not exactly one frame")
     frame, out = found[0], {}
     for stream, part in (("ams-tcp-header", data[:6]), ("ams-header", data[6:38])):
         out[stream.replace("-", "_")] = decode(stream, part, {})
@@ -275,7 +275,7 @@ def answer(line):
         if seq is None:
             return {"seq": None, "error": {"message": "no JSON"}}
         return {"seq": seq, "reject": {"class": "value", "message": str(error)}}
-    except Exception as error:  # whatever it is, there is a next line
+    except Exception as error:  # any error is an answer; the next line follows
         return {"seq": seq, "error": {"message": repr(error)}}
 
 

@@ -1,4 +1,4 @@
-//! Carries an operation over the published crate `ads`; any other transport is as short.
+//! A transport over the published crate `ads`. Other transports are as short.
 
 use std::{env, error::Error, time::Duration};
 
@@ -26,7 +26,7 @@ pub(crate) struct Cnc {
 }
 
 impl Cnc {
-    /// The CNC that the first two arguments name, `127.0.0.1:48898 127.0.0.1.1.1` for one.
+    /// The CNC in the first two arguments, for example `127.0.0.1:48898 127.0.0.1.1.1`.
     pub(crate) fn from_args() -> Result<Self> {
         let argument = |place| env::args().nth(place).ok_or("arguments: HOST:PORT NET_ID …");
         let timeouts = Timeouts::new(Duration::from_secs(5));
@@ -34,7 +34,7 @@ impl Cnc {
         Ok(Self { client, net_id: argument(2)?.parse()? })
     }
 
-    /// Sends the operation and reads its reply, which borrows from `buf`.
+    /// Sends the operation and decodes its reply, which borrows from `buf`.
     pub(crate) fn call<'r, O: Operation>(
         &self,
         op: &O,

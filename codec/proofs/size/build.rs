@@ -1,4 +1,4 @@
-//! On Linux, too, the program goes without the C runtime.
+//! The program links no C runtime, on Linux as well.
 
 fn main() {
     if std::env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("linux") {

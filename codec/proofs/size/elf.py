@@ -1,4 +1,4 @@
-"""As much of ELF as it takes to weigh a program: its sections and the names in it."""
+"""Parses the sections and symbol names of an ELF file, to measure the size of a program."""
 
 import struct
 
@@ -7,9 +7,9 @@ class Elf:
     def __init__(self, path):
         self.bytes = path.read_bytes()
         if self.bytes[:4] != b"\x7fELF" or self.bytes[5] != 1:
-            raise ValueError(f"{path} is no little-endian ELF")
+            raise ValueError(f"{path} is not a little-endian ELF file")
         self.wide = self.bytes[4] == 2
-        # Where the section headers are, how long each is, how many, and which has their names.
+        # Offset, size and number of the section headers, and the index of the section with their names.
         (start,) = self.read("Q" if self.wide else "I", 40 if self.wide else 32)
         size, count, names = self.read("3H", 58 if self.wide else 46)
         heads = [self.head(start + at * size) for at in range(count)]

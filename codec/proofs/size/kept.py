@@ -1,12 +1,12 @@
-"""Which functions a program keeps: those that the lists of the public API name, part by part. What
-is generic stands in src/generic.rs, by hand, with the types it is used with."""
+"""The functions that a program keeps: those in the lists of the public API, part by part. Generic functions are
+in src/generic.rs, written by hand, with the types that they are used with."""
 
 import pathlib
 import re
 
 HERE = pathlib.Path(__file__).resolve().parent
 API = HERE.parent.parent / "api"
-# The part of a path is the first that it begins like; what is like none is of the views.
+# A path belongs to the first part whose pattern matches its start; the last pattern matches all paths.
 PARTS = {
     "text": r"(?:VariableAccess|VariableType|Synchronisation|Validity|WriteAccess|ads::\w+)::name",
     "tables": r"layout::|operation::(?:Function|FunctionSpec|GroupRule|OffsetRule)::",

@@ -17,23 +17,23 @@ use super::{Addressing, Channel, IndexGroup, Spindle};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClassGroup {
-    /// Logical or by index; [`Class::Spindle`] is only addressed by index.
+    /// Logical or by index; [`Class::Spindle`] is always addressed by index.
     pub addressing: Addressing,
     /// The class.
     pub class: Class,
-    /// The attribute of its elements.
+    /// The attribute of the elements.
     pub attribute: Attribute,
     /// Channel or spindle; 0 for the platform and for the query of an object address.
     pub instance: u8,
 }
 
 impl ClassGroup {
-    /// The group that returns the addresses of a class's instances; its instance is 0.
+    /// The group for querying the addresses of the instances of a class; its `instance` is 0.
     pub const fn object_address(class: Class) -> Self {
         Self { addressing: class.best(), class, attribute: Attribute::ObjectAddress, instance: 0 }
     }
 
-    /// The group that has these parts. That of a spindle is always by index: `addressing` is ignored.
+    /// The index group with these parts. For a spindle, `addressing` is ignored: it is always by index.
     pub const fn index_group(self) -> IndexGroup {
         let addressing = match self.class {
             Class::Spindle => Addressing::Index,
@@ -44,7 +44,7 @@ impl ClassGroup {
     }
 }
 
-/// Declares an enum by its variants, each with its number in the index group and its name.
+/// Declares an enum: for each variant, its number in the index group and its name.
 macro_rules! numbered {
     (
         $(#[$doc:meta])*
@@ -55,7 +55,7 @@ macro_rules! numbered {
         pub enum $type { $( $(#[$variant_doc])* $variant, )+ }
 
         impl $type {
-            /// All of them, in the order of their numbers.
+            /// All variants, in the order of their numbers.
             pub const ALL: [Self; [$( $number ),+].len()] = [$( Self::$variant ),+];
 
             const fn number(self) -> u8 {
@@ -70,7 +70,7 @@ macro_rules! numbered {
                 })
             }
 
-            /// `==` for constant functions.
+            /// `==` for `const fn`.
             pub(crate) const fn is(self, other: Self) -> bool {
                 self.number() == other.number()
             }
@@ -96,13 +96,13 @@ numbered! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     Class {
-        /// Position controller, once in a CNC, with the platform's axes.
+        /// Position controller: one per CNC, with the platform axes.
         PositionController = 0, "position controller";
         /// Interpolator of a channel.
         Interpolator = 1, "interpolator";
         /// Decoder of a channel.
         Decoder = 2, "decoder";
-        /// High-level driver of a channel; that of the first channel has the platform's axes too.
+        /// High-level driver of a channel; the driver of the first channel has the platform axes too.
         Hld = 3, "HLD";
         /// Path preparation of a channel.
         PathPreparation = 4, "path preparation";
@@ -137,11 +137,11 @@ numbered! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     Attribute {
-        /// The content, of the element's type.
+        /// The content, in the type of the element.
         Content = 3, "content";
         /// The name, a string.
         Name = 4, "name";
-        /// The type's name, a string.
+        /// The name of the type, a string.
         Type = 5, "type";
         /// The length of the content in bytes.
         Length = 6, "length";
@@ -149,7 +149,7 @@ numbered! {
         Unit = 7, "unit";
         /// Whether write access is permitted, a BOOLEAN (E-11).
         WriteFlag = 8, "write flag";
-        /// Channel and axis in, index group and index offset out.
+        /// A query: channel and axis in the request, index group and index offset in the reply.
         ObjectAddress = 9, "object address";
     }
 }
@@ -161,7 +161,7 @@ impl Attribute {
 }
 
 impl Channel {
-    /// The group of this channel's part of a class.
+    /// The index group of a class in this channel.
     pub const fn class(self, class: Class, attribute: Attribute) -> IndexGroup {
         let (addressing, instance) = (self.addressing(), self.number());
         ClassGroup { addressing, class, attribute, instance }.index_group()
@@ -169,7 +169,7 @@ impl Channel {
 }
 
 impl Spindle {
-    /// The group of this spindle's elements.
+    /// The index group of this spindle.
     pub const fn class(self, attribute: Attribute) -> IndexGroup {
         let (addressing, class) = (Addressing::Index, Class::Spindle);
         ClassGroup { addressing, class, attribute, instance: self.index() }.index_group()

@@ -7,11 +7,11 @@ use super::{
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_offset::ELEMENT;
 
-/// The greatest element (ADR-9).
+/// The largest element index (ADR-9).
 const ELEMENT_MAX: u32 = AxisStride::X10000.element_max();
 
-/// The address of an element of an instance of a class. The attribute is in the index group, the element
-/// in the index offset.
+/// The address of an element of an instance of a class. The index group contains the attribute, the
+/// index offset the element.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
 ///
@@ -34,8 +34,8 @@ pub struct ElementAddress {
 }
 
 impl ElementAddress {
-    /// The element at this offset, as a query of an object address returns it. The attribute of the group
-    /// is ignored.
+    /// The element at this group and offset, such as a query of an object address returns. The attribute
+    /// of the group is ignored.
     pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
         // Spindles have no logical address.
         let addressing = match group.class {
@@ -48,23 +48,23 @@ impl ElementAddress {
 
     /// An element of a channel itself.
     ///
-    /// Only for the classes that a channel has. With [`Class::Spindle`] the number of the channel is the
-    /// index of a spindle, from 0: use [`for_spindle`](Self::for_spindle). [`Class::PositionController`] has
-    /// the platform's axes and no channels: [`FindInstance`](crate::operation::FindInstance) reads their
-    /// addresses.
+    /// Use it only for classes that belong to a channel. With [`Class::Spindle`], the channel number
+    /// would be taken as the index of a spindle: use [`for_spindle`](Self::for_spindle).
+    /// [`Class::PositionController`] has platform axes but no channels:
+    /// [`FindInstance`](crate::operation::FindInstance) reads their addresses.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
+    /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits (ADR-9).
     pub fn for_channel(channel: Channel, class: Class, element: u32) -> Result<Self, Error> {
         let offset = IndexOffset::for_axis(Default::default(), 0, element)?;
         Ok(Self::with_class(channel.addressing(), class, channel.number(), offset))
     }
 
-    /// An element of an axis of a channel, 0x10000 from that of the next axis (ADR-7; assumed of
-    /// all classes but the decoder).
+    /// An element of an axis of a channel, with a stride of 0x10000 between axes (ADR-7; assumed for all
+    /// classes but the decoder).
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
+    /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits (ADR-9).
     pub fn for_axis(
         channel: Channel,
         class: Class,
@@ -78,7 +78,7 @@ impl ElementAddress {
     /// An element of a spindle.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
+    /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits (ADR-9).
     pub fn for_spindle(spindle: Spindle, element: u32) -> Result<Self, Error> {
         let offset = IndexOffset::for_axis(Default::default(), 0, element)?;
         Ok(Self::with_class(Addressing::Index, Class::Spindle, spindle.index(), offset))
@@ -94,10 +94,10 @@ impl ElementAddress {
         Self::new(ClassGroup { addressing, class, attribute, instance }, offset)
     }
 
-    /// The element whose index is `count` greater (SDA-4).
+    /// The element `count` indices after this one (SDA-4).
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] if the element needs more than 16 bits and would carry into the
+    /// [`ErrorKind::OutOfRange`] if the element index exceeds 16 bits and would overflow into the
     /// axis (ADR-9).
     pub fn nth(self, count: u32) -> Result<Self, Error> {
         let left = ELEMENT_MAX.saturating_sub(self.offset.get() & ELEMENT_MAX);
@@ -107,7 +107,7 @@ impl ElementAddress {
         }
     }
 
-    /// Class and instance; the attribute is the content.
+    /// Class and instance, with the attribute [`Attribute::Content`].
     pub const fn class_group(self) -> ClassGroup {
         self.group
     }

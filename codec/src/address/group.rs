@@ -10,7 +10,7 @@ const OBJECT: u32 = 0x03_0000;
 const COM_CHANNEL: u32 = 0x100;
 const COM_AXIS: u32 = 0x200;
 
-/// An index group as ADS carries it: any number.
+/// An index group: any number that ADS can carry.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
 ///
@@ -27,7 +27,7 @@ const COM_AXIS: u32 = 0x200;
 ///         instance: 1,
 ///     }))
 /// );
-/// // An unknown group stays a number.
+/// // An unknown group is only a number.
 /// assert_eq!(IndexGroup::new(0xF005).parts(), None);
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -35,7 +35,7 @@ const COM_AXIS: u32 = 0x200;
 pub struct IndexGroup(u32);
 
 impl IndexGroup {
-    /// Any number.
+    /// The index group with this number; any number is valid.
     pub const fn new(number: u32) -> Self {
         Self(number)
     }
@@ -45,7 +45,8 @@ impl IndexGroup {
         self.0
     }
 
-    /// The parts of the group; `None` if it is not documented. [`Group::index_group`] is the inverse.
+    /// The parts of the group; `None` if the group is not documented. [`Group::index_group`] is the
+    /// inverse.
     pub const fn parts(self) -> Option<Group> {
         let [instance, table, ..] = self.0.to_le_bytes();
         let addressing = match self.0 & LOGICAL {
@@ -106,8 +107,8 @@ impl fmt::Display for IndexGroup {
 pub enum Group {
     /// The COM task, AMS port 553.
     Com(ComGroup),
-    /// The SDA and GEO tasks, AMS ports 552 and 551. SDA serves the decoder; for the other classes the
-    /// task is not documented (ADR-10).
+    /// The SDA and GEO tasks, AMS ports 552 and 551. SDA serves the decoder; which task serves the other
+    /// classes is not documented (ADR-10).
     Class(ClassGroup),
 }
 
@@ -121,14 +122,14 @@ impl Group {
     }
 }
 
-/// Logical addressing or addressing by index (ADR-1).
+/// Logical addressing, or addressing by index (ADR-1).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
 ///
 /// ```
 /// use ads_cnc::address::{Attribute, Channel, Class};
 ///
-/// // channel 6, which is the second of the active ones
+/// // Channel 6, which is the second active channel.
 /// let interpolator = |channel: Channel| channel.class(Class::Interpolator, Attribute::Content);
 /// assert_eq!(interpolator(Channel::new(6)?).get(), 0x12_1306);
 /// assert_eq!(interpolator(Channel::by_index(2)?).get(), 0x2_1302);
@@ -138,7 +139,7 @@ impl Group {
 pub enum Addressing {
     /// By the configured number: bit 0x100000 is set.
     Logical,
-    /// By the rank among the active instances.
+    /// By the position among the active instances.
     Index,
 }
 
@@ -170,7 +171,7 @@ pub enum Access {
     Object,
 }
 
-/// Which of COM's two tables a group addresses (ADR-3).
+/// One of the two tables of the COM task (ADR-3).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 2.1.
 ///
@@ -183,7 +184,7 @@ pub enum Access {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ComTable {
-    /// 0x100: platform (0, or 1: the first channel drives it) and channels.
+    /// 0x100: the platform (0, or 1 because the first channel drives it) and the channels.
     Channel,
     /// 0x200: platform axes.
     Axis,
@@ -191,7 +192,7 @@ pub enum ComTable {
 
 /// The parts of a group of the COM task.
 ///
-/// `0x120101` is channel 1 and, as channel 1 drives it, the platform (E-04).
+/// `0x120101` is channel 1 and also the platform, because channel 1 drives the platform (E-04).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.1 and 2.1.2.
 ///
@@ -214,12 +215,12 @@ pub struct ComGroup {
     pub access: Access,
     /// Channels or platform axes.
     pub table: ComTable,
-    /// Channel (0 for the platform) or platform axis.
+    /// The channel (0 for the platform) or the platform axis.
     pub instance: u8,
 }
 
 impl ComGroup {
-    /// The platform's own group, channel 0.
+    /// The group of the platform, as channel 0.
     pub const fn platform(access: Access) -> Self {
         Self { addressing: Addressing::Logical, access, table: ComTable::Channel, instance: 0 }
     }
@@ -262,8 +263,8 @@ pub(super) const fn low(instance: u8) -> u32 {
 mod tests {
     use super::*;
 
-    /// ADR-10: every group of the manuals comes apart and goes together again, and no other
-    /// number of 24 bits comes apart into parts that add up to something else.
+    /// ADR-10: every documented group parses, and every 24-bit number that parses is built again from
+    /// its parts.
     #[test]
     #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
     fn parts_add_up_to_the_group() {

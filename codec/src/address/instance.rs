@@ -9,7 +9,7 @@ use crate::layout::Field;
 use crate::layout::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
 use crate::layout::index_offset::CHANNEL_AXIS;
 
-/// Checks a number against the bits it has in a group or offset (ADR-9).
+/// Checks that a number fits its bits in an index group or index offset (ADR-9).
 fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
     let nearest = range(field).map_or(number, |(_, least, most)| number.max(least).min(most));
     match N::try_from(number) {
@@ -18,10 +18,10 @@ fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
     }
 }
 
-/// The greatest instance: it has 8 bits of an index group (ADR-9).
+/// The largest instance: it has 8 bits of an index group (ADR-9).
 const INSTANCE_MAX: u32 = 0xFF;
 
-/// The name and the range of a number that a constructor takes.
+/// The name and the range of the argument of a constructor.
 pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     match field {
         CHANNEL => Some(("channel", 1, INSTANCE_MAX)),
@@ -32,10 +32,10 @@ pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
-/// A channel, counted from 1 (GEN-6): by its number, or by its rank among the active ones.
+/// A channel, counted from 1 (GEN-6): by its logical number, or by its index among the active channels.
 ///
-/// By rank, a channel moves when one before it is deactivated (ADR-11), so the manuals
-/// recommend the number, which they call logical addressing.
+/// The index of a channel changes when a channel before it is deactivated (ADR-11). The manuals
+/// therefore recommend the number, which they call logical addressing.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
 ///
@@ -62,7 +62,7 @@ impl Channel {
         Self::with_addressing(number, Addressing::Logical)
     }
 
-    /// The channel of this rank among the active channels.
+    /// The channel with this index among the active channels.
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for 0 and for a number of more than 8 bits.
@@ -83,18 +83,18 @@ impl Channel {
         Ok(Self { number: check(CHANNEL, number)?, addressing })
     }
 
-    /// The number, or the rank.
+    /// The logical number, or the index.
     pub const fn number(self) -> u8 {
         self.number
     }
 
-    /// Whether [`number`](Self::number) is a number or a rank.
+    /// Whether [`number`](Self::number) is a logical number or an index.
     pub const fn addressing(self) -> Addressing {
         self.addressing
     }
 }
 
-/// A platform axis, counted from 1 in the configured order; its index never changes (ADR-13).
+/// A platform axis, counted from 1 in the order of the configuration. Its index never changes (ADR-13).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 2.1.
 ///
@@ -122,8 +122,8 @@ impl PlatformAxis {
     }
 }
 
-/// The index of an axis in a channel, counted from 1. Axis exchange changes which axis has the index
-/// (ADR-13).
+/// The index of an axis in a channel, counted from 1. An axis exchange changes which axis has which
+/// index (ADR-13).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 4.2.2.
 ///
@@ -131,7 +131,7 @@ impl PlatformAxis {
 /// use ads_cnc::address::ChannelAxis;
 ///
 /// assert_eq!(ChannelAxis::new(2)?.offset(4)?.get(), 0x2_0004);
-/// // At axis 0 the same elements are other functions (VAR-26).
+/// // With axis 0, the same elements are other functions (VAR-26).
 /// assert!(ChannelAxis::new(0).is_err());
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -154,15 +154,15 @@ impl ChannelAxis {
         (axis > 0).then_some(Self(axis))
     }
 
-    /// The number, from 1.
+    /// The index, from 1.
     pub const fn index(self) -> u16 {
         self.0
     }
 
-    /// The offset of an element of the axis, 0x10000 from that of the next axis.
+    /// The index offset of an element of this axis, with a stride of 0x10000 between axes.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits.
+    /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits.
     pub fn offset(self, element: u32) -> Result<IndexOffset, Error> {
         IndexOffset::for_axis(AxisStride::X10000, self.0.into(), element)
     }
@@ -175,7 +175,7 @@ impl ChannelAxis {
 /// ```
 /// use ads_cnc::address::{Attribute, Spindle};
 ///
-/// // the third spindle
+/// // The third spindle.
 /// assert_eq!(Spindle::new(2)?.class(Attribute::Content).get(), 0x2_5302);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -197,21 +197,21 @@ impl Spindle {
     }
 }
 
-/// The number, or the rank.
+/// The logical number, or the index.
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.number().fmt(f)
     }
 }
 
-/// The number, from 1.
+/// The index, from 1.
 impl fmt::Display for PlatformAxis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.index().fmt(f)
     }
 }
 
-/// The number, from 1.
+/// The index, from 1.
 impl fmt::Display for ChannelAxis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.index().fmt(f)

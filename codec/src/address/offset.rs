@@ -5,18 +5,18 @@ use core::fmt;
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_offset::{AXIS, ELEMENT};
 
-/// An index offset as ADS carries it: any number.
+/// An index offset: any number that ADS can carry.
 ///
-/// The manuals print two strides between the axes of a channel (E-01), and an offset does not
-/// tell which was used: `0x10001` is element 1 of axis 1, or of axis 16. For axes of COM a client takes
-/// group and offset from the object's descriptor instead of computing them (ADR-8).
+/// The manuals print two strides between the axes of a channel (E-01), and an offset does not show which
+/// one it was computed with: `0x10001` is element 1 of axis 1, or of axis 16. For axes of COM, a client
+/// should use the group and offset in the object's descriptor instead of computing them (ADR-8).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.2, 2.2.2 and 4.2.2.
 ///
 /// ```
 /// use ads_cnc::address::{AxisStride, IndexOffset};
 ///
-/// // "handle by name" of the second axis
+/// // The function "handle by name" of the second axis.
 /// let offset = IndexOffset::for_axis(AxisStride::default(), 2, 4)?;
 /// assert_eq!(offset.get(), 0x2_0004);
 /// assert_eq!(offset.axis_and_element(AxisStride::X10000)?, (2, 4));
@@ -27,7 +27,7 @@ use crate::layout::index_offset::{AXIS, ELEMENT};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndexOffset(u32);
 
-/// The greatest axis: it has 16 bits (ADR-9).
+/// The largest axis: it has 16 bits (ADR-9).
 pub(super) const AXIS_MAX: u32 = 0xFFFF;
 
 /// The distance between the axes of a channel in index offsets.
@@ -43,10 +43,10 @@ pub(super) const AXIS_MAX: u32 = 0xFFFF;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum AxisStride {
-    /// 0x10000: SDA and GEO (ADR-7), COM by its examples (ADR-8).
+    /// 0x10000: SDA and GEO (ADR-7), and COM according to its examples (ADR-8).
     #[default]
     X10000,
-    /// 0x1000: COM by its table, and the HLD's first platform axis as printed (E-01).
+    /// 0x1000: COM according to its table, and the first platform axis of the HLD as printed (E-01).
     X1000,
 }
 
@@ -64,7 +64,7 @@ impl AxisStride {
 }
 
 impl IndexOffset {
-    /// Any number.
+    /// The index offset with this number; any number is valid.
     pub const fn new(number: u32) -> Self {
         Self(number)
     }
@@ -74,11 +74,11 @@ impl IndexOffset {
         self.0
     }
 
-    /// The offset of an axis's element; axis 0 is the channel itself.
+    /// The index offset of an element of an axis; axis 0 is the channel itself.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] if the axis has more than 16 bits or the element is not less than the
-    /// stride (ADR-9).
+    /// [`ErrorKind::OutOfRange`] if the axis exceeds 16 bits, or the element is not less than the stride
+    /// (ADR-9).
     pub const fn for_axis(stride: AxisStride, axis: u32, element: u32) -> Result<Self, Error> {
         if axis > AXIS_MAX {
             return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, AXIS_MAX, axis));
@@ -90,10 +90,10 @@ impl IndexOffset {
         Ok(Self((axis << stride.element_bits()) | element))
     }
 
-    /// Axis and element, read with this stride.
+    /// The axis and the element, if the offset was computed with this stride.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an axis of more than 16 bits, which is possible with the stride
+    /// [`ErrorKind::OutOfRange`] for an axis that exceeds 16 bits, which is possible with the stride
     /// 0x1000.
     pub const fn axis_and_element(self, stride: AxisStride) -> Result<(u32, u32), Error> {
         let axis = self.0 >> stride.element_bits();

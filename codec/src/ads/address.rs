@@ -1,4 +1,4 @@
-//! Addresses of senders and receivers.
+//! AMS addresses of senders and receivers.
 
 use core::fmt;
 use core::str::FromStr;
@@ -6,7 +6,7 @@ use core::str::FromStr;
 use crate::error::{Error, ErrorKind};
 use crate::layout::ams_net_id::{NUMBER, NUMBERS};
 
-/// An AMS NetId, six bytes written with dots.
+/// An AMS NetId: six bytes, written in decimal with dots between them.
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
@@ -44,8 +44,8 @@ impl fmt::Debug for AmsNetId {
 impl FromStr for AmsNetId {
     type Err = Error;
 
-    /// Reads six numbers of one byte with dots between them; the offset in an error is that of the number
-    /// in the text.
+    /// Parses six numbers of one byte with dots between them. The offset in an error is the offset of
+    /// the number in the text.
     fn from_str(text: &str) -> Result<Self, Error> {
         let mut id = [0; 6];
         let mut parts = parts(text);
@@ -72,7 +72,7 @@ impl FromStr for AmsNetId {
     }
 }
 
-/// The parts of the text between its dots. `str::split` would leave a panic in the program.
+/// The parts of the text between its dots. `str::split` would compile a panic into the program.
 fn parts(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     core::iter::from_fn(move || {
@@ -143,9 +143,9 @@ impl fmt::Debug for AmsPort {
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct AmsAddr {
-    /// The device.
+    /// The NetId of the device.
     pub net_id: AmsNetId,
-    /// The port on it.
+    /// The port on the device.
     pub port: AmsPort,
 }
 

@@ -23,7 +23,7 @@ code! {
         WRITE = 3;
         /// ReadState.
         READ_STATE = 4;
-        /// WriteControl. This project does not send it.
+        /// WriteControl. No operation of this crate uses it.
         WRITE_CONTROL = 5;
         /// AddDeviceNotification.
         ADD_NOTIFICATION = 6;
@@ -44,7 +44,7 @@ code! {
     /// ```
     /// use ads_cnc::ads::StateFlags;
     ///
-    /// // A response has the flags of its request and the response bit.
+    /// // A response has the flags of its request, plus the response bit.
     /// assert_eq!(StateFlags::RESPONSE, StateFlags(StateFlags::REQUEST.0 | 1));
     /// ```
     StateFlags(u16) in hex {
@@ -58,8 +58,8 @@ code! {
 code! {
     /// An ADS or AMS error number; 0 is success (ADS-4).
     ///
-    /// The numbers that a CNC returns are not documented (ADS-7): those named here are assumed. A client
-    /// should only distinguish 0 from other numbers.
+    /// The manuals do not document which numbers a CNC returns (ADS-7); the constants are assumptions. A
+    /// client should only distinguish 0 from other numbers.
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
@@ -75,7 +75,7 @@ code! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
-    /// It implements `Error`, for use with `?`:
+    /// The type implements `Error`, for use with `?`:
     ///
     /// ```
     /// # use ads_cnc::{Decode, ads::WriteReply};
@@ -96,13 +96,13 @@ code! {
         TARGET_PORT_NOT_FOUND = 0x6;
         /// AMS: no such machine.
         TARGET_MACHINE_NOT_FOUND = 0x7;
-        /// Service is not supported.
+        /// The service is not supported.
         SERVICE_NOT_SUPPORTED = 0x701;
         /// Invalid index group.
         INVALID_GROUP = 0x702;
         /// Invalid index offset.
         INVALID_OFFSET = 0x703;
-        /// Must not be read or written.
+        /// Reading or writing is not permitted.
         INVALID_ACCESS = 0x704;
         /// The size is wrong.
         INVALID_SIZE = 0x705;
@@ -114,15 +114,15 @@ code! {
 }
 
 impl AdsError {
-    /// Whether this is success.
+    /// Whether the number is 0: success.
     pub const fn is_ok(self) -> bool {
         self.0 == 0
     }
 
-    /// Success as `Ok`, everything else as the error.
+    /// Converts success to `Ok` and any other number to `Err`.
     ///
     /// # Errors
-    /// The error itself, unless it is [`NO_ERROR`](Self::NO_ERROR).
+    /// This error, unless it is [`NO_ERROR`](Self::NO_ERROR).
     pub const fn into_result(self) -> Result<(), Self> {
         if self.is_ok() { Ok(()) } else { Err(self) }
     }

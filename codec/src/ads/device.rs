@@ -10,17 +10,17 @@ use crate::number::code;
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 
-/// Bytes of a device's name.
+/// Bytes of the name of a device.
 const NAME_LEN: usize = most::<InfoLayout>("name");
 
 #[doc = include_str!("../../doc/device-info-reply.md")]
 ///
-/// The request has no data. A reply whose result is not 0 may end after it (ADS-6): then it is a
-/// [`WriteReply`](super::WriteReply).
+/// The request has no data. A reply whose result is not 0 may end after the result (ADS-6): decode
+/// such a reply as a [`WriteReply`](super::WriteReply).
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -57,7 +57,7 @@ impl DeviceInfoReply {
         zerocopy::transmute!(self.layout())
     }
 
-    /// The name, which ends at its first NUL or fills its bytes.
+    /// The name: the bytes before the first NUL, or all of them.
     pub fn name(&self) -> CncStr<'_> {
         CncStr::until_nul(&self.name)
     }
@@ -130,11 +130,11 @@ code! {
     /// assert_ne!(AdsState(16), AdsState::CONFIG);
     /// ```
     AdsState(u16) {
-        /// It is running.
+        /// The device is running.
         RUN = 5;
-        /// It has been stopped.
+        /// The device is stopped.
         STOP = 6;
-        /// It is being configured.
+        /// The device is being configured.
         CONFIG = 15;
     }
 }
@@ -142,12 +142,12 @@ code! {
 stream! {
     /// The state of an ADS device: the reply to ReadState.
     ///
-    /// The request has no data. A reply whose result is not 0 may end after it (ADS-6): then it is a
-    /// [`WriteReply`](super::WriteReply).
+    /// The request has no data. A reply whose result is not 0 may end after the result (ADS-6): decode
+    /// such a reply as a [`WriteReply`](super::WriteReply).
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```

@@ -11,7 +11,7 @@ use crate::layout::{Field, Stream, Subject};
 use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN, length};
 use crate::stream::{Decode, Encode};
 
-/// One frame: an AMS header and the data after it.
+/// A frame: an AMS header and its data.
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
@@ -29,7 +29,7 @@ use crate::stream::{Decode, Encode};
 /// let mut buf = [0; 64];
 /// let bytes = FrameRef::new(header, &[0; 4])?.encode(&mut buf)?;
 ///
-/// // Bytes arrive in pieces; a frame is returned when it is complete.
+/// // TCP delivers bytes in pieces; `split` returns a frame when it is complete.
 /// assert_eq!(FrameRef::split(&bytes[..40], 1024)?, None);
 /// let (frame, len) = FrameRef::split(bytes, 1024)?.unwrap();
 /// assert_eq!((frame.header(), frame.data(), len), (header, &[0; 4][..], 42));
@@ -42,18 +42,18 @@ pub struct FrameRef<'a> {
 }
 
 impl<'a> FrameRef<'a> {
-    /// Bytes of the two headers before the data.
+    /// The length of the two headers before the data, in bytes.
     pub const HEADERS_LEN: usize = AMS_TCP_HEADER_LEN + AMS_HEADER_LEN;
 
-    /// The most bytes of a frame.
+    /// The maximum length of a frame in bytes.
     #[cfg(feature = "alloc")]
     pub(crate) const LEN_MAX: usize = Self::HEADERS_LEN + DATA_MAX;
 
-    /// A frame with this data; the header's `data_length` is set to it.
+    /// A frame with this data. Sets `data_length` in the header.
     ///
     /// # Errors
-    /// [`ErrorKind::TooLong`] for data over [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) bytes and
-    /// the services' headers.
+    /// [`ErrorKind::TooLong`] for more than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) bytes of data
+    /// after the header of the service.
     pub fn new(header: AmsHeader, data: &'a [u8]) -> Result<Self, Error> {
         let data_length = to_u32(data.len());
         check(data_length, u32::MAX)?;
@@ -70,12 +70,12 @@ impl<'a> FrameRef<'a> {
         self.data
     }
 
-    /// The first frame of `received` and its length; `None` if bytes are missing.
+    /// The first frame in `received`, and its length in bytes; `None` if the frame is not complete yet.
     ///
     /// # Errors
-    /// For a `reserved` that is not 0, lengths that disagree, and lengths of more than `max_data` bytes of
-    /// data or of more than a service can have; as soon as the header is complete. The TCP stream cannot
-    /// be split any further then.
+    /// As soon as the header is complete: a `reserved` that is not 0, lengths that disagree, and a
+    /// length of more than `max_data` bytes of data or of more than any service can have. After an
+    /// error, no further frame can be found in the TCP stream: close the connection.
     pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
         let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
             return Ok(None);
@@ -96,7 +96,7 @@ impl<'a> FrameRef<'a> {
         let header = AmsHeader::decode(header)?;
         if header.data_length != data_length {
             let field = const { Field::of::<HeaderLayout>("data_length") };
-            // From the start of the frame, as all offsets in this function.
+            // Offsets in this function count from the start of the frame.
             let at = const { HeaderLayout::LAYOUT.offset("data_length") };
             let (at, found) = (at.saturating_add(to_u32(AMS_TCP_HEADER_LEN)), header.data_length);
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
@@ -114,7 +114,7 @@ impl Encode for FrameRef<'_> {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        // `new` limits the data; here the compiler sees that no sum of lengths overflows.
+        // `new` limits the data; `min` proves to the compiler that no sum of lengths overflows.
         let data_length = to_u32(self.data.len().min(DATA_MAX));
         let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
         Writer::fill(Subject::Stream(Stream::AmsTcpHeader), self.encoded_len(), buf, |out| {
@@ -125,11 +125,11 @@ impl Encode for FrameRef<'_> {
     }
 }
 
-/// The length of a frame.
+/// The length field of a frame.
 const LENGTH: Field = Field::of::<AmsTcpHeader>("length");
 const LENGTH_AT: u32 = AmsTcpHeader::LAYOUT.offset("length");
 
-/// The most data of a frame: the longest stream of a service.
+/// The maximum length of the data of a frame: the longest stream of a service.
 const DATA_MAX: usize = length::<ReadWriteRequestRef<'_>>();
 
 fn check(data_length: u32, max: u32) -> Result<(), Error> {

@@ -15,7 +15,7 @@ stream! {
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -36,7 +36,7 @@ stream! {
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -69,11 +69,11 @@ pub struct AmsHeader {
     pub source: AmsAddr,
     /// The ADS command that the frame requests or answers.
     pub command: Command,
-    /// Request or response.
+    /// Whether the frame is a request or a response.
     pub state_flags: StateFlags,
     /// Bytes that follow the header.
     pub data_length: u32,
-    /// AMS error; a response with one may have no data (ADS-6).
+    /// AMS error; a response with an error may have no data (ADS-6).
     pub error: AdsError,
     /// Pairs a response with its request.
     pub invoke_id: u32,
@@ -125,7 +125,7 @@ impl Encode for AmsHeader {
 }
 
 impl AmsHeader {
-    /// A request; [`FrameRef::new`](super::FrameRef::new) sets the length of its data.
+    /// The header of a request; [`FrameRef::new`](super::FrameRef::new) sets `data_length`.
     pub const fn request(
         target: AmsAddr,
         source: AmsAddr,
@@ -136,7 +136,8 @@ impl AmsHeader {
         Self { target, source, command, state_flags, data_length: 0, error, invoke_id }
     }
 
-    /// The header of the response to this request: source and target swapped, same command and invoke ID.
+    /// The header of the response to this request: source and target are swapped, command and invoke
+    /// ID kept.
     ///
     /// ```
     /// use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, StateFlags};

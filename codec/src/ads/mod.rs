@@ -1,7 +1,7 @@
 //! ADS Read, Write, ReadWrite, ReadDeviceInfo and ReadState, the AMS headers, and frames on a TCP stream
 //! (ADS-1 … ADS-9).
 //!
-//! A client without an ADS library sends an operation in a frame:
+//! To send an operation without an ADS library, put it into a frame:
 //!
 //! ```
 //! use ads_cnc::address::Channel;
@@ -11,7 +11,7 @@
 //!
 //! let op = CountVariables::new(Channel::new(1)?, Kind::V_E);
 //!
-//! // The operation, the request of its ADS service, the frame.
+//! // Encode the operation, then the request of its ADS service, then the frame.
 //! let (mut data, mut service, mut frame) = ([0; 256], [0; 512], [0; 512]);
 //! let call = op.call(&mut data)?;
 //! let target = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: call.port };
@@ -28,7 +28,7 @@
 //! assert_eq!(reply.header().invoke_id, 1);
 //! reply.header().error.into_result()?;
 //!
-//! // The reply of the service, which may be an ADS error, and that of the operation.
+//! // Decode the reply of the service, which may be an ADS error, then the reply of the operation.
 //! let reply = ReadWriteReplyRef::decode(reply.data())?;
 //! reply.result.into_result()?;
 //! assert_eq!(op.decode_reply(reply.data.unwrap_or_default())?.0, 123);
@@ -36,12 +36,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A Read is answered by a [`ReadReplyRef`], a Write by a [`WriteReply`]. The NetId of `source` is any to which
-//! the target has a route, its port any that is free there, for example above 0x8000. The target sends replies
-//! to both; a program that reads several at once finds the request of each by its `invoke_id`.
+//! The reply to a Read is a [`ReadReplyRef`], the reply to a Write a [`WriteReply`]. In `source`, use
+//! a NetId to which the target has a route, and any free port, for example above 0x8000. The target
+//! sends its replies to that NetId and port. With several requests in flight, match replies to
+//! requests by `invoke_id`.
 //!
 //! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The
-//! source of everything else is the vendors' public help pages.
+//! vendors' public help pages are the source of everything else.
 
 mod address;
 mod codes;

@@ -13,7 +13,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -29,7 +29,7 @@ stream! {
     }
 }
 
-/// The fields of a reply with data: the replies to Read and ReadWrite have the same rows.
+/// The fields of a reply with data; the replies to Read and ReadWrite have the same rows.
 const fn fields(stream: Stream) -> [Field; 3] {
     const RESULT: Field = Field::of::<ReadReplyRef<'_>>("result");
     const LENGTH: Field = Field::of::<ReadReplyRef<'_>>("length");
@@ -64,7 +64,7 @@ fn encode<'b>(
     buf: &'b mut [u8],
 ) -> Result<&'b [u8], Error> {
     let Some(data) = data else {
-        // Only an error may have no data.
+        // Only the reply with an error may have no data.
         if result.is_ok() {
             let [_, length_field, _] = fields(stream);
             return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));
@@ -83,11 +83,11 @@ macro_rules! reply_with_data {
     ($doc:literal, $stream:ident, $ref:ident, $owned:ident) => {
         #[doc = include_str!($doc)]
         ///
-        /// A reply whose result is not 0 may end after it (ADS-6): then it has no data.
+        /// A reply whose result is not 0 may end after the result, without data (ADS-6).
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
         ///
-        /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+        /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
         /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
         ///
         /// ```

@@ -8,7 +8,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -33,7 +33,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -57,7 +57,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```

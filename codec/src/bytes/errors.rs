@@ -22,7 +22,7 @@ pub(crate) fn truncated(stream: Stream, at: u32, left: usize) -> Error {
 }
 
 /// The error for more or fewer bytes than those of a stream of fixed fields.
-// Inlined, it would cost each decoder of a fixed stream the registers that it saves.
+// Inlining would make each decoder of a fixed stream save registers.
 #[cold]
 #[inline(never)]
 pub(super) fn not_all(stream: Stream, size: usize, given: usize) -> Error {

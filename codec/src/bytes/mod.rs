@@ -1,4 +1,4 @@
-//! Reading from a slice and writing into one, by the rules of the field tables.
+//! Reading from slices and writing to slices by the rules of the field tables.
 
 mod errors;
 mod reader;
@@ -8,7 +8,7 @@ pub(crate) use errors::truncated;
 pub(crate) use reader::Reader;
 pub(crate) use writer::Writer;
 
-/// A length as errors carry it.
+/// A length, in the type that errors use.
 pub(crate) fn to_u32(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)
 }

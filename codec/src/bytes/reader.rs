@@ -10,7 +10,7 @@ use crate::layout::{Field, Stream};
 use crate::text::end::{not_cstring, not_optional_nul, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
-/// The bytes that are left of a stream, and their offset.
+/// The remaining bytes of a stream, and their offset.
 pub(crate) struct Reader<'a> {
     stream: Stream,
     bytes: &'a [u8],
@@ -18,7 +18,7 @@ pub(crate) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Begins to read `bytes`, which must not be longer than the stream may be.
+    /// Starts reading a stream; rejects more bytes than its maximum length.
     #[inline]
     pub(crate) fn new(stream: Stream, bytes: &'a [u8]) -> Result<Self, Error> {
         let max = stream.layout().max;
@@ -28,7 +28,8 @@ impl<'a> Reader<'a> {
         Ok(Self::without_limit(stream, bytes))
     }
 
-    /// Begins to read a stream whose fields determine its end: more bytes are trailing, not too long.
+    /// Starts reading a stream whose fields determine its end: extra bytes are `Trailing`, not
+    /// `TooLong`.
     pub(crate) fn without_limit(stream: Stream, bytes: &'a [u8]) -> Self {
         Self { stream, bytes, at: 0 }
     }
@@ -42,7 +43,7 @@ impl<'a> Reader<'a> {
         T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
     }
 
-    /// The number that is the only field of a stream.
+    /// Reads a stream whose only field is a number.
     #[inline]
     pub(crate) fn number(stream: Stream, field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
         let mut input = Self::without_limit(stream, bytes);
@@ -97,7 +98,7 @@ impl<'a> Reader<'a> {
         Ok(u32::from_le_bytes(*le))
     }
 
-    /// The fixed rows that the stream begins with.
+    /// The fixed rows at the start of the stream.
     #[inline]
     pub(crate) fn head<const N: usize>(&mut self) -> Result<&'a [u8; N], Error> {
         let Some((head, rest)) = self.bytes.split_first_chunk() else {
@@ -108,7 +109,7 @@ impl<'a> Reader<'a> {
         Ok(head)
     }
 
-    /// `count` items of `each` bytes; the field `counter`, right before, is the count.
+    /// `count` items of `each` bytes; the preceding field, `counter`, contains the count.
     pub(crate) fn items(
         &mut self,
         counter: Field,
@@ -121,11 +122,11 @@ impl<'a> Reader<'a> {
             let at = self.at.saturating_sub(4);
             return Err(Error::new(ErrorKind::TooMany, counter, at, fits, count));
         }
-        // No overflow: the items fit the bytes that are left.
+        // No overflow: the items fit into the remaining bytes.
         self.take(counter, count.saturating_mul(each))
     }
 
-    /// `count` numbers, as [`items`](Self::items).
+    /// `count` numbers; otherwise like [`items`](Self::items).
     pub(crate) fn numbers(
         &mut self,
         counter: Field,
@@ -137,8 +138,8 @@ impl<'a> Reader<'a> {
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
-    /// Reads the rest of the stream as NUL-terminated text that NULs may pad. The caller has limited
-    /// the stream, so that the text is not longer than `max`.
+    /// Reads the rest of the stream as NUL-terminated text, possibly padded with NULs. The caller has
+    /// checked the length of the stream, so the text is not longer than `max`.
     pub(crate) fn cstring(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
@@ -149,25 +150,25 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Text up to and including the NUL that must end it.
+    /// Text up to and including its NUL, which is required.
     pub(crate) fn cstring_prefix(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
         let window = self.bytes.get(..to_usize(max)).unwrap_or(self.bytes);
         let Some((text, _)) = split_nul(window) else {
             return Err(self.error(ErrorKind::MissingNul, field, max));
         };
-        // A second split, but the code is smaller than with one split of all bytes.
+        // A second split, which makes the code smaller than one split of all bytes.
         self.take(field, to_u32(text.len()).saturating_add(1))?;
         Ok(CncStr::without_nul(text))
     }
 
-    /// All that is left.
+    /// All remaining bytes.
     #[inline]
     pub(crate) fn take_all(&mut self) -> &'a [u8] {
         self.at = self.at.saturating_add(self.left());
         core::mem::take(&mut self.bytes)
     }
 
-    /// All that is left, between `min` and `max` bytes.
+    /// All remaining bytes, between `min` and `max`.
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
         if self.bytes.len() < to_usize(min) {
             return Err(self.error(ErrorKind::Truncated, field, min));
@@ -178,7 +179,7 @@ impl<'a> Reader<'a> {
         Ok(self.take_all())
     }
 
-    /// As [`rest`](Self::rest), as text and, after a NUL, its tail.
+    /// Like [`rest`](Self::rest), as text and the tail after its NUL.
     #[inline]
     pub(crate) fn text_and_tail(
         &mut self,
@@ -189,7 +190,7 @@ impl<'a> Reader<'a> {
         self.rest(field, min, max).map(TextRef::split)
     }
 
-    /// The rest of the stream, at least one byte, as text with any number of NULs at its end.
+    /// All remaining bytes, at least one, as text with any number of NULs at its end.
     pub(crate) fn optional_nul(&mut self, field: Field) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
@@ -214,7 +215,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// All that is left: one, two or four bytes.
+    /// All remaining bytes: one, two or four.
     #[inline]
     pub(crate) fn uns8_to_32(&mut self, field: Field) -> Result<&'a [u8], Error> {
         match self.left() {
@@ -223,7 +224,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Nothing may be left.
+    /// Rejects remaining bytes.
     pub(crate) fn finish(self) -> Result<(), Error> {
         match self.bytes {
             [] => Ok(()),

@@ -1,4 +1,4 @@
-//! Writing into a slice.
+//! Writing to a slice.
 
 use super::errors::too_long;
 use super::{to_u32, to_usize};
@@ -6,13 +6,13 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream, Subject};
 use crate::stream::Encode;
 
-/// Writes into a buffer whose length is checked before the first byte is written.
+/// Writes to a buffer whose length was checked before the first byte is written.
 pub(crate) struct Writer<'b> {
     rest: &'b mut [u8],
 }
 
 impl<'b> Writer<'b> {
-    /// Takes exactly `len` bytes of `buf`, or nothing at all.
+    /// Writes exactly `len` bytes of `buf`, or nothing.
     #[inline]
     pub(crate) fn run(
         stream: Stream,
@@ -25,7 +25,7 @@ impl<'b> Writer<'b> {
         Ok(room)
     }
 
-    /// Exactly `len` bytes of `buf`, which a stream may have.
+    /// The first `len` bytes of `buf`; rejects a length that exceeds the stream's maximum.
     #[inline]
     fn room(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
         let max = stream.layout().max;
@@ -44,19 +44,19 @@ impl<'b> Writer<'b> {
         })
     }
 
-    /// Writes into this buffer.
+    /// A writer to this buffer.
     #[inline]
     pub(crate) fn new(rest: &'b mut [u8]) -> Self {
         Self { rest }
     }
 
-    /// Writes these bytes, which are all of the stream.
+    /// Writes a stream that consists of these bytes.
     #[inline]
     pub(crate) fn copy(stream: Stream, bytes: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Self::run(stream, bytes.len(), buf, |out| out.put(bytes))
     }
 
-    /// As [`run`](Self::run), without the maximum of a stream: errors name this subject.
+    /// Like [`run`](Self::run), but without a maximum length; errors name this subject.
     #[inline]
     pub(crate) fn fill(
         subject: Subject,
@@ -69,7 +69,7 @@ impl<'b> Writer<'b> {
         Ok(room)
     }
 
-    /// The next `len` bytes to write; empty if fewer are left.
+    /// The next `len` bytes to write; empty if fewer remain.
     #[inline]
     pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
         match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
@@ -89,7 +89,7 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Writes a stream that is a part of this one.
+    /// Writes a stream that is part of this one.
     #[inline]
     pub(crate) fn stream(&mut self, part: &impl Encode) {
         // No error: the buffer has the length of the part.
@@ -109,7 +109,7 @@ impl<'b> Writer<'b> {
         self.array(number.to_le_bytes());
     }
 
-    /// A NUL and the bytes after it, usually none.
+    /// Writes a NUL and the bytes after it, usually none.
     #[inline]
     pub(crate) fn nul_and(&mut self, tail: &[u8]) {
         self.put(&[0]);

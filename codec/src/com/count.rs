@@ -1,16 +1,16 @@
-//! Offset 0: the number of objects.
+//! The number of objects, at offset 0 of a list.
 
 use crate::declare::stream;
 
 stream! {
     /// The number of objects in a list.
     ///
-    /// Read at offset 0 of a group with object access. Its width is not documented: assumed.
-    /// It is the number of objects in the addressed list (E-36).
+    /// Read at offset 0 of a group with object access. Only the objects in the addressed list count
+    /// (E-36). The width of the number is not documented; 4 bytes are assumed.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```

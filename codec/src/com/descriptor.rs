@@ -1,4 +1,4 @@
-//! One object descriptor.
+//! An object descriptor.
 
 use core::fmt;
 
@@ -19,7 +19,7 @@ use crate::value::DataType;
 /// The name of an object.
 const NAME: Field = Field::of::<DescriptorLayout>("name");
 
-/// The name of its type.
+/// The name of the type of an object.
 const TYPE: Field = Field::of::<DescriptorLayout>("type");
 
 stream! {
@@ -38,7 +38,7 @@ stream! {
 }
 
 code! {
-    /// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
+    /// Whether an object may be written. Any number but 0 is TRUE; the number is kept (E-08).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
     ///
@@ -51,15 +51,15 @@ code! {
     /// ```
     #[derive(Default)]
     WriteAccess(u16) {
-        /// FALSE, as written.
+        /// FALSE: 0 when encoded.
         READ_ONLY = 0;
-        /// TRUE, as written.
+        /// TRUE: 1 when encoded.
         WRITABLE = 1;
     }
 }
 
 impl WriteAccess {
-    /// Whether this is TRUE.
+    /// Whether the object may be written: any number but 0.
     pub const fn is_writable(self) -> bool {
         self.0 != 0
     }
@@ -67,11 +67,11 @@ impl WriteAccess {
 
 #[doc = include_str!("../../doc/object-descriptor.md")]
 ///
-/// Texts end at their first NUL or fill their 32 bytes; the bytes after the NUL are kept.
+/// A text ends at its first NUL, or fills its 32 bytes. Bytes after the NUL are kept.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -89,7 +89,7 @@ impl WriteAccess {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DescriptorRef<'a>(pub(super) &'a DescriptorLayout);
 
-/// [`DescriptorRef`], owned: 84 bytes, without an allocation.
+/// An owned [`DescriptorRef`]: 84 bytes, without an allocation.
 ///
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -116,7 +116,7 @@ macro_rules! accessors {
             self.0.id.get()
         }
 
-        /// Bytes of the object's content.
+        /// Length of the object's content in bytes.
         pub const fn size(&self) -> u32 {
             self.0.size.get()
         }
@@ -126,7 +126,7 @@ macro_rules! accessors {
             WriteAccess(self.0.write_access.get())
         }
 
-        /// The two bytes without a meaning.
+        /// The two unassigned bytes.
         pub const fn not_assigned(&self) -> u16 {
             self.0.not_assigned.get()
         }
@@ -146,13 +146,13 @@ macro_rules! accessors {
             CncStr::until_nul(&self.0.name)
         }
 
-        /// Name of the content's type: BOOL BYTE SINT WORD INT DWORD DINT LWORD LINT REAL LREAL
-        /// STRING, or any other.
+        /// Name of the content's type: BOOL, BYTE, SINT, WORD, INT, DWORD, DINT, LWORD, LINT, REAL,
+        /// LREAL, STRING, or any other.
         pub fn type_name(&self) -> CncStr<$lifetime> {
             CncStr::until_nul(&self.0.type_name)
         }
 
-        /// Bytes of one item of the type (GEN-5); `None` for STRING and for any other name.
+        /// Length of one value of the type in bytes (GEN-5); `None` for STRING and for unknown types.
         pub fn type_size(&self) -> Option<u32> {
             self.data_type().and_then(DataType::size)
         }
@@ -171,18 +171,18 @@ impl<'a> DescriptorRef<'a> {
 impl Descriptor {
     accessors!('_);
 
-    /// An object of this name and type; the other fields are 0.
+    /// A descriptor with this name and type; the other fields are 0.
     ///
     /// # Errors
-    /// Those of [`CncStr::new`], and [`ErrorKind::TooLong`] over 32 characters.
+    /// Those of [`CncStr::new`], and [`ErrorKind::TooLong`] for more than 32 characters.
     pub fn new(name: &str, type_name: &str) -> Result<Self, Error> {
         Self::from_text(CncStr::new(name)?, CncStr::new(type_name)?)
     }
 
-    /// As [`new`](Self::new), from CP1252 texts, such as those of another descriptor.
+    /// Like [`new`](Self::new), but from CP1252 texts, such as those of another descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::TooLong`] over 32 characters.
+    /// [`ErrorKind::TooLong`] for more than 32 characters.
     pub fn from_text(name: CncStr<'_>, type_name: CncStr<'_>) -> Result<Self, Error> {
         let mut layout = DescriptorLayout {
             id: U32::ZERO,
@@ -204,35 +204,35 @@ impl Descriptor {
         Ok(Self(layout))
     }
 
-    /// With this number.
+    /// Sets the internal number of the object.
     #[must_use]
     pub fn with_id(mut self, id: u32) -> Self {
         self.0.id = id.into();
         self
     }
 
-    /// With this many bytes of content.
+    /// Sets the length of the content in bytes.
     #[must_use]
     pub fn with_size(mut self, size: u32) -> Self {
         self.0.size = size.into();
         self
     }
 
-    /// With this access.
+    /// Sets the write access.
     #[must_use]
     pub fn with_write_access(mut self, access: WriteAccess) -> Self {
         self.0.write_access = access.0.into();
         self
     }
 
-    /// With these two bytes where nothing is assigned.
+    /// Sets the two unassigned bytes.
     #[must_use]
     pub fn with_not_assigned(mut self, not_assigned: u16) -> Self {
         self.0.not_assigned = not_assigned.into();
         self
     }
 
-    /// With its content at this address.
+    /// Sets the address of the content.
     #[must_use]
     pub fn with_content(mut self, group: IndexGroup, offset: IndexOffset) -> Self {
         self.0.index_group = group.get().into();
@@ -264,7 +264,7 @@ impl<'d> From<&DescriptorRef<'d>> for DescriptorRef<'d> {
     }
 }
 
-/// Puts a text into its 32 bytes.
+/// Writes a text into its 32 bytes.
 fn pad(text: CncStr<'_>, field: Field, at: u32, bytes: &mut [u8]) -> Result<(), Error> {
     let (len, max) = (text.len(), to_u32(bytes.len()));
     if to_u32(len) > max {

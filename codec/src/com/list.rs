@@ -1,4 +1,4 @@
-//! Descriptors in sequence.
+//! A sequence of descriptors.
 
 use core::fmt;
 use core::slice;
@@ -17,12 +17,12 @@ use crate::stream::{Decode, Encode};
 ///
 /// Each record is a [`DescriptorRef`].
 ///
-/// The read length is a multiple of 84; the reply has at most that many records, fewer at the end of
-/// the list.
+/// The read length of the request is a multiple of 84 and limits the number of records. At the end of
+/// the list, a reply has fewer.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`TooLong`](crate::ErrorKind::TooLong).
 ///
 /// ```
@@ -55,26 +55,26 @@ impl<'a> DescriptorsRef<'a> {
         self.0.is_empty()
     }
 
-    /// The descriptor at this index, from 0.
+    /// The descriptor at this index, from 0; `None` after the end.
     #[inline]
     pub fn get(&self, index: usize) -> Option<DescriptorRef<'a>> {
         self.0.get(index).map(DescriptorRef)
     }
 
-    /// At most `count` descriptors from index `first` on; empty after the end.
+    /// Up to `count` descriptors, starting at index `first`; empty after the end.
     pub fn slice(&self, first: usize, count: usize) -> Self {
         let from = self.0.get(first..).unwrap_or_default();
         Self(from.get(..count).unwrap_or(from))
     }
 
-    /// The descriptors in their order.
+    /// Iterates over the descriptors.
     #[inline]
     pub fn iter(&self) -> DescriptorIter<'a> {
         DescriptorIter(self.0.iter())
     }
 }
 
-/// The descriptors of a list in their order.
+/// An iterator over the descriptors of a list.
 ///
 /// ```
 /// use ads_cnc::{Decode, DescriptorIter, DescriptorsRef};
@@ -148,7 +148,7 @@ impl Encode for DescriptorsRef<'_> {
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         if self.is_empty() {
-            // An empty list is not a valid stream: this returns the error of the decoder.
+            // An empty list is not a valid stream: return the error of the decoder.
             Self::decode(&[])?;
         }
         Writer::copy(Self::STREAM, self.0.as_bytes(), buf)
@@ -171,7 +171,7 @@ mod owned {
     use super::*;
     use crate::com::Descriptor;
 
-    /// [`DescriptorsRef`], owned.
+    /// An owned [`DescriptorsRef`].
     ///
     /// ```
     /// use ads_cnc::{Descriptor, Descriptors};
@@ -221,17 +221,17 @@ mod owned {
             self.0.len()
         }
 
-        /// Whether the list has no descriptor.
+        /// Returns `true` if the list is empty.
         pub fn is_empty(&self) -> bool {
             self.0.is_empty()
         }
 
-        /// The descriptors in their order.
+        /// Iterates over the descriptors.
         pub fn iter(&self) -> DescriptorIter<'_> {
             self.as_ref().iter()
         }
 
-        /// Adds one at the end.
+        /// Appends a descriptor.
         pub fn push(&mut self, object: Descriptor) {
             self.0.push(object.0);
         }

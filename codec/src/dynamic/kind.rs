@@ -1,15 +1,15 @@
-//! The four kinds and their index offsets.
+//! The four kinds of dynamic parameters and their index offsets.
 
 use core::fmt;
 
 use crate::address::IndexOffset;
 
-/// A kind of dynamic parameters. Its functions on the decoder of a channel:
+/// A kind of dynamic parameters. The decoder of a channel has four functions for them:
 /// [`CountDynamic`](crate::operation::CountDynamic),
 /// [`DynamicNameByIndex`](crate::operation::DynamicNameByIndex),
 /// [`DynamicValueByName`](crate::operation::DynamicValueByName) and
-/// [`DynamicValueByIndex`](crate::operation::DynamicValueByIndex), each with an index offset of its
-/// own.
+/// [`DynamicValueByIndex`](crate::operation::DynamicValueByIndex). Each has its own index offset for
+/// each kind.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
 ///
@@ -36,10 +36,10 @@ pub enum DynamicKind {
 }
 
 impl DynamicKind {
-    /// All of them, in the manual's order.
+    /// All kinds, in the order of the manual.
     pub const ALL: [Self; 4] = [Self::P, Self::VL, Self::VP, Self::VS];
 
-    /// The offset for this kind, of a function's four offsets.
+    /// The offset for this kind, from the four offsets of a function.
     pub(crate) const fn offset(self, [p, vl, vp, vs]: [u32; 4]) -> IndexOffset {
         IndexOffset::new(match self {
             Self::P => p,
@@ -49,7 +49,7 @@ impl DynamicKind {
         })
     }
 
-    /// The kind whose offset this is.
+    /// The kind with this offset.
     pub(crate) fn from_offset(offsets: [u32; 4], offset: IndexOffset) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.offset(offsets) == offset)
     }

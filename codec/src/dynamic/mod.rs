@@ -1,6 +1,6 @@
 //! Dynamic parameters, which the NC program creates and deletes: P, V.L, V.P and V.S (DYN-1 … DYN-7).
 //!
-//! Their number and their indices change: the manual advises to read a value by its name.
+//! Their number and their indices change, so the manual recommends reading a value by its name.
 //!
 //! ```
 //! use ads_cnc::address::Channel;

@@ -5,12 +5,12 @@ use crate::declare::stream;
 stream! {
     /// The name of a dynamic parameter.
     ///
-    /// The name ends at its first NUL or with the reply (assumed). Bytes after the NUL are kept, and
-    /// there is at least one byte.
+    /// The name ends at its first NUL, or at the end of the reply (assumed). Bytes after the NUL are
+    /// kept. The reply has at least one byte.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -27,14 +27,14 @@ stream! {
 }
 
 stream! {
-    /// Asks for a dynamic parameter by its name.
+    /// The request for a dynamic parameter by its name.
     ///
-    /// A new request ends in a NUL; that the NUL may be missing, and that more NULs may pad the name,
-    /// is assumed.
+    /// A new request ends in one NUL. A decoded request may lack the NUL, or have several of them as
+    /// padding (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```

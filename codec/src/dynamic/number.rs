@@ -14,11 +14,11 @@ use crate::stream::{Decode, Encode};
 stream! {
     /// The number of dynamic parameters.
     ///
-    /// Indices run from 1 to this number.
+    /// The indices of the parameters are 1 to this number.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -37,11 +37,11 @@ stream! {
 crate::number::shown!(DynamicCount);
 
 stream! {
-    /// Asks for a dynamic parameter by its index.
+    /// The request for a dynamic parameter by its index.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`OutOfRange`](crate::ErrorKind::OutOfRange) or [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -64,7 +64,7 @@ stream! {
 crate::number::shown!(DynamicIndex);
 
 impl DynamicIndex {
-    /// Rejects 0, as the decoder does.
+    /// Rejects 0, like the decoder.
     pub(crate) fn check(self) -> Result<Self, Error> {
         let field = const { Field::of::<Self>("index") };
         NonZero::check(self.0, field, 0).map(|()| self)
@@ -73,11 +73,11 @@ impl DynamicIndex {
 
 #[doc = include_str!("../../doc/dynamic-value.md")]
 ///
-/// All bits are kept, also those of a NaN; two values are equal if their bits are.
+/// All bits are kept, including those of a NaN. Two values are equal if their bits are equal.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -114,7 +114,7 @@ impl DynamicValue {
         self.bits.to_le_bytes()
     }
 
-    /// The value's bits.
+    /// The bits of the value.
     pub const fn to_bits(self) -> u64 {
         self.bits
     }

@@ -1,9 +1,9 @@
-//! Checks of the declaration of a stream, which the compiler evaluates.
+//! Compile-time checks of the declaration of a stream.
 
 use super::spec::{FieldSpec, Layout, Size, is_same};
 
 impl Layout {
-    /// Whether all fixed fields are in the head of the stream, where they are read.
+    /// Whether all fixed fields are in the head of the stream, from which they are read.
     pub(crate) const fn is_headed(&self) -> bool {
         let (mut fields, mut is_head) = (self.fields, true);
         while let [row, rest @ ..] = fields {
@@ -16,7 +16,8 @@ impl Layout {
         true
     }
 
-    /// Whether the field of this name is where the rows before it end, at their fewest bytes.
+    /// Whether the field with this name begins at the end of the rows before it, at their minimum
+    /// length.
     pub(crate) const fn is_at(&self, name: &str) -> bool {
         let (mut fields, mut end, mut per_item) = (self.fields, 0_u32, 0_u32);
         while let [row, rest @ ..] = fields {
@@ -33,8 +34,8 @@ impl Layout {
         false
     }
 
-    /// Whether the maximum length of the stream fits the maximum of each row, and equals it where
-    /// no other check limits the row.
+    /// Whether the maximum length of the stream leaves room for the maximum of each row, and exactly
+    /// that room where no other check limits the row.
     pub(crate) const fn is_filled(&self) -> bool {
         let (mut fields, mut before) = (self.fields, 0_u32);
         while let [row, rest @ ..] = fields {
@@ -59,13 +60,13 @@ impl Layout {
 
 #[cfg(feature = "arbitrary")]
 impl Layout {
-    /// Bytes that a stream may have beyond the fewest of its rows.
+    /// The bytes that a stream may have in excess of the minimum of its rows.
     pub(crate) fn room(&self) -> usize {
         crate::bytes::to_usize(self.max.saturating_sub(least(self.fields)))
     }
 }
 
-/// The fewest bytes of these rows.
+/// The minimum length of these rows in bytes.
 const fn least(mut fields: &[FieldSpec]) -> u32 {
     let mut least = 0_u32;
     while let [row, rest @ ..] = fields {
@@ -87,16 +88,15 @@ mod tests {
             let (ty, meaning, clause) = (Type::Uns32, "", "");
             FieldSpec { name, offset, per_item, size, ty, meaning, clause }
         };
-        // Reachable to the end, so Miri does not report a leak.
+        // A static keeps the fields reachable, so Miri reports no leak.
         static LEAKED: Mutex<Vec<&[FieldSpec]>> = Mutex::new(Vec::new());
         let fields = &*rows.iter().map(row).collect::<Vec<_>>().leak();
         LEAKED.lock().expect("no test panics with it").push(fields);
         Layout { fields, ..DescriptionRef::LAYOUT }
     }
 
-    /// The checks find the mistakes of a declaration.
     #[test]
-    fn wrong_tables_are_found() {
+    fn checks_detect_wrong_tables() {
         const LIST: Size = Size::Items { each: 4, max: 5 };
         const FOUR: Size = Size::Fixed(4);
         const REST: Size = Size::Rest { min: 0, max: 9 };
@@ -116,9 +116,8 @@ mod tests {
         assert!(NameWriteRef::LAYOUT.is_at("value") && HandleWriteRef::LAYOUT.is_at("value"));
     }
 
-    /// The maximum of a row must be the room that the length of the stream leaves it.
     #[test]
-    fn maxima_that_no_row_enforces_are_found() {
+    fn checks_detect_a_maximum_that_no_row_enforces() {
         let filled = |max, rows: &[_]| Layout { max, ..layout(rows) }.is_filled();
         let list = [("n", 0, 0, Size::Fixed(4)), ("list", 4, 0, Size::Items { each: 4, max: 5 })];
         assert_eq!([23, 24, 27, 28].map(|max| filled(max, &list)), [false, true, true, false]);
@@ -139,9 +138,8 @@ mod tests {
         }
     }
 
-    /// Limits and offsets are those of the rows.
     #[test]
-    fn limits_are_those_of_the_rows() {
+    fn limits_and_offsets_equal_those_of_the_rows() {
         for (size, most) in [
             (Size::Fixed(4), 4),
             (Size::Items { each: 4, max: 5 }, 5),
@@ -160,7 +158,7 @@ mod tests {
 
     #[test]
     #[should_panic = "no field of this name"]
-    fn a_name_of_no_field_has_no_maximum() {
+    fn maximum_of_an_unknown_field_panics() {
         layout(&[]).most("value");
     }
 }

@@ -1,4 +1,4 @@
-//! A field, as an error names it.
+//! The field that an error names.
 
 use core::fmt;
 
@@ -6,7 +6,7 @@ use super::spec::FieldSpec;
 use super::{Stream, Subject};
 use crate::declare::Declared;
 
-/// A field of a stream, a part of another [`Subject`], or a whole stream or subject.
+/// A field of a stream, a part of another [`Subject`], or a stream or subject as a whole.
 ///
 /// ```
 /// use ads_cnc::layout::{Field, Stream};
@@ -29,24 +29,24 @@ impl Field {
         Self { subject, index }
     }
 
-    /// The field of this name of a declared stream.
+    /// The field with this name in a declared stream.
     pub(crate) const fn of<T: Declared>(name: &str) -> Self {
         let index = T::LAYOUT.index(name);
         assert!(index != u8::MAX, "the stream has no field of this name");
         Self::new(Subject::Stream(T::STREAM), index)
     }
 
-    /// The previous field: of a list, its count.
+    /// The previous field; for a list, its count.
     pub(crate) const fn before(self) -> Self {
         Self { index: self.index.saturating_sub(1), ..self }
     }
 
-    /// The field of the same name of another stream, whose rows are the same.
+    /// The same field of another stream, which must have the same rows.
     pub(crate) const fn in_stream(self, stream: Stream) -> Self {
         Self { subject: Subject::Stream(stream), ..self }
     }
 
-    /// The stream as a whole: its length, its end.
+    /// The stream as a whole, for errors of its length or end.
     pub const fn whole(stream: Stream) -> Self {
         Self::whole_subject(Subject::Stream(stream))
     }
@@ -56,17 +56,17 @@ impl Field {
         Self { subject, index: u8::MAX }
     }
 
-    /// The whole that this is a part of.
+    /// The stream or subject of this field as a whole.
     pub(crate) const fn to_whole(self) -> Self {
         Self::whole_subject(self.subject)
     }
 
-    /// The field of `stream` with this name.
+    /// The field of `stream` with this name; `None` if there is no such field.
     pub fn by_name(stream: Stream, name: &str) -> Option<Self> {
         stream.fields().find(|field| field.name() == name)
     }
 
-    /// The subject that this is a part of.
+    /// The subject that the field belongs to.
     pub const fn subject(self) -> Subject {
         self.subject
     }
@@ -79,13 +79,13 @@ impl Field {
         }
     }
 
-    /// The row of the stream's table; `None` for the stream as a whole and for a part of another
+    /// The row in the table of the stream; `None` for a stream as a whole and for a part of another
     /// subject.
     pub fn spec(self) -> Option<&'static FieldSpec> {
         self.stream()?.layout().fields.get(usize::from(self.index))
     }
 
-    /// The field's name; `stream` for the whole.
+    /// The name of the field; `stream` for a stream as a whole.
     pub fn name(self) -> &'static str {
         self.subject.part(self.index).unwrap_or("stream")
     }
@@ -104,19 +104,19 @@ impl fmt::Debug for Field {
 }
 
 impl Stream {
-    /// The fields in their order on the wire.
+    /// The fields, in the order on the wire.
     pub fn fields(self) -> impl Iterator<Item = Field> {
         (0u8..)
             .zip(self.layout().fields)
             .map(move |(index, _)| Field::new(Subject::Stream(self), index))
     }
 
-    /// Every stream that has bytes: all but [`NoData`](Self::NoData).
+    /// All streams that have bytes: all but [`NoData`](Self::NoData).
     pub fn all() -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied()
     }
 
-    /// The stream with this name.
+    /// The stream with this name; `None` if there is no such stream.
     pub fn by_name(name: &str) -> Option<Self> {
         Self::all().find(|stream| stream.layout().name == name)
     }
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     #[should_panic = "no field of this name"]
-    fn a_name_of_no_field_is_no_field() {
+    fn unknown_field_of_a_declared_stream_panics() {
         Field::of::<DescriptionRef<'_>>("dimension");
     }
 }

@@ -1,14 +1,14 @@
-//! The fixed fields that a record begins with, as numbers: an error is built without their names.
+//! The fixed fields at the start of a record, as numbers: building an error does not need their names.
 
 use super::spec::FieldSpec;
 use crate::limits::to_usize;
 
-/// Number of the fixed fields that a record begins with.
+/// The number of fixed fields at the start of a record.
 pub(super) const fn count(fields: &[FieldSpec]) -> usize {
     measure(fields).0
 }
 
-/// Their sizes, one after the other without a gap.
+/// The sizes of these fields, which have no gaps between them.
 pub(super) const fn sizes<const COUNT: usize>(fields: &[FieldSpec]) -> [u8; COUNT] {
     let mut sizes = [0; COUNT];
     let (mut left, mut rows): (&mut [u8], _) = (&mut sizes, fields);
@@ -19,7 +19,7 @@ pub(super) const fn sizes<const COUNT: usize>(fields: &[FieldSpec]) -> [u8; COUN
     sizes
 }
 
-/// The bytes of the fixed fields that a record begins with.
+/// The length of the fixed fields at the start of a record, in bytes.
 pub(super) const fn head(fields: &[FieldSpec]) -> usize {
     measure(fields).1
 }
@@ -40,9 +40,9 @@ const fn measure(mut fields: &[FieldSpec]) -> (usize, usize) {
 mod tests {
     use crate::layout::Stream;
 
-    /// The sizes are those of the rows, and the offsets of the rows are their sums.
+    /// The sizes equal those of the rows, and their sums equal the offsets of the rows.
     #[test]
-    fn heads_are_the_fixed_fields_in_front() {
+    fn heads_consist_of_the_leading_fixed_fields() {
         for stream in Stream::all().chain([Stream::NoData]) {
             let rows = stream.layout().fields;
             let front = rows.iter().take_while(|row| row.per_item == 0 && row.size.fixed() > 0);

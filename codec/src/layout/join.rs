@@ -1,4 +1,4 @@
-//! A stream from the bytes of its fields: the reverse of a walk.
+//! Building a stream from the bytes of its fields: the inverse of a walk.
 
 use core::iter::Peekable;
 
@@ -7,12 +7,13 @@ use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 
 impl Stream {
-    /// Writes the stream to the front of `buf` from the bytes of its fields, and returns the bytes written:
-    /// the reverse of [`walk`](Self::walk), for programs that know the stream only at run time.
+    /// Writes a stream to the front of `buf` from the bytes of its fields, and returns the bytes
+    /// written. This is the inverse of [`walk`](Self::walk), for programs that know the stream only at
+    /// run time.
     ///
-    /// The parts are in the order of the table, each item of a list a part of its own, each record after
-    /// the one before. A count may be missing: it is that of its items. Texts have their NUL, if they have
-    /// one; NULs that pad a text of fixed length may be missing.
+    /// Pass the parts in the order of the table, record by record; each item of a list is its own
+    /// part. You may omit a count, which is then computed from its items, and the NULs that pad a text
+    /// of fixed length. Any other text must include its NUL, if it has one.
     ///
     /// ```
     /// use ads_cnc::layout::{Field, Stream};
@@ -26,9 +27,10 @@ impl Stream {
     /// ```
     ///
     /// # Errors
-    /// Those of the stream's decoders; [`Mismatch`](ErrorKind::Mismatch) with the lengths of field and part
-    /// at the first field that would not have the bytes of its part, also because a part is missing or
-    /// is not in order; [`BufferTooSmall`](ErrorKind::BufferTooSmall). What is in `buf` then is unspecified.
+    /// Those of the stream's decoders; [`Mismatch`](ErrorKind::Mismatch), with the lengths of field
+    /// and part, at the first field whose bytes would differ from its part, for example because a part
+    /// is missing or out of order; [`BufferTooSmall`](ErrorKind::BufferTooSmall). After an error, the
+    /// contents of `buf` are unspecified.
     pub fn join<P, B>(self, parts: P, buf: &mut [u8]) -> Result<&[u8], Error>
     where
         P: IntoIterator<Item = (Field, B), IntoIter: Clone>,
@@ -44,7 +46,7 @@ impl Stream {
             .buf
             .get(..out.at)
             .ok_or_else(|| Error::new(ErrorKind::BufferTooSmall, whole, 0, needed, given))?;
-        // What was written is read again: only that shows what a reader finds in it.
+        // Only decoding the result shows which fields a reader finds in it.
         let mut read = Read { stream: self, parts: parts.peekable(), fault: None };
         self.walk(bytes, |segment| read.compare(&segment))?;
         let unread =
@@ -59,7 +61,7 @@ impl Stream {
     }
 }
 
-/// The bytes that are written, and how many they are, even beyond the end of the buffer.
+/// The output and its length, which also counts bytes that do not fit into the buffer.
 struct Out<'b> {
     buf: &'b mut [u8],
     at: usize,
@@ -68,13 +70,13 @@ struct Out<'b> {
 impl Out<'_> {
     fn put(&mut self, bytes: &[u8]) {
         if let Some(room) = self.buf.get_mut(self.at..) {
-            // The writer writes what fits.
+            // The writer drops bytes that do not fit.
             Writer::new(room).put(bytes);
         }
         self.at = self.at.saturating_add(bytes.len());
     }
 
-    /// Writes the parts of a record; whether there were any.
+    /// Writes the parts of a record; returns whether it had any.
     fn record<B: AsRef<[u8]>>(
         &mut self,
         stream: Stream,
@@ -102,7 +104,7 @@ impl Out<'_> {
                         self.put(&[0]);
                     }
                 }
-                // After the result of an error, data may be absent with its length.
+                // After an error, both the length and the data may be absent.
                 size if stream.is_count(field) => {
                     let is_there = matches!(size, Size::Fixed(_)) || parts.peek().is_some();
                     count_at = (items == 0 && is_there).then_some(start);
@@ -124,7 +126,7 @@ impl Out<'_> {
     }
 }
 
-/// The parts, as they are found in the bytes.
+/// Compares the parts with the fields found in the bytes.
 struct Read<P: Iterator> {
     stream: Stream,
     parts: Peekable<P>,

@@ -1,8 +1,8 @@
-//! The field table of every stream, and a walk over a stream's bytes by its table.
+//! The field table of every stream, and a walk over the bytes of a stream by its table.
 //!
-//! An [`Error`](crate::Error) names the fields of these tables, and the documentation of each stream shows
-//! its table. A tool can explain the bytes of any stream by its table, as the example does. IDs such as VAR-9
-//! are explained on the [front page](crate#ids).
+//! An [`Error`](crate::Error) names the fields of these tables, and the documentation of each stream
+//! shows its table. A tool can use the tables to explain the bytes of any stream, as in the example.
+//! The [front page](crate#ids) explains IDs such as VAR-9.
 //!
 //! ```
 //! use ads_cnc::layout::Stream;

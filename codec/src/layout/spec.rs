@@ -19,35 +19,35 @@ pub struct Layout {
     pub name: &'static str,
     /// A description of the stream.
     pub title: &'static str,
-    /// The requirement that defines it, by its ID.
+    /// The ID of the requirement that defines the stream.
     pub clause: &'static str,
     /// The maximum length in bytes.
     pub max: u32,
-    /// The fields are one record; the stream is one or more of them.
+    /// Whether the stream consists of one or more records with these fields.
     pub repeats: bool,
-    /// The fields in their order on the wire.
+    /// The fields, in the order on the wire.
     pub fields: &'static [FieldSpec],
 }
 
 impl Layout {
-    /// Whether every stream of this kind has the same length.
+    /// Whether the stream always has the same length.
     pub fn is_fixed(&self) -> bool {
         let fixed =
             |row: &FieldSpec| matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::NonZero);
         !self.repeats && self.fields.iter().all(fixed)
     }
 
-    /// The bytes of the fixed fields that the stream begins with.
+    /// The length of the fixed fields at the start of the stream, in bytes.
     pub(crate) const fn head(&self) -> usize {
         super::head::head(self.fields)
     }
 
-    /// The most items of a list, or bytes of another field, of this name.
+    /// The maximum number of items of the list, or bytes of another field, with this name.
     pub(crate) const fn most(&self, name: &str) -> u32 {
         self.row(name).size.most()
     }
 
-    /// The row of the field of this name.
+    /// The row of the field with this name.
     const fn row(&self, name: &str) -> FieldSpec {
         let mut fields = self.fields;
         loop {
@@ -61,12 +61,12 @@ impl Layout {
         }
     }
 
-    /// The offset of the field of this name, as the manual prints it.
+    /// The offset of the field with this name, as the manual prints it.
     pub(crate) const fn offset(&self, name: &str) -> u32 {
         self.row(name).offset
     }
 
-    /// The index of the field of this name.
+    /// The index of the field with this name.
     pub(super) const fn index(&self, name: &str) -> u8 {
         let (mut fields, mut index) = (self.fields, 0_u8);
         while let [row, rest @ ..] = fields {
@@ -78,7 +78,7 @@ impl Layout {
         u8::MAX
     }
 
-    /// Whether the fields determine the end of the stream: more bytes are trailing, not too long.
+    /// Whether the fields determine the end of the stream: extra bytes are `Trailing`, not `TooLong`.
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }
@@ -100,7 +100,7 @@ pub(super) const fn is_same(one: &str, other: &str) -> bool {
 /// ```
 /// use ads_cnc::layout::Stream;
 ///
-/// // The name follows the m dimensions: its offset is 20 + 4m.
+/// // The name follows m dimensions, so its offset is 20 + 4m.
 /// let name = Stream::VariableDescription.layout().fields.last().unwrap();
 /// assert_eq!((name.name, name.offset, name.per_item), ("name", 20, 4));
 /// ```
@@ -109,21 +109,21 @@ pub(super) const fn is_same(one: &str, other: &str) -> bool {
 pub struct FieldSpec {
     /// The field's name in errors, vectors and reports.
     pub name: &'static str,
-    /// Offset as the manual prints it, without the part that depends on a count.
+    /// The offset that the manual prints, without the part that depends on a count.
     pub offset: u32,
     /// Bytes added to `offset` for each counted item before the field.
     pub per_item: u32,
-    /// How long the field is.
+    /// The size of the field.
     pub size: Size,
-    /// The type's name.
+    /// The type of the field.
     pub ty: Type,
     /// The meaning of the field.
     pub meaning: &'static str,
-    /// The requirement that defines the field, by its ID.
+    /// The ID of the requirement that defines the field.
     pub clause: &'static str,
 }
 
-/// How long a field is.
+/// The size of a field.
 ///
 /// ```
 /// use ads_cnc::layout::{Field, Size, Stream};
@@ -139,59 +139,60 @@ pub struct FieldSpec {
 pub enum Size {
     /// Always this many bytes.
     Fixed(u32),
-    /// This many bytes. This field and those after it may be absent if the field before, an ADS
+    /// This many bytes. This field and those after it may be absent if the field before it, an ADS
     /// result, is not 0 (ADS-6).
     FixedOnSuccess(u32),
-    /// Items; the field before is their count.
+    /// Items; the field before this one is their count.
     Items {
-        /// Bytes of one item.
+        /// The length of one item in bytes.
         each: u32,
-        /// The most items the stream can hold.
+        /// The maximum number of items.
         max: u32,
     },
     /// NUL-terminated text; more NULs may pad it.
     CString {
-        /// The most bytes, NULs included.
+        /// The maximum length in bytes, including NULs.
         max: u32,
-        /// No bytes are accepted as the empty text.
+        /// Whether zero bytes are accepted as the empty text.
         is_optional: bool,
     },
     /// NUL-terminated text before other fields of the stream.
     CStringPrefix {
-        /// The most bytes, the NUL included.
+        /// The maximum length in bytes, including the NUL.
         max: u32,
     },
     /// This many bytes, in a stream that may also be empty.
     OptionalFixed(u32),
-    /// Text up to a NUL or to the end of the stream. Bytes after the NUL are the tail, and kept.
+    /// Text up to a NUL or to the end of the stream. The bytes after the NUL are its tail, which is
+    /// kept.
     TextAndTail {
-        /// The fewest bytes.
+        /// The minimum length in bytes.
         min: u32,
-        /// The most bytes in all.
+        /// The maximum length in bytes.
         max: u32,
     },
     /// Text with or without a NUL at its end; more NULs may pad it.
     OptionalNul {
-        /// The most bytes in all, one at least.
+        /// The maximum length in bytes; the minimum is 1.
         max: u32,
     },
     /// Four bytes: a number that must not be 0.
     NonZero,
-    /// An unsigned number of one, two or four bytes, as the stream ends.
+    /// An unsigned number of one, two or four bytes, up to the end of the stream.
     Uns8To32,
     /// Text in this many bytes, padded with NULs.
     Padded(u32),
     /// The rest of the stream.
     Rest {
-        /// The fewest bytes.
+        /// The minimum length in bytes.
         min: u32,
-        /// The most bytes.
+        /// The maximum length in bytes.
         max: u32,
     },
 }
 
 impl Size {
-    /// The bytes of a field of fixed size, 0 for any other.
+    /// The length of a field of fixed size in bytes; 0 for any other field.
     pub(crate) const fn fixed(self) -> u32 {
         match self {
             Self::Fixed(size)
@@ -203,8 +204,8 @@ impl Size {
         }
     }
 
-    /// The fewest bytes of a field. An absent text counts as its NUL: it is absent only where
-    /// nothing follows.
+    /// The minimum length of a field in bytes. An absent text counts as one NUL: only the last field
+    /// can be absent.
     pub(crate) const fn least(self) -> u32 {
         match self {
             Self::TextAndTail { min, .. } | Self::Rest { min, .. } => min,
@@ -213,7 +214,7 @@ impl Size {
         }
     }
 
-    /// The most bytes of a field, or items of a list.
+    /// The maximum length of a field in bytes, or number of items of a list.
     const fn most(self) -> u32 {
         match self {
             Self::Items { max, .. }
@@ -228,7 +229,7 @@ impl Size {
     }
 }
 
-/// The name of a type on the wire, as the manuals and ADS spell it.
+/// The type of a field on the wire, named as in the manuals and in ADS.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 3.1 and 4.3.
 ///
@@ -248,7 +249,7 @@ pub enum Type {
     Uns16,
     /// 32-bit unsigned, little-endian.
     Uns32,
-    /// Unsigned, little-endian, of a width that is not documented.
+    /// Unsigned, little-endian; the width is not documented.
     Unsigned,
     /// One byte; 0 is FALSE, any other TRUE.
     Boolean,
@@ -256,7 +257,7 @@ pub enum Type {
     Real64,
     /// CP1252 text.
     String,
-    /// Six bytes of an AMS NetId.
+    /// AMS NetId, six bytes.
     NetId,
     /// Uninterpreted bytes.
     Bytes,

@@ -3,7 +3,7 @@
 use super::Stream;
 use super::field::Field;
 
-/// Declares [`Subject`] and, per subject, a constant for each of its parts.
+/// Declares [`Subject`] and a constant for each part of each subject.
 macro_rules! subjects {
     ($(
         $(#[$doc:meta])*
@@ -40,7 +40,7 @@ macro_rules! subjects {
                 }
             }
 
-            /// The name of a part: of a field, if this is a stream.
+            /// The name of a part; for a stream, of a field.
             pub(super) fn part(self, index: u8) -> Option<&'static str> {
                 let index = usize::from(index);
                 let parts: &[&str] = match self {
@@ -89,7 +89,7 @@ subjects! {
         NUMBERS "numbers",
         NUMBER "number",
     }
-    /// The name of a variable, by its parts.
+    /// The name of a variable, parsed into its parts.
     VariablePath "variable-path", variable_path {
         KIND "kind",
         PART "part",
@@ -103,7 +103,7 @@ subjects! {
         RESPONSE_STATE "response_state",
         RESPONSE "response",
     }
-    /// A value whose type is in another stream.
+    /// A value whose type is defined by another stream.
     TypedValue "typed-value", typed_value {
         TYPE "type",
         SIZE "size",

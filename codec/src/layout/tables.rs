@@ -1,4 +1,4 @@
-//! [`Stream`], and the tables that no `stream!` declares.
+//! [`Stream`], and the tables that are not declared by `stream!`.
 
 use super::head;
 use super::spec::{FieldSpec, Layout, Size, Type};
@@ -13,10 +13,10 @@ use crate::sda::ElementLength;
 use crate::stream::NoData;
 use crate::variable::{ExtendedDescription, ExtendedReply};
 
-/// Declares [`Stream`] and the table of each.
+/// Declares [`Stream`] and the table of each stream.
 macro_rules! tables {
     ($( $(#[$doc:meta])* $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
-        /// A stream: bytes that the manuals describe by a table.
+        /// A stream: a sequence of bytes that the manuals describe by a table.
         ///
         /// ```
         /// use ads_cnc::layout::Stream;
@@ -29,15 +29,15 @@ macro_rules! tables {
         #[non_exhaustive]
         pub enum Stream {
             $( $(#[$doc])* $stream, )+
-            /// The empty stream, which a CNC returns for a request without result data.
+            /// The empty stream: the reply to a request without result data.
             NoData,
         }
 
         impl Stream {
-            /// All but [`NoData`](Self::NoData), which has no bytes.
+            /// All streams except [`NoData`](Self::NoData), which has no bytes.
             pub(super) const ALL: &[Self] = &[$( Self::$stream, )+];
 
-            /// The stream's table.
+            /// The table of the stream.
             pub const fn layout(self) -> &'static Layout {
                 match self {
                     $( Self::$stream => const { &<$view as Declared>::LAYOUT }, )+
@@ -45,7 +45,7 @@ macro_rules! tables {
                 }
             }
 
-            /// The sizes of the fixed fields that a record begins with.
+            /// The sizes of the fixed fields at the start of a record.
             pub(crate) const fn head_sizes(self) -> &'static [u8] {
                 match self {
                     $( Self::$stream => {
@@ -54,7 +54,7 @@ macro_rules! tables {
                         &HEAD
                     } )+
                     Self::NoData => {
-                        // Only if each is a static, the match compiles to a table.
+                        // The match compiles to a table only if each arm is a static.
                         static HEAD: [u8; 0] = [];
                         &HEAD
                     }
@@ -66,7 +66,7 @@ macro_rules! tables {
 
 crate::streams! { @documented tables }
 
-/// Declares the tables of types that are written by hand; src/io.rs has the reasons.
+/// Declares the tables of types that are written by hand; src/io.rs lists the reasons.
 macro_rules! by_hand {
     ($(
         $type:ty: $stream:ident $name:literal, $title:literal, $clause:literal, $(repeats $repeats:literal,)? max $max:expr,

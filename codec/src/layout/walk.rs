@@ -1,15 +1,15 @@
-//! One pass over a stream by its table alone.
+//! One pass over a stream, driven by its table.
 
 use super::{Field, Size, Stream};
 use crate::bytes::Reader;
 use crate::error::Error;
 
-/// The bytes of one field, or of one item of a field that has several.
+/// The bytes of a field, or of one item of a list.
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
 ///
-/// // handle of V.G.array, and the index of its fifth element
+/// // The handle of V.G.array, and the index of its fifth element.
 /// let bytes = [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0];
 /// let mut last = None;
 /// Stream::VariableHandleRead.walk(&bytes, |segment| last = Some(segment))?;
@@ -22,18 +22,18 @@ use crate::error::Error;
 pub struct Segment<'a> {
     /// The field.
     pub field: Field,
-    /// Which record of a stream of records, else 0.
+    /// The index of the record in a stream of records; otherwise 0.
     pub record: u32,
-    /// Which item of a field with several, else 0.
+    /// The index of the item in a list; otherwise 0.
     pub item: u32,
-    /// Offset of the bytes in the stream.
+    /// The offset of the bytes in the stream.
     pub offset: u32,
     /// The bytes; empty for an empty value or text.
     pub bytes: &'a [u8],
 }
 
 impl Stream {
-    /// Calls `visit` for each field in turn, up to the end or to the first fault.
+    /// Calls `visit` for each field in order, up to the end or the first fault.
     ///
     /// # Errors
     /// Those of the stream's decoders.
@@ -74,7 +74,7 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
     }
 
     fn record(&mut self, stream: Stream) -> Result<(), Error> {
-        // The previous field and its value: the count of the items in the next field.
+        // The previous field and its value, which may be the count of the next field.
         let mut counter = Field::whole(stream);
         let mut count = 0_u32;
         for (field, spec) in stream.fields().zip(stream.layout().fields) {

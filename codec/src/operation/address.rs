@@ -1,5 +1,5 @@
-//! The address of a call: built from the parts of an operation by the rules of its function, and
-//! parsed back to the parts.
+//! The address of a call: built from the parts of an operation by the rules of its function, and parsed
+//! into these parts.
 
 use super::{GroupRule, OffsetRule};
 use crate::address::{
@@ -8,7 +8,7 @@ use crate::address::{
 };
 use crate::dynamic::DynamicKind;
 
-/// The parts of an operation that address it.
+/// The parts of an operation that determine its address.
 pub(super) trait Address: Copy {
     fn group(self, rule: GroupRule) -> IndexGroup;
 
@@ -16,7 +16,7 @@ pub(super) trait Address: Copy {
         rule.first()
     }
 
-    /// Parses an address that the rules contain.
+    /// Parses an address that matches the rules.
     fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self>;
 }
 
@@ -77,7 +77,7 @@ impl Address for (ObjectList,) {
     }
 }
 
-/// A list, and the number of an object in it.
+/// A list, and the number of an object in the list.
 impl Address for (ObjectList, u32) {
     fn group(self, _: GroupRule) -> IndexGroup {
         self.0.index_group()
@@ -139,7 +139,7 @@ impl Address for (ElementAddress,) {
     }
 }
 
-/// The list of the objects of the platform, of a channel or of a platform axis.
+/// The list of objects of the platform, of a channel or of a platform axis.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1 and 2.1.1.
 ///
@@ -156,10 +156,10 @@ impl Address for (ElementAddress,) {
 pub struct ObjectList(ComGroup);
 
 impl ObjectList {
-    /// The list of the platform; the first channel lists the platform's objects too (COM-4).
+    /// The list of the platform. The list of the first channel contains its objects too (COM-4).
     pub const PLATFORM: Self = Self(ComGroup::platform(Access::Object));
 
-    /// The list's index group.
+    /// The index group of the list.
     pub const fn index_group(self) -> IndexGroup {
         self.0.index_group()
     }
@@ -181,7 +181,7 @@ impl From<Channel> for ObjectList {
 }
 
 impl From<PlatformAxis> for ObjectList {
-    /// The group of platform axes' descriptors is assumed (COM-7).
+    /// The index group for the descriptors of a platform axis is assumed (COM-7).
     fn from(axis: PlatformAxis) -> Self {
         Self(ComGroup { table: ComTable::Axis, instance: axis.index(), ..Self::PLATFORM.0 })
     }

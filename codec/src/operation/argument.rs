@@ -15,11 +15,11 @@ use crate::value::Elements;
 use crate::value::numbers;
 use crate::variable::{ValueRef, VariablePath};
 
-/// The name of a variable or of a parameter: a reference to any `AsRef<str>`, such as `&str` or
-/// `&String`; [`CncStr`], [`TextRef`], [`VariablePath`] and, with `alloc`, `&CncString` and `&Text`.
-/// Nothing is copied.
+/// The name of a variable or parameter: a reference to any `AsRef<str>`, such as `&str` or `&String`;
+/// [`CncStr`], [`TextRef`], [`VariablePath`] and, with `alloc`, `&CncString` and `&Text`. The text is
+/// not copied.
 ///
-/// The syntax is not checked: any CP1252 text is a name. [`VariablePath::new`] checks it.
+/// Any CP1252 text is accepted. To check the syntax of a name, use [`VariablePath::new`].
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
 ///
@@ -38,7 +38,7 @@ pub trait IntoName<'a> {
     /// The name as CP1252 text.
     ///
     /// # Errors
-    /// Those of [`CncStr::new`] for a `&str`; no error for text that is CP1252 already.
+    /// Those of [`CncStr::new`] for a `&str`. Types that contain CP1252 text cannot fail.
     fn into_name(self) -> Result<CncStr<'a>, Error>;
 }
 
@@ -54,7 +54,7 @@ impl<'a> IntoName<'a> for CncStr<'a> {
     }
 }
 
-/// The text, without its end: a name that was read is written with one NUL.
+/// The text without its end: a request ends the name with one NUL.
 impl<'a> IntoName<'a> for TextRef<'a> {
     fn into_name(self) -> Result<CncStr<'a>, Error> {
         Ok(self.text())
@@ -83,13 +83,13 @@ impl<'a> IntoName<'a> for &'a Text {
 
 /// A value to write: a number, a `bool`, or the bytes of a value.
 ///
-/// **The Rust type determines the bytes.** Neither this crate nor the CNC can tell whether they are of the
-/// type of the variable: `7_f32` for an SGN32 writes 1 088 421 888. [`Shape::encode`] of the variable's
-/// description rejects a value of another type or size.
+/// **The Rust type determines the bytes.** Neither this crate nor the CNC can check them against the
+/// type of the variable: `7_f32` for an SGN32 writes 1 088 421 888. To reject a value of another type
+/// or size, use [`Shape::encode`] with the description of the variable.
 ///
-/// An array or a text is first encoded into a buffer of the caller, by
-/// [`EncodeValue`](crate::value::EncodeValue). Bytes are a slice or a vector, not an array: `&[1, 2]` would be
-/// two bytes, whatever the type of the variable, and does not compile.
+/// Encode an array or a text into a buffer first, with [`EncodeValue`](crate::value::EncodeValue).
+/// Pass bytes as a slice or a vector. An array such as `&[1, 2]` does not compile, because it would
+/// write two bytes whatever the type of the variable.
 ///
 /// [`Shape::encode`]: crate::value::Shape::encode
 ///
@@ -118,7 +118,7 @@ pub struct WriteValue<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// The first `len` of these.
+    /// The first `len` of these bytes.
     Number {
         bytes: [u8; 8],
         len: usize,

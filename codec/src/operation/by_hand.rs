@@ -1,9 +1,9 @@
-//! The parts of operations that the table cannot express, with the reasons.
+//! The parts of operations that the table cannot express:
 //!
 //! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the caller chooses the read length, which limits
 //!   the reply.
 //! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: the constructors
-//!   reject the address of another function (SDA-12).
+//!   reject addresses of other functions (SDA-12).
 //! - `FindInstance`: the class is addressed by number or by index.
 
 use super::{
@@ -31,20 +31,20 @@ const DESCRIPTORS: Field = Field::whole(Stream::ObjectDescriptors);
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
 impl ReadDescriptors {
-    /// The most descriptors of one read.
+    /// The maximum number of descriptors in one read.
     pub const COUNT_MAX: u32 = match Stream::ObjectDescriptors.layout().max.checked_div(RECORD) {
         Some(count) => count,
         None => 0,
     };
 
-    /// `count` descriptors from object `first` on; objects are counted from 1.
+    /// Reads `count` descriptors, starting at object `first`; objects are counted from 1.
     ///
-    /// An empty list has nothing to read: send no request if [`CountObjects`](super::CountObjects) gives 0.
+    /// If [`CountObjects`](super::CountObjects) returns 0, the list is empty: do not send a request.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for object 0, by the field `element` of the index offset, which is
-    /// the object's number, and for a count of 0; [`ErrorKind::TooMany`] for a count over
-    /// [`COUNT_MAX`](Self::COUNT_MAX), both by the field `count`.
+    /// [`ErrorKind::OutOfRange`] with the field `element` of the index offset for object 0;
+    /// [`ErrorKind::OutOfRange`] with the field `count` for a count of 0; [`ErrorKind::TooMany`] with
+    /// the field `count` for a count greater than [`COUNT_MAX`](Self::COUNT_MAX).
     pub fn new(list: impl Into<ObjectList>, first: u32, count: u32) -> Result<Self, Error> {
         if first == 0 {
             return Err(Error::new(ErrorKind::OutOfRange, OBJECT, 0, 1, first));
@@ -97,7 +97,7 @@ impl ReadDescriptors {
     }
 }
 
-/// Rejects the offset of a function, at which no content can be (SDA-12).
+/// Rejects the offset of a function, which cannot be the offset of content (SDA-12).
 fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Error> {
     match Function::at(task, group, offset) {
         Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
@@ -105,7 +105,7 @@ fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Err
     }
 }
 
-/// The address of a COM object's content, which its descriptor has (COM-5).
+/// The address of the content of a COM object, from its descriptor (COM-5).
 fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffset), Error> {
     const PLATFORM: ComGroup = ComGroup::platform(Access::Element);
     let (wanted, com) = match group.parts() {
@@ -120,7 +120,7 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// Rejects an offset that belongs to a function. That of the first element of an instance does, to
+/// Rejects the offset of a function. The first element of an instance has the offset of
 /// [`CountElements`](super::CountElements).
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
@@ -135,7 +135,7 @@ fn length(length: u32) -> Result<u32, Error> {
     }
 }
 
-/// Reads of content: any read length is valid, and it limits the reply.
+/// Reads of content: any read length is valid and limits the reply.
 macro_rules! reads_content {
     ($( $operation:ident )+) => { $(
         impl $operation {
@@ -162,7 +162,7 @@ macro_rules! reads_content {
 reads_content! { ReadElement ReadObject }
 
 impl ReadObject {
-    /// For an object of a list, by its [`Descriptor`](crate::Descriptor) or [`DescriptorRef`].
+    /// Reads an object of a list, by its [`Descriptor`](crate::Descriptor) or [`DescriptorRef`].
     ///
     /// ```
     /// use ads_cnc::Descriptor;
@@ -190,24 +190,25 @@ impl ReadObject {
         Self::new(object.index_group(), object.index_offset(), object.size())
     }
 
-    /// For the group, the offset and the size in an object's descriptor.
+    /// Reads the object with this group, offset and size, as in its descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that does not address COM content, [`ErrorKind::Function`]
-    /// for the program stream, whose reading is not documented (STM-1), [`ErrorKind::TooLong`] for
-    /// more than ADS carries.
+    /// [`ErrorKind::Mismatch`] for a group that does not address COM content; [`ErrorKind::Function`]
+    /// for the program stream, which is write-only as far as documented (STM-1);
+    /// [`ErrorKind::TooLong`] for a size greater than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX).
     pub fn new(group: IndexGroup, offset: IndexOffset, size: u32) -> Result<Self, Error> {
         Ok(Self { object: object(group, offset)?, length: length(size)? })
     }
 
-    /// Index group, by its parts, and index offset of the object.
+    /// The parts of the index group, and the index offset of the object.
     pub const fn address(&self) -> (ComGroup, IndexOffset) {
         self.object
     }
 }
 
 impl<'a> WriteObject<'a> {
-    /// For an object of a list, by its [`Descriptor`](crate::Descriptor) or [`DescriptorRef`], and its new content.
+    /// Writes this content to an object of a list, by its [`Descriptor`](crate::Descriptor) or
+    /// [`DescriptorRef`].
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
@@ -219,10 +220,10 @@ impl<'a> WriteObject<'a> {
         Self::new(object.index_group(), object.index_offset(), content)
     }
 
-    /// For the group and the offset in an object's descriptor.
+    /// Writes to the object with this group and offset, as in its descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that does not address COM content, [`ErrorKind::Function`]
+    /// [`ErrorKind::Mismatch`] for a group that does not address COM content; [`ErrorKind::Function`]
     /// for the program stream, which [`WriteProgramStream`](super::WriteProgramStream) writes.
     pub fn new(
         group: IndexGroup,
@@ -232,7 +233,7 @@ impl<'a> WriteObject<'a> {
         Ok(Self { object: object(group, offset)?, content: content.into() })
     }
 
-    /// Index group, by its parts, and index offset of the object.
+    /// The parts of the index group, and the index offset of the object.
     pub const fn address(&self) -> (ComGroup, IndexOffset) {
         self.object
     }
@@ -244,12 +245,12 @@ impl<'a> WriteObject<'a> {
 }
 
 impl ReadElement {
-    /// For an element and the length of its content.
+    /// Reads the content of an element with this length.
     ///
     /// # Errors
     /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
-    /// element of an instance, which [`CountElements`] reads; [`ErrorKind::TooLong`] for more than
-    /// ADS carries.
+    /// element of an instance, which [`CountElements`] reads; [`ErrorKind::TooLong`] for a size
+    /// greater than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX).
     pub fn new(address: ElementAddress, size: u32) -> Result<Self, Error> {
         Ok(Self { element: element(address)?, length: length(size)? })
     }
@@ -261,7 +262,7 @@ impl ReadElement {
 }
 
 impl<'a> WriteElement<'a> {
-    /// For an element and its new content.
+    /// Writes this content to an element.
     ///
     /// # Errors
     /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
@@ -282,7 +283,7 @@ impl<'a> WriteElement<'a> {
 }
 
 impl CountElements {
-    /// For the first element of an instance.
+    /// Reads the first element of an instance.
     ///
     /// # Errors
     /// [`ErrorKind::Function`] for an element of the decoder that is another function (SDA-12).
@@ -301,20 +302,21 @@ impl CountElements {
 }
 
 impl FindInstance {
-    /// For a class, a channel (or the index of a spindle, or 0 for the platform) and an axis (or 0
-    /// for the channel itself). See [`ObjectAddressQuery`] for which numbers a class takes.
+    /// Queries an instance by class, channel (or index of a spindle, or 0 for the platform) and axis
+    /// (or 0 for the channel itself). [`ObjectAddressQuery`] lists the valid numbers of each class.
     pub const fn new(class: Class, channel: u32, axis: u32) -> Self {
         Self { class: ClassGroup::object_address(class), channel, axis }
     }
 
-    /// The same query by index: channels and spindles are counted among the active ones.
+    /// Changes the query to addressing by index: channels and spindles are counted among the active
+    /// ones.
     #[must_use]
     pub const fn by_index(mut self) -> Self {
         self.class.addressing = Addressing::Index;
         self
     }
 
-    /// The class, and whether it is addressed by number or by index.
+    /// The class and its addressing, by number or by index.
     pub const fn class_group(&self) -> ClassGroup {
         self.class
     }

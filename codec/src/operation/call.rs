@@ -1,4 +1,4 @@
-//! Dispatch of an ADS request to a function.
+//! Dispatch of ADS requests to functions.
 
 use core::fmt;
 
@@ -30,7 +30,7 @@ use crate::layout::{Field, Stream};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Call<'a> {
-    /// The AMS port that it was sent to.
+    /// The AMS port of the receiver.
     pub port: AmsPort,
     /// The service.
     pub service: Service,
@@ -38,20 +38,20 @@ pub struct Call<'a> {
     pub index_group: IndexGroup,
     /// Index offset.
     pub index_offset: IndexOffset,
-    /// The most bytes that the client accepts; 0 for a Write.
+    /// The maximum length of the reply in bytes; 0 for a Write.
     pub read_length: u32,
     /// The data of the request; empty for a Read.
     pub data: &'a [u8],
 }
 
-/// The reason why a request could not be dispatched.
+/// The reason why a request cannot be dispatched.
 ///
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
 /// use ads_cnc::ads::{AdsError, AmsPort};
 /// use ads_cnc::operation::{Call, DispatchError, Service};
 ///
-/// // 0x4E is reserved.
+/// // The offset 0x4E is reserved.
 /// let index_offset = IndexOffset::new(0x4E);
 /// let call = Call {
 ///     port: AmsPort::SDA,
@@ -73,21 +73,22 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, or only content access, which takes another service.
+    /// No function of the index group has this offset, except access to content with another service.
     Offset(IndexOffset),
-    /// The function takes another service.
+    /// The function requires another service.
     Service {
-        /// The service that the function takes.
+        /// The service that the function requires.
         expected: Service,
         /// The service of the request.
         found: Service,
     },
-    /// The data is not a valid request of the function.
+    /// The data is not a valid request for the function.
     Stream(Error),
 }
 
 impl DispatchError {
-    /// The error number of the response. A CNC's numbers are not documented: assumed (ADS-7).
+    /// The ADS error number for the response. The numbers that a CNC returns are not documented; these
+    /// are assumed (ADS-7).
     pub const fn ads_error(self) -> AdsError {
         match self {
             Self::Port(_) => AdsError::TARGET_PORT_NOT_FOUND,
@@ -113,15 +114,14 @@ impl fmt::Display for DispatchError {
     }
 }
 
-// No `source`: `Display` shows the error of the stream, and a report with sources would show it twice.
+// No `source`: `Display` contains the error of the stream, which a report with sources would repeat.
 impl core::error::Error for DispatchError {}
 
 impl<'a> Call<'a> {
-    /// The function that is called, with its arguments: the first row of the function table that matches
-    /// the call.
+    /// Decodes the call to its function and arguments: the first row of the function table that matches.
     ///
-    /// SDA and GEO both serve the classes of the CNC (ADR-10, assumed). The server checks that its reply
-    /// fits the read length.
+    /// Both SDA and GEO serve the classes of the CNC (ADR-10, assumed). The server must check that its
+    /// reply fits the read length.
     ///
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -145,7 +145,7 @@ impl<'a> Call<'a> {
     /// ```
     ///
     /// # Errors
-    /// The first [`DispatchError`] of port, group, offset, service and bytes.
+    /// The first fault, in the order port, group, offset, service, data.
     pub fn dispatch(&self) -> Result<Request<'a>, DispatchError> {
         let task = Task::from_port(self.port).ok_or(DispatchError::Port(self.port))?;
         let mut error = DispatchError::Group(self.index_group);
@@ -167,8 +167,8 @@ impl<'a> Call<'a> {
                     _ => Request::decode(function, group, self),
                 };
             }
-            // A later row may have content with this service at this offset, but not at the offset of
-            // a function (SDA-12).
+            // A later row may match content with this service, unless the offset belongs to a function
+            // (SDA-12).
             if !spec.is_content() {
                 return Err(DispatchError::Service { expected: spec.service, found: self.service });
             }
@@ -176,7 +176,7 @@ impl<'a> Call<'a> {
         Err(error)
     }
 
-    /// The error for a Read with data, for which its stream has no field.
+    /// The error for a Read with data: its stream has no field for data.
     #[cold]
     pub(super) fn read_with_data(&self) -> Error {
         let whole = Field::whole(Stream::ReadRequest);
@@ -192,9 +192,8 @@ const READ_REQUEST_LEN: u32 = Stream::ReadRequest.layout().max;
 mod tests {
     use super::*;
 
-    /// Dispatch rejects the data of a Read.
     #[test]
-    fn a_read_has_no_data() {
+    fn dispatch_rejects_a_read_with_data() {
         let read = Call {
             port: AmsPort::COM,
             service: Service::Read,

@@ -1,4 +1,4 @@
-//! The documentation of the operations, which `operation!` puts before each.
+//! The documentation of the operations, which `operation!` adds to each type.
 
 macro_rules! documented {
     (CountObjects $($item:tt)+) => {
@@ -16,10 +16,10 @@ macro_rules! documented {
         $($item)+
     };
     (ReadDescriptors $($item:tt)+) => {
-        /// Reads descriptors of a list's objects, from one object on.
+        /// Reads a range of descriptors of the objects in a list.
         ///
-        /// The read length gives their number: 84 bytes each. A length greater than 84 that is not a multiple of
-        /// 84 reads one descriptor (assumed, COM-3).
+        /// The read length determines the number of descriptors, of 84 bytes each. A length greater
+        /// than 84 that is not a multiple of 84 reads one descriptor (assumed, COM-3).
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -33,7 +33,8 @@ macro_rules! documented {
         $($item)+
     };
     (CountVariables $($item:tt)+) => {
-        /// Reads the number of variables of a kind in a channel; [`Kind::ALL`] gives the sum of all kinds.
+        /// Reads the number of variables of a kind in a channel; [`Kind::ALL`] returns the sum of all
+        /// kinds.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -60,7 +61,7 @@ macro_rules! documented {
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         ///
-        /// A reply borrows from the bytes received; `to_owned` keeps it:
+        /// A reply borrows from the received bytes; to keep it, use `to_owned`:
         ///
         /// ```
         /// # #[cfg(feature = "alloc")] {
@@ -116,8 +117,8 @@ macro_rules! documented {
         $($item)+
     };
     (ReadByName $($item:tt)+) => {
-        /// Reads the value of a variable by its name; with an index in the name, one element of
-        /// an array.
+        /// Reads the value of a variable by its name. A name with indices selects one element of an
+        /// array.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -130,10 +131,11 @@ macro_rules! documented {
         $($item)+
     };
     (WriteByHandle $($item:tt)+) => {
-        /// Writes a variable by its handle. It may set the machine in motion.
+        /// Writes a variable by its handle. **The write may set the machine in motion.**
         ///
-        /// The Rust type of the value determines the bytes: see [`WriteValue`](super::WriteValue), and
-        /// [`WriteByName`](super::WriteByName) for an example that checks it.
+        /// The Rust type of the value determines the bytes: see [`WriteValue`](super::WriteValue). The
+        /// example of [`WriteByName`](super::WriteByName) checks the type against the description of
+        /// the variable.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -147,18 +149,19 @@ macro_rules! documented {
         $($item)+
     };
     (WriteByName $($item:tt)+) => {
-        /// Writes a variable by its name; with an index in the name, one element of an array. It may set
-        /// the machine in motion.
+        /// Writes a variable by its name. A name with indices selects one element of an array. **The
+        /// write may set the machine in motion.**
         ///
         /// The Rust type of the value determines the bytes, which the CNC cannot check: see
-        /// [`WriteValue`](super::WriteValue). The description of the variable checks it:
+        /// [`WriteValue`](super::WriteValue). To check the type, encode with the description of the
+        /// variable:
         ///
         /// ```
         /// use ads_cnc::address::Channel;
         /// use ads_cnc::operation::{DescribeByName, Operation, WriteByName};
         ///
         /// let channel = Channel::new(1)?;
-        /// // The reply to this: V.E.test is SGN32[5].
+        /// // The CNC replies: V.E.test is SGN32[5].
         /// let describe = DescribeByName::new(channel, "V.E.test")?;
         /// let reply = b"\x02\0\0\x02\x06\0\0\0\x02\0\0\0\x14\0\0\0\x01\0\0\0\x05\0\0\0";
         /// let description = describe.decode_reply(reply)?;
@@ -177,7 +180,7 @@ macro_rules! documented {
     (DescribeExtended $($item:tt)+) => {
         /// Reads the extended description of a variable.
         ///
-        /// Only V.E variables have one; the reply for the others is empty.
+        /// Only V.E variables have an extended description; the reply for other variables is empty.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -193,12 +196,12 @@ macro_rules! documented {
         $($item)+
     };
     (DescribeByName $($item:tt)+) => {
-        /// Reads the description of a variable by its name, without indices at its end:
-        /// `V.E.test[4]` is an element of `V.E.test`, which has the description.
+        /// Reads the description of a variable by its name. The name must not end in indices: for
+        /// `V.E.test[4]`, read the description of the array `V.E.test`.
         /// [`VariablePath::variable`](crate::VariablePath::variable) removes the indices.
         ///
-        /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
-        /// `ads-de` 1.051 reserve the offset in section 4.2.1.
+        /// Only the public help pages document this function, for CNC versions from V3.1.3132.0 and
+        /// V4.29.0 on; `ads-en` 1.05 and `ads-de` 1.051 reserve the offset in section 4.2.1.
         ///
         /// ```
         /// use ads_cnc::VariableType;
@@ -213,7 +216,7 @@ macro_rules! documented {
         $($item)+
     };
     (AxisHandleByName $($item:tt)+) => {
-        /// Reads the handle of an axis variable; the name does not contain the axis.
+        /// Reads the handle of an axis variable. The name must not contain the axis.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, ChannelAxis};
@@ -227,7 +230,7 @@ macro_rules! documented {
         $($item)+
     };
     (AxisReadByName $($item:tt)+) => {
-        /// Reads the value of an axis variable; the name does not contain the axis.
+        /// Reads the value of an axis variable. The name must not contain the axis.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, ChannelAxis};
@@ -240,7 +243,8 @@ macro_rules! documented {
         $($item)+
     };
     (AxisWriteByName $($item:tt)+) => {
-        /// Writes an axis variable; the name does not contain the axis. It may set the machine in motion.
+        /// Writes an axis variable. The name must not contain the axis. **The write may set the
+        /// machine in motion.**
         ///
         /// The Rust type of the value determines the bytes: see [`WriteValue`](super::WriteValue).
         ///
@@ -256,8 +260,8 @@ macro_rules! documented {
         $($item)+
     };
     (CountDynamic $($item:tt)+) => {
-        /// Reads the current number of parameters of a kind. The index offset depends on the kind: P,
-        /// V.L, V.P, V.S.
+        /// Reads the current number of parameters of a kind. Each of the kinds P, V.L, V.P and V.S has
+        /// its own index offset.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -271,8 +275,8 @@ macro_rules! documented {
         $($item)+
     };
     (DynamicNameByIndex $($item:tt)+) => {
-        /// Reads the name of a parameter by its index. The index offset depends on the kind: P,
-        /// V.L, V.P, V.S.
+        /// Reads the name of a parameter by its index. Each of the kinds P, V.L, V.P and V.S has its
+        /// own index offset.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -287,8 +291,8 @@ macro_rules! documented {
         $($item)+
     };
     (DynamicValueByName $($item:tt)+) => {
-        /// Reads the value of a parameter by its name. The index offset depends on the kind: P,
-        /// V.L, V.P, V.S.
+        /// Reads the value of a parameter by its name. Each of the kinds P, V.L, V.P and V.S has its
+        /// own index offset.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -303,8 +307,9 @@ macro_rules! documented {
         $($item)+
     };
     (DynamicValueByIndex $($item:tt)+) => {
-        /// Reads the value of a parameter by its index. The manual advises against it: indices
-        /// move. The index offset depends on the kind: P, V.L, V.P, V.S.
+        /// Reads the value of a parameter by its index. The manual advises against it, because the
+        /// index of a parameter can change. Each of the kinds P, V.L, V.P and V.S has its own index
+        /// offset.
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
         ///
@@ -328,7 +333,7 @@ macro_rules! documented {
         /// use ads_cnc::address::Class;
         /// use ads_cnc::operation::{FindInstance, Operation};
         ///
-        /// // the second axis of the decoder of channel 1
+        /// // The second axis of the decoder of channel 1.
         /// let op = FindInstance::new(Class::Decoder, 1, 2);
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_2900, 0));
         /// assert_eq!(op.encode(&mut [0; 8])?, [1, 0, 0, 0, 2, 0, 0, 0]);
@@ -339,10 +344,11 @@ macro_rules! documented {
         $($item)+
     };
     (CountElements $($item:tt)+) => {
-        /// Reads the number of element types of an instance: the content of its first element.
+        /// Reads the number of element types of an instance, which is the content of its first element.
         ///
-        /// A server cannot recognise the first element of an axis with the stride 0x1000 (platform axes of the
-        /// HLD, E-01): it dispatches this call as [`ReadElement`](super::ReadElement) of four bytes.
+        /// With the stride 0x1000 (platform axes of the HLD, E-01), a server cannot recognise the
+        /// first element of an axis: it dispatches this call as [`ReadElement`](super::ReadElement) of
+        /// four bytes.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -359,7 +365,7 @@ macro_rules! documented {
     (ReadElement $($item:tt)+) => {
         /// Reads the content of an element.
         ///
-        /// The length attribute of the element is its size.
+        /// The read length is the length attribute of the element: see [`ReadElementLength`].
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -370,7 +376,7 @@ macro_rules! documented {
         /// let op = ReadElement::new(feedhold, 1)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3301, 1));
         ///
-        /// // On the decoder the functions for variables are among the elements (SDA-12).
+        /// // On the decoder, some element indices are functions for variables (SDA-12).
         /// let function = ElementAddress::for_channel(Channel::new(1)?, Class::Decoder, 0x44)?;
         /// assert_eq!(ReadElement::new(function, 4).unwrap_err().kind(), ErrorKind::Function);
         /// # Ok::<(), ads_cnc::Error>(())
@@ -378,7 +384,7 @@ macro_rules! documented {
         $($item)+
     };
     (WriteElement $($item:tt)+) => {
-        /// Writes the content of an element. It may set the machine in motion.
+        /// Writes the content of an element. **The write may set the machine in motion.**
         ///
         /// [`ReadElementWriteFlag`] reads whether the element may be written.
         ///
@@ -396,7 +402,7 @@ macro_rules! documented {
         $($item)+
     };
     (ReadElementName $($item:tt)+) => {
-        /// Reads the name of an element. The name of the first element is that of the instance.
+        /// Reads the name of an element. The first element has the name of the instance.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -469,7 +475,8 @@ macro_rules! documented {
         $($item)+
     };
     (WriteProgramStream $($item:tt)+) => {
-        /// Writes NC text to the stream of a channel. It moves the machine.
+        /// Writes NC text to the program stream of a channel. **The CNC executes it and moves the
+        /// machine.**
         ///
         /// An error may be temporary: see [`Sender`](crate::streaming::Sender).
         ///
@@ -487,7 +494,7 @@ macro_rules! documented {
         $($item)+
     };
     (ReadObject $($item:tt)+) => {
-        /// Reads the content of a COM object, whose descriptor has its address.
+        /// Reads the content of a COM object, at the address in its descriptor.
         ///
         /// ```
         /// use ads_cnc::Descriptor;
@@ -505,8 +512,8 @@ macro_rules! documented {
         $($item)+
     };
     (WriteObject $($item:tt)+) => {
-        /// Writes the content of a COM object, whose descriptor has its address. It may set the
-        /// machine in motion.
+        /// Writes the content of a COM object, at the address in its descriptor. **The write may set
+        /// the machine in motion.**
         ///
         /// ```
         /// use ads_cnc::address::{IndexGroup, IndexOffset};

@@ -1,17 +1,17 @@
-//! The function table: one row for each function, in the manual's order. The types of a function and
-//! its dispatch are generated from its row.
+//! The function table: one row for each function, in the order of the manual. The types of a function
+//! and its dispatch are generated from its row.
 //!
-//! A row: the function, its name in reports, ADS service, task and effect, index groups, index
-//! offsets, requirement, section; the parts of its address and, after `;`, the fields of its
-//! request, with their [`field!`] kinds; the request's stream, built from these fields; the type of the
+//! A row contains the function, its name in reports, ADS service, task and effect, index groups, index
+//! offsets, requirement, section; the parts of the address and, after `;`, the fields of the request,
+//! with their [`field!`] kinds; the stream of the request, built from these fields; the type of the
 //! reply.
 //!
-//! - `plain`: the constructor cannot fail; `checked`: it can; `by_hand`: it is in `by_hand.rs`.
-//! - `asks 2048`: the read length, if it is not the maximum length of the reply's stream.
+//! - `plain`: the constructor cannot fail; `checked`: it can fail; `by_hand`: it is in `by_hand.rs`.
+//! - `asks 2048`: the read length, if it differs from the maximum length of the reply.
 //! - `sized length`: the caller chooses the read length.
 //!
-//! Dispatch takes the first row that matches the call. The rows of access to content match every offset
-//! of their groups, so they follow the other functions of the group (SDA-12).
+//! Dispatch selects the first row that matches the call. Access to content matches every offset of its
+//! groups, so its rows follow the other functions of the group (SDA-12).
 
 use core::fmt;
 

@@ -1,6 +1,6 @@
 //! The functions of a CNC: the address, the request and the reply of each.
 //!
-//! A client builds an [`Operation`] and sends what it encodes over any transport:
+//! A client builds an [`Operation`], encodes it and sends the bytes over any transport:
 //!
 //! ```
 //! use ads_cnc::address::Channel;
@@ -10,13 +10,13 @@
 //! let mut buf = [0; 256];
 //! assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_2301, 0x48));
 //! assert_eq!(op.encode(&mut buf)?, b"V.E.Testvar\0");
-//! // … ReadWrite, and then
+//! // Send `request` by ReadWrite, then decode the reply.
 //! assert_eq!(op.decode_reply(&[123, 0, 0, 0])?.bytes, [123, 0, 0, 0]);
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
 //! A server passes a received request to [`Call::dispatch`] and answers the [`Request`] with a
-//! [`Reply`]. A dispatched request encodes to the bytes received.
+//! [`Reply`]. A dispatched request encodes to the received bytes.
 
 mod address;
 mod argument;

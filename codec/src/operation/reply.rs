@@ -10,7 +10,7 @@ use crate::variable::{
     DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, ValueRef, VariableCount,
 };
 
-/// Declares [`Reply`], with the encoding and the conversion of each variant.
+/// Declares [`Reply`], with the encoding and the conversion for each variant.
 macro_rules! replies {
     (
         $(#[$doc:meta])*
@@ -42,7 +42,7 @@ macro_rules! replies {
 }
 
 replies! {
-    /// Any reply: the response that a server sends or a tool shows.
+    /// The reply of any function, for servers that send it and tools that show it.
     ///
     /// ```
     /// use ads_cnc::operation::Reply;
@@ -67,7 +67,7 @@ replies! {
         Handle(Handle),
         /// Value of a variable.
         Value(ValueRef<'a>),
-        /// Extended description of a variable, or `None`.
+        /// Extended description of a variable, which may be empty.
         Extended(ExtendedReply),
         /// Number of dynamic parameters.
         DynamicCount(DynamicCount),

@@ -15,7 +15,7 @@ use crate::address::{
 ///
 /// let rule = Function::HandleByName.spec().group;
 /// assert_eq!(rule.example().get(), 0x12_2301);
-/// // the decoder of channel 2, but not its interpolator
+/// // The decoder of channel 2, but not its interpolator.
 /// assert!(rule.contains(IndexGroup::new(0x12_2302).parts().unwrap()));
 /// assert!(!rule.contains(IndexGroup::new(0x12_1302).parts().unwrap()));
 /// ```
@@ -37,7 +37,7 @@ pub enum GroupRule {
 }
 
 impl GroupRule {
-    /// Whether the function has an instance in this group.
+    /// Whether the function exists in this group.
     pub const fn contains(self, group: Group) -> bool {
         match (self, group) {
             // Platform axes are counted from 1; channel 0 is the platform.
@@ -64,7 +64,7 @@ impl GroupRule {
         }
     }
 
-    /// An index group as the manuals print it, where possible that of the first channel.
+    /// An example of an index group from the manuals, for the first channel if possible.
     pub const fn example(self) -> IndexGroup {
         match self {
             Self::ComObjects => com_group(Access::Object),
@@ -105,18 +105,18 @@ const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexG
 pub enum OffsetRule {
     /// This offset.
     At(u32),
-    /// One for each kind of dynamic parameters.
+    /// One offset for each kind of dynamic parameters.
     OfKind([u32; 4]),
     /// This offset and all greater ones.
     AtLeast(u32),
     /// `axis * 0x10000` plus this element, for every axis from 1 on (VAR-26).
     OfAxis(u32),
-    /// The first element of an instance: of the channel, and of axes 0x10000 apart.
+    /// The first element of an instance: of the channel, and of its axes with the stride 0x10000.
     FirstElement,
 }
 
 impl OffsetRule {
-    /// The least of the offsets; for elements of axes, the element.
+    /// The smallest offset; for elements of axes, the element.
     pub(crate) const fn first(self) -> IndexOffset {
         IndexOffset::new(match self {
             Self::At(first) | Self::OfKind([first, ..]) | Self::AtLeast(first) => first,
@@ -125,7 +125,7 @@ impl OffsetRule {
         })
     }
 
-    /// Whether the function has this offset.
+    /// Whether the function exists at this offset.
     pub const fn contains(self, offset: IndexOffset) -> bool {
         match self {
             Self::At(at) => offset.get() == at,

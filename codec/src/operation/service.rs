@@ -27,7 +27,7 @@ pub enum Service {
 }
 
 impl Service {
-    /// The AMS command that carries it.
+    /// The AMS command of the service.
     pub const fn command(self) -> Command {
         match self {
             Self::Read => Command::READ,
@@ -86,7 +86,7 @@ impl Task {
         }
     }
 
-    /// The task that a port belongs to.
+    /// The task with this port; `None` if no task has it.
     #[inline]
     pub fn from_port(port: AmsPort) -> Option<Self> {
         match port {

@@ -4,7 +4,7 @@ use super::{GroupRule, OffsetRule, Service, Task};
 use crate::address::Group;
 use crate::layout::Stream;
 
-/// The row of a function.
+/// The row of a function in the function table.
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
@@ -21,35 +21,34 @@ use crate::layout::Stream;
 pub struct FunctionSpec {
     /// The function's name in reports.
     pub name: &'static str,
-    /// The ADS service it takes.
+    /// The ADS service of the function.
     pub service: Service,
-    /// The task that serves it.
+    /// The task that serves the function.
     pub task: Task,
-    /// Its index groups.
+    /// The index groups.
     pub group: GroupRule,
-    /// Its index offsets.
+    /// The index offsets.
     pub offset: OffsetRule,
     /// The effect on the machine.
     pub effect: Effect,
-    /// The stream of the request, if any.
+    /// The stream of the request; `None` for a Read.
     pub request: Option<Stream>,
-    /// The stream of the reply, if any.
+    /// The stream of the reply; `None` for a Write.
     pub reply: Option<Stream>,
-    /// The requirement that defines it.
+    /// The ID of the requirement that defines the function.
     pub clause: &'static str,
-    /// Section of `ads-en` 1.05 and of `ads-de` 1.051, or of the document named.
+    /// The section in `ads-en` 1.05 and `ads-de` 1.051, or in the document that is named.
     pub section: &'static str,
 }
 
 impl FunctionSpec {
-    /// Whether the function is access to content, which is at any offset that no other function
-    /// has (SDA-12).
+    /// Whether the function accesses content: at any offset that no other function has (SDA-12).
     pub const fn is_content(&self) -> bool {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
 
-    /// Whether the function has this group on this task. SDA and GEO both serve the classes (ADR-10,
-    /// assumed).
+    /// Whether the function exists in this group of this task. Both SDA and GEO serve the classes
+    /// (ADR-10, assumed).
     pub(super) const fn is_in(&self, task: Task, group: Group) -> bool {
         matches!(self.task, Task::Com) == matches!(task, Task::Com) && self.group.contains(group)
     }
@@ -68,7 +67,7 @@ impl FunctionSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Effect {
-    /// None.
+    /// No effect.
     Query,
     /// Changes a value.
     Write,
@@ -76,8 +75,8 @@ pub enum Effect {
     Motion,
 }
 
-/// Declares the functions by their rows: `Function` with its specs, the typed operations, `Request` and
-/// its decoding.
+/// Declares the functions from their rows: `Function` with its specs, the typed operations, `Request`
+/// and its decoding.
 macro_rules! functions {
     ($(
         $function:ident $(<$a:lifetime>)? $name:literal: $service:ident $task:ident $effect:ident,
@@ -87,7 +86,7 @@ macro_rules! functions {
     )+) => {
         /// A documented function.
         ///
-        /// The manual's section of each is in its [row](FunctionSpec::section).
+        /// Its [row](FunctionSpec::section) contains its section in the manual.
         ///
         /// ```
         /// use ads_cnc::operation::{Function, Service, Task};
@@ -105,11 +104,11 @@ macro_rules! functions {
         )+ }
 
         impl Function {
-            /// All of them.
+            /// All functions.
             pub const ALL: &'static [Self] = &[$( Self::$function, )+];
 
             /// The function's row.
-            #[allow(elided_lifetimes_in_paths, reason = "a row has the name of a type, not its lifetime")]
+            #[allow(elided_lifetimes_in_paths, reason = "a row names a type without its lifetime")]
             pub const fn spec(self) -> &'static FunctionSpec {
                 match self { $(
                     Self::$function => const { &FunctionSpec {
@@ -131,7 +130,7 @@ macro_rules! functions {
             }
         }
 
-        /// Any operation: the request that a server receives or a tool shows.
+        /// The request of any function, for servers that receive it and tools that show it.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -156,7 +155,7 @@ macro_rules! functions {
         )+ }
 
         impl<'a> Request<'a> {
-            /// The function that is called.
+            /// The called function.
             pub const fn function(&self) -> Function {
                 match self { $( Self::$function(_) => Function::$function, )+ }
             }
@@ -169,7 +168,7 @@ macro_rules! functions {
                 call(self.function(), self.parts(), buf)
             }
 
-            /// The number of bytes of the call's data.
+            /// The length of the data of the call, in bytes.
             pub fn encoded_len(&self) -> usize {
                 self.parts().encoded_len()
             }
@@ -178,7 +177,7 @@ macro_rules! functions {
                 match self { $( Self::$function(operation) => operation, )+ }
             }
 
-            /// Decodes the data received.
+            /// Decodes the data of the reply.
             ///
             /// # Errors
             /// Those of [`Operation::decode_reply`].
@@ -188,7 +187,7 @@ macro_rules! functions {
                 )+ }
             }
 
-            /// The request to a function that has the address and the service of a call.
+            /// Decodes a call whose address and service are those of this function.
             pub(super) fn decode(
                 function: Function,
                 group: Group,

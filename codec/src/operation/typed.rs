@@ -1,4 +1,4 @@
-//! Typed operations: the trait, and the macro that declares an operation by its row of the table.
+//! Typed operations: the trait, and the macro that declares an operation from its row in the table.
 
 use super::{Call, Function, Service};
 use crate::address::{IndexGroup, IndexOffset};
@@ -10,8 +10,8 @@ pub(super) mod sealed {
     pub trait Sealed {}
 }
 
-/// The parts of a call. A trait object, so that all operations share the code that builds the call:
-/// firmware would have it 30 times otherwise.
+/// The parts of a call. Used as a trait object, so that all operations share the code that builds the
+/// call; otherwise firmware would contain it 30 times.
 pub(super) trait Parts {
     fn index_group(&self) -> IndexGroup;
     fn index_offset(&self) -> IndexOffset;
@@ -58,7 +58,7 @@ pub(super) fn call<'b>(
     })
 }
 
-/// A call of one function of the table.
+/// A call of one function of the CNC.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.1.2, 2.2.2, 3.1 … 3.4 and
 /// 4.3.1 … 4.3.11.
@@ -94,7 +94,7 @@ pub(super) fn call<'b>(
 ///     }
 /// }
 ///
-/// // … or all of it at once:
+/// // Or encode all parts of the call at once:
 /// let count = CountVariables::new(Channel::new(1)?, Kind::V_E);
 /// let mut buf = [0; 256];
 /// let call = count.call(&mut buf)?;
@@ -104,10 +104,10 @@ pub(super) fn call<'b>(
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 pub trait Operation: sealed::Sealed {
-    /// The function that is called.
+    /// The called function.
     const FUNCTION: Function;
 
-    /// The reply.
+    /// The type of the reply.
     type Reply<'r>: Decode<'r>;
 
     /// The AMS port of the task that serves the function.
@@ -126,19 +126,20 @@ pub trait Operation: sealed::Sealed {
     /// The index offset of the request.
     fn index_offset(&self) -> IndexOffset;
 
-    /// The most bytes of the reply, sent as the read length; 0 for a Write.
+    /// The read length: the maximum length of the reply in bytes; 0 for a Write.
     fn read_length(&self) -> u32;
 
     /// The number of bytes that [`encode`](Self::encode) writes.
     fn encoded_len(&self) -> usize;
 
-    /// Writes the data to send, if any, to the front of `buf`.
+    /// Writes the data of the request, which may be empty, to the front of `buf`.
     ///
     /// # Errors
-    /// A value that the function does not take, or a buffer that is too small; nothing is written.
+    /// A value that the function does not accept, or a buffer that is too small. Nothing is written
+    /// then.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
-    /// Encodes the data into `buf` and returns it with the address, the service and the read length.
+    /// Encodes the data into `buf` and returns it with port, service, address and read length.
     ///
     /// # Errors
     /// Those of [`encode`](Self::encode).
@@ -149,18 +150,18 @@ pub trait Operation: sealed::Sealed {
         call(Self::FUNCTION, self, buf)
     }
 
-    /// Decodes the data received.
+    /// Decodes the data of the reply.
     ///
     /// # Errors
-    /// Those of the reply's stream, and a reply longer than the read length.
+    /// Those of the decoder of the reply, and an error for a reply longer than the read length.
     fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
         Self::Reply::decode(data)
     }
 }
 
-/// The kinds of fields of operations, one line each: the type of the field, the type of the
-/// constructor's argument, the conversion of the argument to the field and of the field to the stream,
-/// and the documentation. The first lines document the errors of the constructors.
+/// The kinds of fields of operations, one line each: the type of the field, the type of the argument
+/// of the constructor, the conversions from argument to field and from field to stream, and the
+/// documentation. The first lines document the errors of the constructors.
 macro_rules! field {
     (errors Name)    => { "Those of [`IntoName::into_name`]. [`encode`](Operation::encode) checks the length of the name." };
     (errors CStringPrefix) => { field!(errors Name) };
@@ -174,15 +175,15 @@ macro_rules! field {
     ($q:ident Class $($i:ident)?)      => { field!(@$q [ClassGroup] [ClassGroup] [$($i)?] [$($i)?] "The class, by number or by index.") };
     ($q:ident Object $($i:ident)?)     => { field!(@$q [(ComGroup, IndexOffset)] [(ComGroup, IndexOffset)] [$($i)?] [$($i)?] "The object.") };
     ($q:ident Number $($i:ident)?)     => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "A number.") };
-    ($q:ident Index $($i:ident)?)      => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "Index of the variable, from 0 to one less than their number.") };
+    ($q:ident Index $($i:ident)?)      => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "Index of the variable, from 0 to the number of variables minus 1.") };
     ($q:ident NonZero $($i:ident)?)    => { field!(@$q [u32] [u32] [DynamicIndex($($i)?).check()?.0] [$($i)?] "Index of the parameter, from 1.") };
     ($q:ident Kind $($i:ident)?)       => { field!(@$q [Kind<'a>] [Kind<'a>] [$($i)?] [$($i)?] "The kind of variables.") };
     ($q:ident Name $($i:ident)?)       => { field!(@$q [TextRef<'a>] [impl IntoName<'a>] [$($i)?.into_name()?.into()] [$($i)?] "Name of the variable or parameter.") };
     ($q:ident CStringPrefix $($i:ident)?)    => { field!(@$q [CncStr<'a>] [impl IntoName<'a>] [$($i)?.into_name()?] [$($i)?] "Name of the variable.") };
     ($q:ident Handle $($i:ident)?)     => { field!(@$q [Handle] [Handle] [$($i)?] [$($i)?] "Handle of the variable.") };
-    ($q:ident Indices $($i:ident)?)    => { field!(@$q [U32List<'a>] [impl Into<U32List<'a>>] [$($i)?.into()] [$($i)?] "Index in each dimension, from 0; none for the whole variable.") };
+    ($q:ident Indices $($i:ident)?)    => { field!(@$q [U32List<'a>] [impl Into<U32List<'a>>] [$($i)?.into()] [$($i)?] "Index in each dimension, from 0; empty for the whole variable.") };
     ($q:ident Value $($i:ident)?)      => { field!(@$q [WriteValue<'a>] [impl Into<WriteValue<'a>>] [$($i)?.into()] [$($i)?.as_bytes()] "The value.") };
-    ($q:ident Lines $($i:ident)?)      => { field!(@$q [&'a [u8]] [&'a [u8]] [$($i)?] [$($i)?] "Whole lines of NC text; [`Sender`](crate::streaming::Sender) gives them.") };
+    ($q:ident Lines $($i:ident)?)      => { field!(@$q [&'a [u8]] [&'a [u8]] [$($i)?] [$($i)?] "Whole lines of NC text, as [`Sender`](crate::streaming::Sender) returns them.") };
     (@ty [$($ty:tt)*] $argument:tt $made:tt $lent:tt $doc:literal) => { $($ty)* };
     (@argument $ty:tt [$($argument:tt)*] $made:tt $lent:tt $doc:literal) => { $($argument)* };
     (@made $ty:tt $argument:tt [$($made:tt)*] $lent:tt $doc:literal) => { $($made)* };
@@ -190,7 +191,7 @@ macro_rules! field {
     (@doc $ty:tt $argument:tt $made:tt $lent:tt $doc:literal) => { $doc };
 }
 
-/// Declares the operation of a row.
+/// Declares the operation of a row of the function table.
 macro_rules! operation {
     (
         $how:ident $function:ident [$($a:lifetime)?] $facts:tt
@@ -229,7 +230,7 @@ macro_rules! operation {
         }
 
         impl $(<$a>)? $function $(<$a>)? {
-            /// The operation of a call whose address the rules contain.
+            /// Decodes a call whose address matches the rules.
             fn dispatched<'c>(group: Group, call: &Call<'c>) -> Result<Request<'c>, DispatchError> {
                 let rule = const { Function::$function.spec().offset };
                 let ($( $part, )+) = Address::from_call(group, call.index_offset, rule)

@@ -1,4 +1,4 @@
-//! Parts of arbitrary values.
+//! Generators for parts of arbitrary values.
 
 use alloc::vec::Vec;
 
@@ -22,7 +22,7 @@ pub(crate) fn text(u: Any<'_, '_>, max: usize) -> arbitrary::Result<CncString> {
     Ok(CncString::without_nul(bytes))
 }
 
-/// Text and its NUL, followed by NULs if it `is_padded`, else by any bytes.
+/// Text and its NUL, followed by NULs if `is_padded`, otherwise by any bytes.
 pub(crate) fn ended(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Result<Text> {
     let text = text(u, max.saturating_sub(1))?;
     let left = max.saturating_sub(1).saturating_sub(text.as_bytes().len());

@@ -1,4 +1,4 @@
-//! Rows of counted items, and of the bytes that are left.
+//! Rows of counted items, and of remaining bytes.
 
 use super::{Row, count, put_count};
 use crate::bytes::{Reader, Writer, to_u32, to_usize};
@@ -7,7 +7,7 @@ use crate::layout::{Field, Size, Type};
 use crate::limits::ADS_DATA;
 use crate::variable::U32List;
 
-/// A count, which has a row of its own, and as many UNS32.
+/// A list of UNS32. Its count has its own row.
 pub(crate) struct List<const MAX: u32>;
 
 impl<const MAX: u32> Row for List<MAX> {
@@ -51,7 +51,7 @@ impl<const MAX: u32> Row for List<MAX> {
     }
 }
 
-/// A length, which has a row of its own, and as many bytes.
+/// Counted bytes. Their length has its own row.
 pub(crate) struct Data;
 
 impl Row for Data {
@@ -85,7 +85,7 @@ impl Row for Data {
     }
 }
 
-/// The bytes that are left. Their maximum is that of the stream.
+/// All remaining bytes. The length of the stream limits them.
 pub(crate) struct Rest<const MIN: u32, const MAX: u32>;
 
 impl<const MIN: u32, const MAX: u32> Row for Rest<MIN, MAX> {

@@ -1,4 +1,4 @@
-//! The kinds of rows that tables of streams have: how each is read, checked and written.
+//! The kinds of rows in the tables of streams: how to read, check and write each kind.
 
 #[cfg(feature = "arbitrary")]
 pub(crate) mod any;
@@ -18,26 +18,26 @@ use crate::layout::{Field, Size, Type};
 
 /// A kind of row.
 ///
-/// The fixed rows that a stream begins with are its head. They are read after one check of the
-/// length, each at the offset that the table prints.
+/// The fixed rows at the start of a stream are its head. One check of the length covers them; each is
+/// then read at its offset in the table.
 pub(crate) trait Row {
-    /// Its type in a view.
+    /// The type in a view.
     type View<'a>: Copy;
     const SIZE: Size;
     const TYPE: Type;
-    /// Whether a fixed row may be rejected.
+    /// Whether a fixed row can be rejected.
     const REJECTS: bool = false;
 
-    /// Reads the row, which begins `at` this offset.
+    /// Reads the row that begins at offset `at`.
     fn read<'a>(
         input: &mut Reader<'a>,
         head: &'a [u8],
         field: Field,
         at: usize,
     ) -> Result<Self::View<'a>, Error>;
-    /// The length of the encoded row, a count included.
+    /// The length of the encoded row, including a count.
     fn len(view: Self::View<'_>) -> usize;
-    /// Rejects what `read` would reject; the row, a count included, begins at `at`.
+    /// Rejects values that `read` would reject. The row, including a count, begins at `at`.
     #[inline]
     fn check(_: Self::View<'_>, _: Field, _at: usize) -> Result<(), Error> {
         Ok(())
@@ -52,7 +52,7 @@ pub(crate) trait Row {
 #[cfg(feature = "alloc")]
 pub(crate) trait Owned: Row {
     type Type;
-    /// The fewest bytes that it is encoded to, a count included.
+    /// The minimum length of the encoded row, including a count.
     #[cfg(feature = "arbitrary")]
     const LEAST: usize = match Self::SIZE {
         Size::Items { .. } => 4,
@@ -64,12 +64,12 @@ pub(crate) trait Owned: Row {
     /// Pulls the row's bytes from a reader; `read` checks them.
     #[cfg(feature = "binrw")]
     fn pull(from: &mut impl Pull) -> binrw::io::Result<()>;
-    /// A value that a stream can have, with at most `room` bytes beyond the fewest.
+    /// A valid value, with at most `room` bytes in excess of the minimum.
     #[cfg(feature = "arbitrary")]
     fn any(u: any::Any<'_, '_>, room: usize) -> arbitrary::Result<Self::Type>;
 }
 
-/// The bytes of a head at an offset. `stream!` checks the offsets of its rows, so the head has them.
+/// Bytes of a head at an offset. `stream!` checks the offsets of its rows, so they are within the head.
 #[inline(always)]
 fn part<const N: usize>(head: &[u8], at: usize) -> [u8; N] {
     head.get(at..).and_then(<[u8]>::first_chunk).copied().unwrap_or([0; N])

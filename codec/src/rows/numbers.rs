@@ -46,7 +46,7 @@ macro_rules! ints {
 
 ints! { u8 1 Uns08; u16 2 Uns16; u32 4 Uns32; }
 
-/// A number `N`, as a `T`.
+/// A number `N` on the wire, with the Rust type `T`.
 pub(crate) struct Number<N, T>(PhantomData<(N, T)>);
 
 impl<N: Int + From<T>, T: Copy + From<N>> Row for Number<N, T> {
@@ -70,7 +70,7 @@ impl<N: Int + From<T>, T: Copy + From<N>> Row for Number<N, T> {
     }
 }
 
-/// A BOOLEAN, as a `T`: any value but 0 is TRUE, and is kept.
+/// A BOOLEAN with the Rust type `T`: any value but 0 is TRUE; the value is kept.
 pub(crate) struct Boolean<T>(PhantomData<T>);
 
 impl<T: Copy + From<u8>> Row for Boolean<T>
@@ -97,7 +97,7 @@ where
     }
 }
 
-/// A UNS32 that is not 0.
+/// A UNS32 that must not be 0.
 pub(crate) struct NonZero;
 
 impl Row for NonZero {
@@ -138,7 +138,7 @@ mod owned {
     #[cfg(feature = "binrw")]
     use crate::io::Pull;
 
-    /// Rows that are the same in a view.
+    /// Rows with the same type in a view and in an owned type.
     macro_rules! numbers {
         ($( [$($generics:tt)*] $row:ty, $type:ty, [$($where:tt)*] $size:expr, any $u:ident => $any:expr; )+) => { $(
             impl<$($generics)*> Owned for $row where $($where)* {

@@ -9,7 +9,7 @@ use crate::layout::{Field, Size, Type};
 use crate::text::{CncStr, TextRef};
 use crate::variable::Kind;
 
-/// Text up to a NUL or to the end of the stream. Bytes after the NUL are its tail, and kept.
+/// Text up to a NUL or to the end of the stream. The bytes after the NUL are its tail, which is kept.
 pub(crate) struct TextAndTail<const MIN: u32, const MAX: u32>;
 
 impl<const MIN: u32, const MAX: u32> Row for TextAndTail<MIN, MAX> {
@@ -43,7 +43,7 @@ impl<const MIN: u32, const MAX: u32> Row for TextAndTail<MIN, MAX> {
     }
 }
 
-/// NUL-terminated text; more NULs may pad it. If it `IS_OPTIONAL`, no bytes are the empty text.
+/// NUL-terminated text; more NULs may pad it. If `IS_OPTIONAL`, zero bytes are the empty text.
 pub(crate) struct CString<const MAX: u32, const IS_OPTIONAL: bool>;
 
 impl<const MAX: u32, const IS_OPTIONAL: bool> Row for CString<MAX, IS_OPTIONAL> {
@@ -200,7 +200,7 @@ mod owned {
     use crate::io::Pull;
     use crate::text::{CncString, Text};
 
-    /// Rows that are text with a tail.
+    /// Rows of text with a tail.
     macro_rules! texts {
         ($(
             [$($generics:tt)*] $row:ty, at most $max:ident,

@@ -15,7 +15,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The width is assumed.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -34,14 +34,14 @@ stream! {
 crate::number::shown!(ElementCount);
 
 stream! {
-    /// The name, type or unit of an element.
+    /// The name, type or unit of an element: a text.
     ///
-    /// The text ends at its first NUL or with the reply (assumed). Bytes after the NUL are kept. An
-    /// empty reply is an empty text. The read length is 256 bytes (assumed).
+    /// The text ends at its first NUL, or at the end of the reply (assumed). Bytes after the NUL are
+    /// kept. An empty reply is an empty text. The read length is 256 bytes (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
     ///
-    /// `decode` rejects bytes with [`TooLong`](crate::ErrorKind::TooLong).
+    /// `decode` can fail with [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::Decode;
@@ -58,12 +58,12 @@ stream! {
 
 #[doc = include_str!("../../doc/element-length.md")]
 ///
-/// The width of the number is not documented (assumed: one, two or four bytes). A new length is written
-/// in four bytes.
+/// The width of the number is not documented; one, two and four bytes are accepted (assumed). A new
+/// length is encoded in four bytes.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -85,7 +85,7 @@ pub struct ElementLength {
     width: Width,
 }
 
-/// The bytes that the number has in the stream.
+/// The width of the number in the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 enum Width {
@@ -95,12 +95,12 @@ enum Width {
 }
 
 impl ElementLength {
-    /// This many bytes, encoded in four.
+    /// A length in bytes, encoded in four bytes.
     pub const fn new(length: u32) -> Self {
         Self { length, width: Width::Four }
     }
 
-    /// Bytes of the content.
+    /// The length of the content in bytes.
     pub const fn get(self) -> u32 {
         self.length
     }
@@ -138,13 +138,13 @@ impl Encode for ElementLength {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        // A narrow number was decoded from as many bytes, so no digit is lost.
+        // A narrow number was decoded from the same width, so it fits.
         let all = self.length.to_le_bytes();
         Writer::copy(Self::STREAM, all.get(..self.encoded_len()).unwrap_or_default(), buf)
     }
 }
 
-/// The length, tagged with the type of its width.
+/// The length, tagged with the type that has its width.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
@@ -193,12 +193,12 @@ impl<'a> arbitrary::Arbitrary<'a> for ElementLength {
 stream! {
     /// Whether an element may be written.
     ///
-    /// TRUE permits writing (section 2.2.1), though the heading in section 2.2.2 speaks of protection
+    /// TRUE permits writing (section 2.2.1), although the heading in section 2.2.2 is write protection
     /// (E-11).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -218,9 +218,9 @@ stream! {
 crate::number::shown!(u8: ElementWriteFlag);
 
 impl ElementWriteFlag {
-    /// FALSE, as written.
+    /// FALSE: 0 when encoded.
     pub const READ_ONLY: Self = Self(0);
-    /// TRUE, as written.
+    /// TRUE: 1 when encoded.
     pub const WRITABLE: Self = Self(1);
 
     /// Whether the flag is TRUE: any byte but 0.

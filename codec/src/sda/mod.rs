@@ -1,7 +1,7 @@
 //! Elements of the classes that the SDA and GEO tasks serve (SDA-1 … SDA-12).
 //!
-//! A query returns the address of an instance of a class, if it exists. An instance is a list of
-//! elements, and each attribute of an element has its own index group:
+//! A query returns the address of an instance of a class, if the instance exists. An instance is a
+//! list of elements. Each attribute of an element has its own index group:
 //!
 //! | attribute | group | read with | reply |
 //! |---|---|---|---|
@@ -14,7 +14,7 @@
 //! | unit | base + 0x400 | [`ReadElementUnit`] | [`ElementTextRef`] |
 //! | write flag | base + 0x500 | [`ReadElementWriteFlag`] | [`ElementWriteFlag`] |
 //!
-//! The base is `0x120300` + class + channel, that of a spindle `0x25300` + spindle.
+//! The base is `0x120300` + class + channel; for a spindle, it is `0x25300` + spindle.
 //!
 //! ```
 //! use ads_cnc::address::{Attribute, Class};
@@ -24,7 +24,7 @@
 //! assert_eq!((query.index_group().get(), query.index_offset().get()), (0x12_3900, 0));
 //! assert_eq!(query.encode(&mut [0; 8])?, [1, 0, 0, 0, 0, 0, 0, 0]);
 //!
-//! // … and the answer of a CNC:
+//! // The reply of a CNC:
 //! let found = query.decode_reply(&[0x01, 0x33, 0x12, 0, 0, 0, 0, 0])?;
 //! let first = found.first_element()?.expect("the channel is configured");
 //! let name = ReadElementName::new(first.nth(1)?);

@@ -8,27 +8,27 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
 stream! {
-    /// Asks for the address of an instance of a class.
+    /// The query of the address of an instance of a class.
     ///
-    /// The numbers of each class:
+    /// Valid numbers for each class:
     ///
     /// | class | channel | axis |
     /// |---|---|---|
     /// | position controller | 0 | from 1 to the configured axes |
     /// | interpolator, decoder, path preparation | from 1 to the configured channels | from 0 (the channel itself) to `BAHN_BAVO_AXMAX` |
-    /// | HLD | from 1 to the configured channels, 0 for platform axes (E-30) | none, or from 1 to the configured axes |
+    /// | HLD | from 1 to the configured channels, 0 for platform axes (E-30) | 0, or from 1 to the configured axes |
     /// | spindle | index of the spindle, from 0 | 0 |
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths are assumed.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
     /// use ads_cnc::Encode;
     /// use ads_cnc::sda::ObjectAddressQuery;
     ///
-    /// // the first platform axis
+    /// // The first platform axis.
     /// let query = ObjectAddressQuery { channel: 0, axis: 1 };
     /// assert_eq!(query.encode(&mut [0; 8])?, [0, 0, 0, 0, 1, 0, 0, 0]);
     /// # Ok::<(), ads_cnc::Error>(())
@@ -45,7 +45,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths are assumed.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -70,11 +70,11 @@ impl ObjectAddress {
     pub const NONE: Self =
         Self { index_group: IndexGroup::new(0), index_offset: IndexOffset::new(0) };
 
-    /// The instance's first element; `None` if the instance does not exist.
+    /// The first element of the instance; `None` if the instance does not exist.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that belongs to no class; [`Error::expected`] is an example,
-    /// 0x120300.
+    /// [`ErrorKind::Mismatch`] for a group that does not belong to a class; [`Error::expected`] is an
+    /// example of a valid group, 0x120300.
     pub fn first_element(&self) -> Result<Option<ElementAddress>, Error> {
         const EXPECTED: IndexGroup = ClassGroup {
             addressing: Addressing::Logical,

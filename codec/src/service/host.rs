@@ -5,32 +5,35 @@ use super::{ServiceId, ServiceVariable};
 use crate::error::Error;
 use crate::text::CncStr;
 
-/// One or more services that listen on the Service Interface of one channel.
+/// A host of one or more services on the Service Interface of a channel.
 ///
-/// It reads REQUEST_STATE; if that is not 0, UUID; if that is one of its services, REQUEST; and then
-/// all three again. If the values are the same both times, they are a request, which the host hands out
-/// (SVC-2): between two reads the program may have called another service. With the answer, the host
-/// 1. reads the three once more, and drops the answer if one has changed: the program has given up or
-///    called another service, or the CNC was reset,
+/// The host reads REQUEST_STATE; if it is not 0, UUID; if that is one of its services, REQUEST. It
+/// then reads all three again, because the program may have called another service between two reads.
+/// If the values are unchanged, the host hands out the request (SVC-2). When it has the answer, the
+/// host
+/// 1. reads the three variables once more, and drops the answer if a value has changed: the program
+///    gave up or called another service, or the CNC was reset,
 /// 2. writes RESPONSE,
-/// 3. writes 0 to REQUEST_STATE, as it is not documented whether and when a CNC does (SVC-4),
-/// 4. writes RESPONSE_STATE, for which the program waits (SVC-5). It is last, as a write of
-///    REQUEST_STATE resets it (SVC-3).
+/// 3. writes 0 to REQUEST_STATE, because it is not documented whether and when a CNC does so (SVC-4),
+/// 4. writes RESPONSE_STATE, for which the program waits (SVC-5). This write is last, because a write of
+///    REQUEST_STATE resets RESPONSE_STATE (SVC-3).
 ///
-/// The order of the last two and the repeated reads are assumed. Between the last read and the writes a
-/// program may still give up and make another request: the interface does not distinguish an answer to
-/// the earlier request from one to the later, nor two requests with the same UUID, text and state.
+/// The order of the last two writes and the repeated reads are assumed. Between the last read and the
+/// writes, the program may still give up and make another request: the interface cannot distinguish
+/// the answers to the two requests, nor two requests with the same UUID, text and state.
 ///
-/// # When something fails
-/// [`step`](Self::step) returns the same step until the caller reports its completion, by [`read`](Self::read),
-/// [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll). A read can be
-/// repeated. Report a failed write by [`failed`](Self::failed): the value may have been written, and the
-/// program may have continued. So the host reads before it writes again.
+/// # Failed steps
+/// [`step`](Self::step) returns the same step until the caller reports its completion with
+/// [`read`](Self::read), [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll).
+/// A failed read can be repeated. Report a failed write with [`failed`](Self::failed). The value may
+/// have been written and the program may have continued, so the host then reads before it writes
+/// again.
 ///
-/// One case cannot be detected: two hosts share a channel, and the first one's write of
-/// RESPONSE_STATE is reported as failed but was done. If the program then calls a service of the second
-/// host, and a service of the first again while the first host reads, this host writes the state once
-/// more and ends a request that it has not served. One host for all services of a channel is safe.
+/// One case cannot be detected: two hosts share a channel, and a write of RESPONSE_STATE by the first
+/// host is reported as failed but took effect. If the program then calls a service of the second host,
+/// and again a service of the first host while the first host reads, the first host writes the state
+/// again and ends a request that it has not served. To avoid this, use one host for all services of a
+/// channel.
 ///
 /// After a reset of the CNC or on a new connection, call [`restart`](Self::restart).
 ///
@@ -53,7 +56,7 @@ use crate::text::CncStr;
 /// let HostStep::Serve { request, .. } = host.step() else { panic!() };
 /// assert_eq!(request, "3");
 ///
-/// // Rejected before anything is written: the program would wait for ever.
+/// // Rejected before anything is written: the program would wait forever.
 /// assert!(host.answer(CncStr::new("1.732051")?, 0).is_err());
 /// host.answer(CncStr::new("1.732051")?, 1)?;
 /// # Ok::<(), ads_cnc::Error>(())
@@ -62,11 +65,11 @@ use crate::text::CncStr;
 pub struct Host<'s> {
     services: &'s [ServiceId],
     phase: Phase,
-    /// The request: the index of its service, its text, its state.
+    /// The request: index of the service, text, state.
     service: usize,
     request: ServiceText,
     request_state: u32,
-    /// The answer; its state is 0 until there is an answer.
+    /// The answer; the state is 0 before the answer.
     response: ServiceText,
     response_state: [u8; 4],
     outcome: Option<Outcome>,
@@ -75,11 +78,11 @@ pub struct Host<'s> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Idle,
-    // Is there a request, and to which service?
+    // Reads until there is a request to one of the services.
     PollState,
     PollUuid,
     PollRequest,
-    // Is it unchanged? Before it is handed out, and before it is answered.
+    // Checks that the request is unchanged, before it is handed out and before it is answered.
     CheckState,
     CheckUuid,
     CheckRequest,
@@ -90,16 +93,16 @@ enum Phase {
     Clear,
     /// Writes RESPONSE_STATE.
     Finish,
-    /// The write of REQUEST_STATE failed: was it done?
+    /// The write of REQUEST_STATE failed: reads whether it took effect.
     LookCleared,
-    // The write of RESPONSE_STATE failed: was it done, or is the interface unchanged?
+    // The write of RESPONSE_STATE failed: reads whether it took effect or the interface is unchanged.
     LookResponseState,
     LookRequestState,
     LookUuid,
 }
 
 impl Phase {
-    /// The variable to read.
+    /// The variable to read in this phase.
     const fn asks(self) -> Option<ServiceVariable> {
         Some(match self {
             Self::PollState | Self::CheckState | Self::LookCleared | Self::LookRequestState => {
@@ -113,7 +116,7 @@ impl Phase {
     }
 }
 
-/// The next step of a host; see the example at [`Host`].
+/// The next step of a host. [`Host`] has an example.
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -131,23 +134,23 @@ impl Phase {
 pub enum HostStep<'a> {
     /// Read this variable and pass its value to [`Host::read`].
     Read(ServiceVariable),
-    /// Write this value to this variable, then call [`Host::written`] or [`Host::failed`].
+    /// Write this value to the variable, then call [`Host::written`] or [`Host::failed`].
     Write(ServiceVariable, &'a [u8]),
     /// Serve the request, then call [`Host::answer`].
     Serve {
-        /// The service that is called, as it was given to [`Host::new`].
+        /// The called service, as passed to [`Host::new`].
         uuid: &'a ServiceId,
         /// The text of the request.
         request: CncStr<'a>,
         /// The request state; not 0.
         request_state: u32,
     },
-    /// Let some time pass, then call [`Host::poll`].
+    /// Wait for some time, then call [`Host::poll`].
     Wait,
 }
 
-/// The outcome of an answer: [`Host::outcome`]. The manuals describe only the first; the other is
-/// assumed.
+/// The outcome of an answer, returned by [`Host::outcome`]. The manuals describe only `Answered`;
+/// `Abandoned` is assumed.
 ///
 /// ```
 /// use ads_cnc::CncStr;
@@ -163,7 +166,7 @@ pub enum HostStep<'a> {
 ///     })?;
 /// }
 /// host.answer(CncStr::new("too late")?, 1)?;
-/// host.read(&[0; 4])?; // REQUEST_STATE: the CNC was reset while the service was at work
+/// host.read(&[0; 4])?; // REQUEST_STATE: the CNC was reset while the service was working
 /// assert_eq!(host.outcome(), Some(Outcome::Abandoned));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -171,12 +174,12 @@ pub enum HostStep<'a> {
 pub enum Outcome {
     /// The answer was written.
     Answered,
-    /// The answer was dropped or written in part: the request was withdrawn.
+    /// The request was withdrawn; the answer was dropped or written only in part.
     Abandoned,
 }
 
 impl<'s> Host<'s> {
-    /// Services on one channel. Of two with the same UUID the first is called.
+    /// A host of these services. If two have the same UUID, the first one is called.
     pub const fn new(services: &'s [ServiceId]) -> Self {
         Self {
             services,
@@ -190,7 +193,7 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// The next step; the same until it is done.
+    /// The next step. Returns the same step until its completion is reported.
     pub fn step(&self) -> HostStep<'_> {
         if let Some(variable) = self.phase.asks() {
             return HostStep::Read(variable);
@@ -200,7 +203,7 @@ impl<'s> Host<'s> {
             Phase::Clear => HostStep::Write(ServiceVariable::RequestState, &[0; 4]),
             Phase::Finish => HostStep::Write(ServiceVariable::ResponseState, &self.response_state),
             Phase::Serving => {
-                // The index was found in the list.
+                // The index came from this list, so it is valid.
                 self.services.get(self.service).map_or(HostStep::Wait, |uuid| HostStep::Serve {
                     uuid,
                     request: self.request.text(),
@@ -211,20 +214,21 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// The outcome of the last answer; `None` before the first, and while one is being written.
+    /// The outcome of the last answer; `None` before the first answer and while an answer is being
+    /// written.
     pub const fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }
 
-    /// Takes the value that was read; does nothing if the step was not a read.
+    /// Processes the value that was read. Does nothing if the step is not a read.
     ///
     /// # Errors
-    /// - [`Truncated`](crate::ErrorKind::Truncated), [`Trailing`](crate::ErrorKind::Trailing): a
-    ///   state that does not have four bytes,
-    /// - [`TooLong`](crate::ErrorKind::TooLong): a request of more than 128 bytes with its NUL.
+    /// - [`Truncated`](crate::ErrorKind::Truncated), [`Trailing`](crate::ErrorKind::Trailing): a state
+    ///   that does not have four bytes,
+    /// - [`TooLong`](crate::ErrorKind::TooLong): a request of more than 128 bytes including its NUL.
     ///
-    /// While it polls, an invalid value means that it waits for the next [`poll`](Self::poll). After
-    /// that it reads the value again.
+    /// After an invalid value, a host that looks for a request waits for the next
+    /// [`poll`](Self::poll); in any later phase, it reads the value again.
     pub fn read(&mut self, value: &[u8]) -> Result<(), Error> {
         let Some(variable) = self.phase.asks() else {
             return Ok(());
@@ -274,7 +278,7 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The next phase if the values are unchanged; otherwise the request was withdrawn.
+    /// Enters the next phase if the values are unchanged; otherwise the request was withdrawn.
     fn go_on(&mut self, is_unchanged: bool, next: Phase) -> Phase {
         match is_unchanged {
             true => next,
@@ -292,7 +296,7 @@ impl<'s> Host<'s> {
         self.services.iter().position(|service| *service == id)
     }
 
-    /// Whether the UUID is that of the request that was served.
+    /// Whether the UUID is that of the current request.
     fn is_own(&self, value: &[u8]) -> bool {
         self.service_of(value) == Some(self.service)
     }
@@ -302,12 +306,11 @@ impl<'s> Host<'s> {
         Phase::Idle
     }
 
-    /// Takes the answer to the request that [`step`](Self::step) has handed out; does nothing without a
-    /// request.
+    /// Answers the request that [`step`](Self::step) has handed out. Does nothing without a request.
     ///
     /// # Errors
-    /// Nothing is written then, and another answer can be given:
-    /// - [`TooLong`](crate::ErrorKind::TooLong): a response of more than 128 bytes with its NUL,
+    /// After an error, nothing is written, and the caller can pass another answer:
+    /// - [`TooLong`](crate::ErrorKind::TooLong): a response of more than 128 bytes including its NUL,
     /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): a response state of 0 (SVC-5, E-35).
     pub fn answer(&mut self, response: CncStr<'_>, response_state: u32) -> Result<(), Error> {
         let response = ServiceText::new(response, ServiceVariable::Response)?;
@@ -320,7 +323,7 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The variable was written; does nothing if the step was not a write.
+    /// Reports that the variable was written. Does nothing if the step is not a write.
     pub fn written(&mut self) {
         self.phase = match self.phase {
             Phase::Respond => Phase::Clear,
@@ -330,8 +333,8 @@ impl<'s> Host<'s> {
         };
     }
 
-    /// A step failed. After a write, which may have been done, the host reads the interface before it
-    /// writes again; a read stays the next step.
+    /// Reports that the step failed. A failed write may have taken effect, so the host reads the
+    /// interface before it writes again. A failed read remains the next step.
     pub fn failed(&mut self) {
         self.phase = match self.phase {
             Phase::Respond => Phase::CheckState,
@@ -341,15 +344,15 @@ impl<'s> Host<'s> {
         };
     }
 
-    /// Ends a [`HostStep::Wait`]: looks for a request.
+    /// Ends a [`HostStep::Wait`]; the host looks for a request again.
     pub fn poll(&mut self) {
         if self.phase == Phase::Idle {
             self.phase = Phase::PollState;
         }
     }
 
-    /// Forgets the request and its answer, and looks for a request. A request that is still in the variables is
-    /// served again.
+    /// Discards the request and its answer, and looks for a request. A request that is still in the
+    /// variables is served again.
     pub fn restart(&mut self) {
         self.phase = Phase::PollState;
     }

@@ -11,14 +11,14 @@ use crate::text::{Chars, CncStr};
 /// The offsets of the hyphens in a UUID.
 const HYPHENS: [usize; 4] = [8, 13, 18, 23];
 
-/// The UUID of a service, as it was written.
+/// The UUID of a service, with its original case.
 ///
-/// 8, 4, 4, 4 and 12 hexadecimal digits with hyphens between them, as in the examples; that a
-/// UUID has no other form is assumed. Two are equal without regard to case, which is assumed
-/// (SVC-7); the CNC gets the UUID with its case unchanged.
+/// A UUID has 8, 4, 4, 4 and 12 hexadecimal digits with hyphens between them, as in the examples;
+/// other forms are rejected (assumed). UUIDs are compared without regard to case (assumed, SVC-7); the
+/// case is kept.
 ///
-/// Manual: `service-en` and `service-de` 1.03, section 2. The UUID of the example has a digit too
-/// few in the NC program (E-21):
+/// Manual: `service-en` and `service-de` 1.03, section 2. In the example, the UUID in the NC program
+/// lacks a digit (E-21):
 ///
 /// ```
 /// use ads_cnc::service::ServiceId;
@@ -36,19 +36,19 @@ const HYPHENS: [usize; 4] = [8, 13, 18, 23];
 pub struct ServiceId([u8; ServiceId::LEN]);
 
 impl ServiceId {
-    /// Characters of a UUID.
+    /// Number of characters of a UUID.
     pub const LEN: usize = 36;
 
-    /// The UUID of this text.
+    /// Parses a UUID.
     ///
     /// # Errors
     /// [`ErrorKind::Truncated`], [`ErrorKind::Trailing`]: not 36 characters;
-    /// [`ErrorKind::Unexpected`]: neither a digit nor a hyphen, or one where the other has to be.
+    /// [`ErrorKind::Unexpected`]: a character that is neither a digit nor a hyphen, or is the wrong one of the two.
     pub fn new(text: &str) -> Result<Self, Error> {
         Self::from_chars(Chars::of_str(text))
     }
 
-    /// As [`new`](Self::new), from CP1252.
+    /// Like [`new`](Self::new), but from CP1252 text.
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
@@ -81,7 +81,7 @@ impl ServiceId {
         Ok(Self(id))
     }
 
-    /// The UUID as it was written.
+    /// The UUID with its original case.
     pub const fn text(&self) -> CncStr<'_> {
         CncStr::without_nul(&self.0)
     }

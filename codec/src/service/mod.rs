@@ -1,21 +1,23 @@
-//! The Service Interface, by which a CNC program calls a service outside the CNC and gets its answer.
+//! The Service Interface, with which an NC program calls a service outside the CNC and receives its
+//! answer.
 //!
 //! Five variables of each channel carry one request at a time (SVC-1):
 //!
 //! | variable | type | meaning |
 //! |---|---|---|
-//! | [`V.G.SERVICE.UUID`](ServiceVariable::Uuid) | STRING | the service that is called: [`ServiceId`] |
+//! | [`V.G.SERVICE.UUID`](ServiceVariable::Uuid) | STRING | the called service: [`ServiceId`] |
 //! | [`V.G.SERVICE.REQUEST`](ServiceVariable::Request) | STRING, 128 bytes | the request |
-//! | [`V.G.SERVICE.REQUEST_STATE`](ServiceVariable::RequestState) | UNS32 | not 0: there is a request |
-//! | [`V.G.SERVICE.RESPONSE_STATE`](ServiceVariable::ResponseState) | UNS32 | not 0: there is a response |
+//! | [`V.G.SERVICE.REQUEST_STATE`](ServiceVariable::RequestState) | UNS32 | not 0 if a request is present |
+//! | [`V.G.SERVICE.RESPONSE_STATE`](ServiceVariable::ResponseState) | UNS32 | not 0 if a response is present |
 //! | [`V.G.SERVICE.RESPONSE`](ServiceVariable::Response) | STRING, 128 bytes | the response |
 //!
-//! [`Host`] is the external service, or several of them on one channel: a state machine without I/O,
-//! clock or allocation. It returns the variable to read or write next; the caller does so, for example
-//! over ADS by [`ReadByName`](crate::operation::ReadByName), and reports the result.
+//! [`Host`] implements one or more external services on one channel: a state machine without I/O,
+//! clock or allocation. It returns the variable to read or write next. The caller accesses the
+//! variable, for example over ADS with [`ReadByName`](crate::operation::ReadByName), and reports the
+//! result.
 //!
-//! Manual: `service-en` and `service-de` 1.03, sections 1 and 2. A CNC has it from V2.11.2030.01 and
-//! V3.1.3057.03 on.
+//! Manual: `service-en` and `service-de` 1.03, sections 1 and 2. CNC versions from V2.11.2030.01 and
+//! V3.1.3057.03 on have the Service Interface.
 //!
 //! Requirement: SVC-11.
 //!
@@ -26,7 +28,7 @@
 //! let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
 //! let mut host = Host::new(&ids);
 //!
-//! // The values that the NC program has written.
+//! // The values that the NC program wrote.
 //! let value = |variable| match variable {
 //!     ServiceVariable::Uuid => &b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"[..],
 //!     ServiceVariable::Request => b"ping\0",

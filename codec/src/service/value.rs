@@ -1,4 +1,4 @@
-//! The values of the five variables.
+//! The values of the variables of the Service Interface.
 
 use core::fmt;
 
@@ -12,14 +12,14 @@ use crate::text::CncStr;
 #[derive(Clone, Copy)]
 pub(super) struct ServiceText {
     bytes: [u8; SERVICE_TEXT_MAX],
-    /// With the NUL.
+    /// Includes the NUL.
     len: u8,
 }
 
 impl ServiceText {
     pub(super) const EMPTY: Self = Self { bytes: [0; SERVICE_TEXT_MAX], len: 1 };
 
-    /// Takes a text that fits the field.
+    /// Checks that the text fits the field.
     pub(super) fn new(text: CncStr<'_>, variable: ServiceVariable) -> Result<Self, Error> {
         let len = text.len().saturating_add(1);
         let Some(len) =
@@ -32,7 +32,7 @@ impl ServiceText {
         Ok(Self { bytes, len })
     }
 
-    /// Reads a value: the text ends at the first NUL or at the end (VAR-22).
+    /// Decodes a value: the text ends at the first NUL, or at the end of the value (VAR-22).
     pub(super) fn decode(value: &[u8], variable: ServiceVariable) -> Result<Self, Error> {
         Self::new(CncStr::until_nul(value), variable)
     }
@@ -62,7 +62,8 @@ impl fmt::Debug for ServiceText {
 }
 
 impl ServiceVariable {
-    /// The text in a value of this variable: the bytes before the first NUL, or all (VAR-22).
+    /// Decodes the text in a value of this variable: the bytes before the first NUL, or all of them
+    /// (VAR-22).
     ///
     /// ```
     /// use ads_cnc::service::ServiceVariable;
@@ -72,7 +73,7 @@ impl ServiceVariable {
     /// ```
     ///
     /// # Errors
-    /// [`TooLong`](ErrorKind::TooLong) for a text of more than 128 bytes with its NUL.
+    /// [`TooLong`](ErrorKind::TooLong) for a text of more than 128 bytes including its NUL.
     pub fn text(self, value: &[u8]) -> Result<CncStr<'_>, Error> {
         let text = CncStr::until_nul(value);
         match text.len().saturating_add(1) {
@@ -81,7 +82,7 @@ impl ServiceVariable {
         }
     }
 
-    /// The number in a value of a state: UNS32.
+    /// Decodes the number in the value of a state, an UNS32.
     ///
     /// ```
     /// use ads_cnc::service::ServiceVariable;

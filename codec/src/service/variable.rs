@@ -1,4 +1,4 @@
-//! The five variables.
+//! The variables of the Service Interface.
 
 use core::fmt;
 
@@ -22,7 +22,7 @@ macro_rules! service_variables {
                 pub const $name: &'static str = concat!("V.G.SERVICE.", stringify!($name));
             )+
 
-            /// All of them, in the manual's order.
+            /// All variables, in the order of the manual.
             pub const ALL: [Self; [$( Self::$name ),+].len()] = [$( Self::$variant ),+];
 
             /// The variable's name, for requests by name.
@@ -30,7 +30,7 @@ macro_rules! service_variables {
                 match self { $( Self::$variant => Self::$name, )+ }
             }
 
-            /// STRING, or UNS32 of a state.
+            /// The type of the variable: UNS32 for a state, otherwise STRING.
             pub const fn var_type(self) -> VariableType {
                 match self { $( Self::$variant => VariableType::$var_type, )+ }
             }
@@ -43,10 +43,10 @@ macro_rules! service_variables {
 }
 
 service_variables! {
-    /// A variable of the Service Interface (SVC-1). Each channel has its own five.
+    /// A variable of the Service Interface (SVC-1). Each channel has its own set of five.
     ///
-    /// Manual: `service-en` and `service-de` 1.03, section 2. That the states are UNS32 follows from
-    /// the example's C code.
+    /// Manual: `service-en` and `service-de` 1.03, section 2. The C code of the example shows that the
+    /// states are UNS32.
     ///
     /// ```
     /// use ads_cnc::VariableType;
@@ -64,13 +64,13 @@ service_variables! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ServiceVariable {
-        /// The service that is called.
+        /// The called service.
         Uuid: UUID, STRING;
         /// The text of the request.
         Request: REQUEST, STRING;
-        /// Not 0: there is a request.
+        /// Not 0 if a request is present.
         RequestState: REQUEST_STATE, UNS32;
-        /// Not 0: there is a response.
+        /// Not 0 if a response is present.
         ResponseState: RESPONSE_STATE, UNS32;
         /// The text of the response.
         Response: RESPONSE, STRING;
@@ -78,7 +78,7 @@ service_variables! {
 }
 
 impl ServiceVariable {
-    /// The variable of this name.
+    /// The variable with this name; `None` if there is no such variable.
     pub fn by_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|variable| variable.name() == name)
     }

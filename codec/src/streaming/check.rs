@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::words::{LoopWord, ProgramEnd};
 
-/// A construct that streaming does not permit, or a line that would be lost.
+/// A construct that is not permitted in a stream, or a line that would be lost.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
 ///
@@ -45,20 +45,20 @@ pub struct Diagnostic {
 pub enum DiagnosticKind {
     /// A word of a loop (STM-8).
     Loop(LoopWord),
-    /// `$GOTO` to a label that is not in a later line (STM-8).
+    /// `$GOTO` to a label in the same or an earlier line, and not in a later one (STM-8).
     BackwardJump {
         /// The line of the label.
         to: u32,
     },
-    /// The first line after a program end. If the CNC has read it with the end it is lost, else
-    /// it stays in the interface and comes before the next program (STM-10).
+    /// The first line after a program end. If the CNC has read the line together with the program end,
+    /// the line is lost; otherwise it stays in the interface and precedes the next program (STM-10).
     AfterEnd {
-        /// The end.
+        /// The program end.
         end: ProgramEnd,
-        /// The line of the end.
+        /// The line of the program end.
         of: u32,
     },
-    /// `#COMMENT BEGIN` without `#COMMENT END`: all that follows is comment (STM-9).
+    /// `#COMMENT BEGIN` without `#COMMENT END`: the rest of the text is a comment (STM-9).
     OpenComment,
 }
 
@@ -72,13 +72,13 @@ impl DiagnosticKind {
         }
     }
 
-    /// Whether the CNC answers with an error and ends streaming (STM-8).
+    /// Whether the CNC reports an error and ends streaming (STM-8).
     pub const fn ends_streaming(self) -> bool {
         matches!(self, Self::Loop(_) | Self::BackwardJump { .. })
     }
 }
 
-/// The class in a few words.
+/// A short description of the class.
 impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

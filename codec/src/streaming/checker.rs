@@ -1,4 +1,4 @@
-//! The checks of a text, whole or packet by packet.
+//! The checks of a text, as a whole or packet by packet.
 
 use core::fmt;
 
@@ -8,18 +8,19 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
 /// Checks a program that arrives in parts, such as the packets that a CNC receives.
 ///
-/// It reports the same diagnostics as [`Diagnostics`] of the whole text, and the ends of programs.
-/// Comment blocks, labels, program ends and line numbers are carried over from one part to the next. Two
-/// differences remain, as it knows neither later lines nor all earlier ones:
-/// - A jump goes back if its label is in its own line or an earlier one, and not in a later line *of the
-///   same part* (assumed). The split into parts changes the result only if a label is both before and after the
+/// A checker reports the same diagnostics as [`Diagnostics`] for the whole text, and also program
+/// ends. It carries comment blocks, labels, program ends and line numbers over from one part to the
+/// next. Because it knows neither later lines nor all earlier lines, two differences remain:
+/// - A jump goes back if its label is in the same or an earlier line, and not in a later line *of the
+///   same part* (assumed). The split into parts only matters if a label is both before and after the
 ///   jump.
-/// - At least the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels are known, as long as they have
-///   no more than [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together. A jump back to
-///   an older label is not detected.
+/// - The checker remembers at least the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels, if they have
+///   at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together. It does not detect a
+///   jump back to an older label.
 ///
-/// It does not check line ends, the length of a line or that characters are ASCII:
-/// [`check_line_ends`](super::check_line_ends) checks the first, [`NcText`](super::NcText) all three.
+/// It checks neither line ends, nor the length of lines, nor that all characters are ASCII.
+/// [`check_line_ends`](super::check_line_ends) checks line ends; [`NcText`](super::NcText) checks all
+/// three.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6 (STM-8, STM-9, STM-10).
 ///
@@ -37,7 +38,7 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 /// assert!(jump.kind.ends_streaming());
 /// let Some(CheckEvent::ProgramEnd { end, line, column }) = found.next() else { panic!() };
 /// assert_eq!((end, line, column), (ProgramEnd::M30, 7, 5));
-/// assert_eq!(found.remaining(), b"N40 X2\r\n"); // was read with the program end and is discarded
+/// assert_eq!(found.remaining(), b"N40 X2\r\n"); // read with the program end, so discarded
 /// ```
 #[derive(Clone)]
 pub struct Checker {
@@ -45,7 +46,7 @@ pub struct Checker {
     judge: Judge,
 }
 
-/// The state that the checks carry from line to line.
+/// The state of the checks between lines.
 #[derive(Clone)]
 struct Judge {
     labels: Labels,
@@ -53,7 +54,7 @@ struct Judge {
     end: Option<(ProgramEnd, u32)>,
 }
 
-/// An event that a [`Checker`] reports; see the example there.
+/// An event that a [`Checker`] reports. [`Checker`] has an example.
 ///
 /// ```
 /// use ads_cnc::streaming::{Checker, CheckEvent, ProgramEnd};
@@ -63,12 +64,12 @@ struct Judge {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CheckEvent {
-    /// A construct that streaming does not permit, or a line that would be lost.
+    /// A construct that is not permitted in a stream, or a line that would be lost.
     Diagnostic(Diagnostic),
-    /// The program ends with this line, and streaming with it. The CNC discards the lines below
-    /// that it has already read; those in the interface stay there (STM-10).
+    /// This line ends the program and streaming. The CNC discards the later lines that it has already
+    /// read; lines in the interface stay there (STM-10).
     ProgramEnd {
-        /// The word.
+        /// The word that ends the program.
         end: ProgramEnd,
         /// The line, from 1.
         line: u32,
@@ -88,13 +89,13 @@ impl CheckEvent {
 }
 
 impl Checker {
-    /// The number of labels that are remembered at least.
+    /// The minimum number of labels that a checker remembers.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
-    /// The most characters that these labels may have together.
+    /// The maximum number of characters of these labels together.
     pub const CHARACTERS_KNOWN: usize = labels::CHARACTERS;
 
-    /// Begins with the first line of a program.
+    /// Creates a checker at the first line of a program.
     pub fn new() -> Self {
         let labels = Labels::with_limits(labels::LABELS, labels::CHARACTERS);
         Self { state: ScanState::START, judge: Judge { labels, end: None } }
@@ -102,20 +103,20 @@ impl Checker {
 
     /// Checks the next lines; returns their events in the order of the text.
     ///
-    /// The lines must be complete; a last line without its end is one, too. All are checked even if the
-    /// iterator is dropped early.
+    /// The lines must be complete; a last line without a line end counts as complete. All lines are
+    /// checked, even if the iterator is dropped early.
     pub fn check<'c>(&'c mut self, lines: &'c [u8]) -> CheckEvents<'c> {
         let scan = Scan::resume(self.state, lines);
         self.state = self.judge.look_ahead(scan.clone());
         CheckEvents { scan, judge: &mut self.judge }
     }
 
-    /// How many lines were checked.
+    /// The number of lines checked so far.
     pub const fn lines(&self) -> u32 {
         self.state.lines
     }
 
-    /// The comment block that is open: a diagnostic if no more lines come.
+    /// The diagnostic for an open comment block, for use after the last line.
     pub fn open_comment(&self) -> Option<Diagnostic> {
         self.state.open_comment()
     }
@@ -138,7 +139,7 @@ impl Judge {
         scan.state()
     }
 
-    /// The next event in lines whose labels are known.
+    /// The next event in lines whose labels are recorded.
     fn next(&mut self, scan: &mut Scan<'_>) -> Option<CheckEvent> {
         scan.find_map(|token| self.word(&token))
     }
@@ -178,7 +179,7 @@ impl fmt::Debug for Checker {
     }
 }
 
-/// The events of some lines; see the example at [`Checker`].
+/// An iterator over the events of lines. [`Checker`] has an example.
 ///
 /// ```
 /// use ads_cnc::streaming::Checker;
@@ -194,7 +195,7 @@ pub struct CheckEvents<'c> {
 }
 
 impl<'c> CheckEvents<'c> {
-    /// The lines below that of the last event; all lines before the first event.
+    /// The lines after the line of the last event; all lines before the first event.
     pub const fn remaining(&self) -> &'c [u8] {
         self.scan.remaining()
     }
@@ -208,7 +209,7 @@ impl Iterator for CheckEvents<'_> {
     }
 }
 
-/// Checks the lines that are left: a program end in them affects later lines.
+/// Checks the remaining lines, because a program end in them affects later lines.
 impl Drop for CheckEvents<'_> {
     fn drop(&mut self) {
         while self.next().is_some() {}
@@ -221,33 +222,33 @@ impl fmt::Debug for CheckEvents<'_> {
     }
 }
 
-/// The diagnostics of a text, in its order; an open comment block comes last.
+/// An iterator over the diagnostics of a text, in the order of the text; an open comment block comes
+/// last.
 ///
-/// Some rules are not in the manual on data streaming: *online* marks those of the vendor's public help
-/// for the NC language, *assumed* those without a source:
-/// - Words and labels compare without regard to case (assumed). A `$` word ends where its letters
-///   end; nothing may be between `$` and the word (online).
-/// - Parentheses nest (online). Text between two `"` in a line is neither code nor comment
-///   (assumed).
-/// - `#COMMENT BEGIN` and `END` are recognised at the start of a line only; `/` and a block number may
-///   precede them. The blocks do not nest, and their other content is skipped (online: nesting
-///   can be switched on).
+/// The manual on data streaming does not contain all rules. *Online* marks rules from the vendor's
+/// public help pages on the NC language, *assumed* marks rules without a source:
+/// - Words and labels are compared without regard to case (assumed). A `$` word ends after its letters;
+///   nothing may separate `$` and the word (online).
+/// - Parentheses nest (online). Text between two `"` in a line is neither code nor comment (assumed).
+/// - `#COMMENT BEGIN` and `END` are recognised only at the start of a line, after an optional `/` and
+///   block number. The blocks do not nest, and their other content is skipped (online: nesting can be
+///   enabled).
 /// - A label is `N40:` or `[NAME]` at the start of a line. `/` may precede it; a block number may
-///   precede `[NAME]`. `N040:` is the same label (assumed), blanks before the colon are permitted
-///   (the name and the blanks: online). Labels belong to the program they are in; one begins at
-///   each line whose first character is `%` (online).
-/// - A jump goes forward if its label is in any line below. It goes back if the label is in its
-///   own line or above, and not below (assumed). A missing label gives no diagnostic: a later text
-///   may have it. A jump to an expression (`$GOTO NV.E.X`) is not checked.
-/// - A program end is M2, M30, M17 or M29; leading zeros do not matter (M02: online, the others
-///   assumed), and no `.` or `_` follows the digits. It counts even if `$IF` or a jump may skip it
-///   (assumed): when it is executed, the following lines are lost or remain.
-/// - One diagnostic for each line with a program end: the first line below that is neither blank
-///   nor comment (assumed).
-/// - A line joined to the next by `\` is checked as two (assumed).
+///   precede `[NAME]`. `N040:` is the same label as `N40:` (assumed). Blanks before the colon are
+///   permitted (names and blanks: online). A label belongs to its program; each line that begins with
+///   `%` begins a program (online).
+/// - A jump goes forward if its label is in any later line. It goes back if the label is in the same
+///   or an earlier line, and not in a later one (assumed). A missing label causes no diagnostic,
+///   because a later text may contain it. A jump to an expression (`$GOTO NV.E.X`) is not checked.
+/// - A program end is M2, M30, M17 or M29, with any leading zeros (M02: online, the others assumed),
+///   and no `.` or `_` after the digits. It counts even if `$IF` or a jump may skip it (assumed),
+///   because the lines after it are lost or remain when it is executed.
+/// - Each line with a program end causes one diagnostic, for the first later line that is neither
+///   blank nor a comment (assumed).
+/// - A line that is joined to the next one by `\` is checked as two lines (assumed).
 ///
-/// The text is read twice: first to record the last line of each label, then for words.
-/// The memory is that of the labels: their names, and about 80 bytes for each.
+/// The text is read twice: first to record the last line of each label, then to find words. The labels
+/// need memory for their names, plus about 80 bytes each.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
 ///

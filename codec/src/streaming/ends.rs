@@ -10,7 +10,7 @@ pub(super) const fn is_end(byte: u8) -> bool {
     matches!(byte, CR | LF)
 }
 
-/// The first line, and the rest from its end on.
+/// The first line, and the rest of the text, beginning with the line end.
 pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
     let len = bytes.iter().position(|&byte| is_end(byte)).unwrap_or(bytes.len());
     bytes.split_at_checked(len).unwrap_or((bytes, &[]))
@@ -24,9 +24,9 @@ pub(super) const fn after_end(bytes: &[u8]) -> &[u8] {
     }
 }
 
-/// Checks that each line of received data ends in CR LF, as a CNC does when it reads its stream.
+/// Checks that each line of received data ends in CR LF, like a CNC that reads its stream.
 ///
-/// Use it on the CNC's side: a client's text may have other line ends, which
+/// Use it on the side of the CNC. The text of a client may have other line ends, which
 /// [`NcText::packets`](super::NcText::packets) replaces.
 ///
 /// Manual: `stream-en`, section 4.1 (STM-5).
@@ -67,7 +67,6 @@ pub fn check_line_ends(data: &[u8]) -> Result<(), LineError> {
 mod tests {
     use super::*;
 
-    /// A line is split where it ends.
     #[test]
     fn lines_are_split_at_every_length() {
         for len in (0..50).step_by(if cfg!(miri) { 17 } else { 1 }) {

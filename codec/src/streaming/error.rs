@@ -1,8 +1,9 @@
-//! Errors of lines.
+//! Errors in lines.
 
-/// A line that cannot be streamed: its position, the expected and the found characters.
+/// The error for a line that cannot be streamed: the position, and the expected and found characters.
 ///
-/// `Copy` and 16 bytes. The first fault of a text, found before anything is sent.
+/// It is `Copy` and has 16 bytes. It describes the first fault of a text, which is detected before
+/// anything is sent.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1, 3.2 and 4.1.
 ///
@@ -36,29 +37,29 @@ pub struct LineError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[non_exhaustive]
 pub enum LineErrorKind {
-    /// With CR LF the line does not fit a packet (STM-20). The column is that of the first character
-    /// beyond the limit.
+    /// The line and its CR LF do not fit into a packet (STM-20). The column is that of the first
+    /// character beyond the limit.
     #[error("line of at most 990 characters expected, {length} found")]
     TooLong {
-        /// Characters of the line.
+        /// Number of characters of the line.
         length: u32,
     },
-    /// The stream is ASCII (STM-7).
+    /// A byte that is not ASCII (STM-7).
     #[error("ASCII character expected, byte {byte:#04X} found")]
     NotAscii {
         /// The byte.
         byte: u8,
     },
-    /// The stream must not contain a NUL (STM-7).
+    /// A NUL, which the stream must not contain (STM-7).
     #[error("ASCII character expected, NUL found")]
     Nul,
-    /// LF without CR before it, in data that was received (STM-5).
+    /// LF without CR before it, in received data (STM-5).
     #[error("CR LF expected, LF alone found")]
     BareLf,
-    /// CR without LF after it, in data that was received (STM-5).
+    /// CR without LF after it, in received data (STM-5).
     #[error("CR LF expected, CR alone found")]
     BareCr,
-    /// Data that was received ends within a line (STM-5).
+    /// Received data that ends within a line (STM-5).
     #[error("CR LF expected, end of data found")]
     NoLineEnd,
 }

@@ -1,33 +1,31 @@
-//! The labels of the lines that were checked.
+//! The labels of checked lines.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::scan::Label;
 
-/// The least number of recent labels that a checker of packets knows, if they have no more than
-/// [`CHARACTERS`].
+/// The minimum number of recent labels that a checker remembers, if they have at most [`CHARACTERS`].
 pub(super) const LABELS: usize = 8192;
 
-/// The most characters of all labels together for which a checker knows [`LABELS`] of them.
+/// The maximum number of characters of these labels together.
 pub(super) const CHARACTERS: usize = 256 * 1024;
 
-/// The last line of each label of the present program, and of those before it that came with the
-/// same lines.
+/// The last line of each label of the current program, and of earlier programs in the same lines.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     recent: Generation,
-    /// The previous generation, dropped when the recent one is full.
+    /// The previous generation, discarded when the recent one is full.
     before: Generation,
-    /// The most labels of a generation.
+    /// The maximum number of labels of a generation.
     labels: usize,
-    /// The most characters of a generation, but for its last label.
+    /// The maximum number of characters of a generation, without its last label.
     characters: usize,
 }
 
 #[derive(Clone, Debug)]
 struct Generation {
-    /// By program and name.
+    /// The last lines, by program and name.
     lines: BTreeMap<(u32, Vec<u8>), u32>,
     characters: usize,
 }
@@ -60,7 +58,7 @@ impl Labels {
         self.recent.lines.get(&key).or_else(|| self.before.lines.get(&key)).copied()
     }
 
-    /// Removes the labels of other programs, to which no jump can go.
+    /// Removes the labels of other programs, which cannot be jump targets.
     pub(super) fn keep(&mut self, program: u32) {
         for generation in [&mut self.recent, &mut self.before] {
             let first = generation.lines.first_key_value().map(|((program, _), _)| *program);

@@ -1,6 +1,6 @@
-//! Pieces of a line.
+//! The tokens of a line.
 
-/// The number of a block, and the text after it. A `/` may come before it, blanks anywhere.
+/// The block number, and the text after it. A `/` may precede it; blanks may be anywhere.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
     if let [b'/', after @ ..] = at {
@@ -14,7 +14,7 @@ pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     (None, at)
 }
 
-/// Digits, and the text after them; `None` without a digit.
+/// The leading digits, and the text after them; `None` without a digit.
 pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (digits, rest) = split_while(skip_while(text, is_blank), u8::is_ascii_digit);
     (!digits.is_empty()).then_some((digits, rest))
@@ -50,8 +50,8 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     }
 }
 
-/// Skips the bytes of most lines, with which no word of interest begins: numbers, signs, and addresses
-/// of one letter such as X.
+/// Skips bytes that no word of interest begins with: numbers, signs, and addresses of one letter such
+/// as X. Most lines consist of these.
 pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     while let [byte, after @ ..] = rest {
         rest = match char_kind(*byte) {
@@ -68,7 +68,7 @@ pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     rest
 }
 
-/// A class of bytes, by the words that begin with them.
+/// A class of bytes, by the words that can begin with them.
 #[derive(Clone, Copy)]
 enum CharKind {
     /// No word.
@@ -83,7 +83,7 @@ enum CharKind {
 const fn char_kind(byte: u8) -> CharKind {
     match byte {
         b'0'..=b'9' => CharKind::Digit,
-        // A program end; a subroutine.
+        // A program end, or the call of a subroutine.
         b'M' | b'm' | b'L' | b'l' => CharKind::Other,
         b'A'..=b'Z' | b'a'..=b'z' => CharKind::Letter,
         b'$' | b'"' | b'.' | b'_' | b';' | b'(' => CharKind::Other,
@@ -91,7 +91,7 @@ const fn char_kind(byte: u8) -> CharKind {
     }
 }
 
-/// The text after the closing parenthesis; empty without one.
+/// The text after the closing parenthesis; empty if there is none.
 pub(super) fn after_parentheses(mut rest: &[u8]) -> &[u8] {
     let mut open = 1_u32;
     while let Some((&byte, after)) = rest.split_first() {

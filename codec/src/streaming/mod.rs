@@ -1,22 +1,21 @@
 //! Data streaming: an NC program written to the CNC packet by packet while it runs.
 //!
-//! | manual (`stream-en`) | here |
+//! | manual (`stream-en`) | implemented by |
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
-//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, permitted contents of a program, with `alloc` | `Diagnostics`; packet by packet, `Checker` |
+//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, permitted contents of a program | with `alloc`: `Diagnostics`, or packet by packet, `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
 //! | 4.1, line ends | [`check_line_ends`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
-//! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
-//! (STM-4, STM-7). The module does no I/O; only `Diagnostics` and `Checker`
-//! allocate.
+//! A packet consists of whole lines of ASCII text, each ended by CR LF, without a NUL and without a
+//! leading length (STM-4, STM-7). The module does no I/O; only `Diagnostics` and `Checker` allocate.
 //!
 //! ```
 //! use ads_cnc::streaming::{Ack, NcText, Sender};
 //!
-//! // All faults of the text are found before the first packet is sent.
+//! // All faults of the text are detected before the first packet is sent.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
 //! # #[cfg(feature = "alloc")]
 //! assert_eq!(text.diagnostics().next(), None);
@@ -24,7 +23,7 @@
 //! let mut sender = Sender::new(text);
 //! let mut written = Vec::new();
 //! while let Some(packet) = sender.packet() {
-//!     // Write it to the CNC. On `Ack::Busy` wait `RETRY_AFTER`; the same packet comes again.
+//!     // Write the packet to the CNC. After `Ack::Busy`, wait `RETRY_AFTER`; then `packet` returns it again.
 //!     written.extend_from_slice(packet);
 //!     sender.acknowledge(Ack::Accepted)?;
 //! }
@@ -71,27 +70,27 @@ pub use text::{Lines, NcText};
 #[cfg(feature = "alloc")]
 pub use words::{LoopWord, ProgramEnd};
 
-/// Index offset of the stream in the COM group of a channel, `0x20100` + channel (STM-1).
+/// Index offset of the program stream in the COM group of a channel, `0x20100` + channel (STM-1).
 ///
 /// Manual: `stream-en`, sections 3.2 and 5.
 pub const INDEX_OFFSET: IndexOffset = Function::WriteProgramStream.spec().offset.first();
 
-/// Name of the COM object that is written (STM-1).
+/// Name of the COM object of the program stream (STM-1).
 ///
 /// Manual: `stream-en`, section 3.2.
 pub const OBJECT_NAME: &str = "mc_program_stream_w";
 
-/// Number of the CNC error for a line that does not end in CR LF; it aborts processing (STM-5).
+/// Number of the CNC error for a line that does not end in CR LF, which aborts processing (STM-5).
 ///
 /// Manual: `stream-en`, section 4.1.
 pub const LINE_END_ERROR: u32 = 21476;
 
-/// Number of the CNC warning for data that it cannot accept at present (STM-6).
+/// Number of the CNC warning for data that the CNC cannot accept at present (STM-6).
 ///
 /// Manual: `stream-en`, section 4.2.
 pub const BUSY_WARNING: u32 = 11012;
 
-/// The time that the manual's driver waits before it writes the same data again (STM-6).
+/// The time that the driver in the manual waits before it writes the same data again (STM-6).
 ///
 /// Manual: `stream-en`, section 5.
 pub const RETRY_AFTER: Duration = Duration::from_millis(500);

@@ -1,13 +1,13 @@
-//! From text to packets.
+//! Splitting a text into packets.
 
 use super::ends::{CR, LF, after_end, split_at_end};
 use crate::limits::STREAM_PACKET_MAX;
 
-/// The packets of a text: whole lines, each ended by CR LF, as many as fit 992 bytes.
+/// The packets of a text: whole lines, each ended by CR LF, as many as fit into 992 bytes.
 ///
-/// All packets together are the text with CR LF after each line. Text whose lines already end
-/// in CR LF is not copied: its packets are parts of it. A line joined to the next by `\` is a line
-/// as any other, so the two may be in two packets (assumed).
+/// All packets together are the text with CR LF after each line. Text whose lines already end in CR LF
+/// is not copied: its packets are slices of the text. A line that is joined to the next one by `\` is
+/// treated like any other, so the two lines may be in different packets (assumed).
 ///
 /// Manual: `stream-en`, sections 2.2 and 3.1 (STM-2, STM-4, STM-7).
 ///
@@ -26,12 +26,12 @@ use crate::limits::STREAM_PACKET_MAX;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Packets<'a> {
-    /// Begins at the start of a line; all lines were checked to fit a packet.
+    /// Begins at the start of a line. All lines were checked to fit into a packet.
     rest: &'a [u8],
     crlf: bool,
 }
 
-/// Where the bytes of a packet are: in the text or in the buffer.
+/// The location of the bytes of a packet: in the text or in the buffer.
 #[derive(Clone, Copy)]
 pub(super) enum PacketBytes<'a> {
     Text(&'a [u8]),
@@ -40,12 +40,12 @@ pub(super) enum PacketBytes<'a> {
 }
 
 impl<'a> Packets<'a> {
-    /// `crlf`: all line ends in `rest` are CR LF.
+    /// `crlf`: whether all line ends in `rest` are CR LF.
     pub(super) const fn new(rest: &'a [u8], crlf: bool) -> Self {
         Self { rest, crlf }
     }
 
-    /// The part of the text that is in no packet yet.
+    /// The part of the text that has not been returned in a packet yet.
     pub const fn rest(&self) -> &'a [u8] {
         self.rest
     }
@@ -61,11 +61,11 @@ impl<'a> Packets<'a> {
         }
     }
 
-    /// The next packet, borrowed from the text; `None` if a line end must be added or replaced: then use
-    /// [`next_into`](Self::next_into).
+    /// The next packet, borrowed from the text; `None` after the last line, or if a line end must be
+    /// added or replaced: then use [`next_into`](Self::next_into).
     ///
-    /// All packets can be borrowed if [`is_wire`](super::NcText::is_wire) is true. If only the end of the
-    /// last line is missing, all but the last packet can.
+    /// If [`is_wire`](super::NcText::is_wire) returns `true`, all packets can be borrowed. If only the
+    /// end of the last line is missing, all packets but the last can be borrowed.
     ///
     /// ```
     /// use ads_cnc::streaming::NcText;
@@ -82,7 +82,7 @@ impl<'a> Packets<'a> {
         }
         let reach = match self.rest.get(..STREAM_PACKET_MAX) {
             Some(reach) => reach,
-            // The last packet. If its last line has no end and CR LF fits, it must be copied.
+            // The last packet. If its last line has no end and CR LF fits, the packet must be copied.
             None if self.rest.len() < STREAM_PACKET_MAX.saturating_sub(1) => {
                 self.rest.ends_with(&[LF]).then_some(self.rest)?
             }
@@ -116,8 +116,8 @@ fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], 
     (rest, STREAM_PACKET_MAX.saturating_sub(free))
 }
 
-/// Copies a line and ends it with CR LF, if it fits. Returns the text after the line and the room
-/// left.
+/// Copies a line and ends it with CR LF, if it fits. Returns the text after the line and the remaining
+/// room.
 fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
     let (line, _) = split_at_end(text.get(..=room.len()).unwrap_or(text));
     let (out, room) = room.split_at_mut_checked(line.len())?;
@@ -132,9 +132,8 @@ mod tests {
     use super::*;
     use crate::streaming::NcText;
 
-    /// Bytes of the buffer after the last line are never taken for text.
     #[test]
-    fn a_line_is_copied_or_nothing_counts() {
+    fn a_line_that_does_not_fit_is_not_copied() {
         for len in 0..40 {
             let text = [&b"X".repeat(len)[..], b"\nY"].concat();
             for free in 0..44 {
@@ -147,9 +146,8 @@ mod tests {
         }
     }
 
-    /// A text without an open line and one with it: all that can be is borrowed.
     #[test]
-    fn what_needs_no_copy_is_not_copied() {
+    fn packets_without_changes_are_borrowed() {
         let line = [&b"X".repeat(498)[..], b"\r\n"].concat();
         let bytes = [&line[..], &line, &line, b"N1"].concat();
         let mut packets = NcText::new(&bytes).unwrap().packets();
@@ -163,7 +161,7 @@ mod tests {
         assert!(matches!(packets.next_in(&mut buf), Some(PacketBytes::Buffer(504))));
         assert!(packets.next_in(&mut buf).is_none());
 
-        // Where the open line would fit but for its end, the packet before it is borrowed.
+        // If only the line end of the open line does not fit, the packet before it is borrowed.
         for (open, borrowed) in [(490, false), (491, true), (492, true)] {
             let bytes = [&line[..], &b"X".repeat(open)].concat();
             let mut packets = NcText::new(&bytes).unwrap().packets();

@@ -5,12 +5,12 @@ use crate::declare::stream;
 stream! {
     /// The data of one write to the program stream.
     ///
-    /// The CNC checks that its lines are complete when it reads them (STM-5);
+    /// The CNC checks that the lines are complete when it reads them (STM-5).
     /// [`Sender`](super::Sender) returns complete lines.
     ///
     /// Manual: `stream-en`, sections 3.1, 3.2 and 4.1.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```

@@ -1,36 +1,37 @@
-//! The words of an NC text that the checks need, without comments.
+//! Scans an NC text for the words that the checks need, and skips comments.
 
 use super::ends::{after_end, split_at_end};
 use super::lex::*;
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
 
-/// A position in a text; line and column count from 1.
+/// A position in a text: line and column, from 1.
 #[derive(Clone, Copy)]
 pub(super) struct Position {
     pub(super) line: u32,
     pub(super) column: u32,
 }
 
-/// A word, and where it begins.
+/// A word and its position.
 pub(super) struct Token<'a> {
     pub(super) position: Position,
     pub(super) word: Word<'a>,
 }
 
 pub(super) enum Word<'a> {
-    /// The first text of a line that is neither blank nor comment; other words may begin at it.
+    /// The first text of a line that is neither blank nor comment; another word may begin at the same
+    /// position.
     Code,
     Goto(Label<'a>),
     Loop(LoopWord),
     End(ProgramEnd),
 }
 
-/// A label and the program it belongs to, as a count of the lines that begin with `%`.
+/// A label and its program, which is the number of lines so far that begin with `%`.
 #[derive(Clone, Copy)]
 pub(super) struct Label<'a> {
     program: u32,
-    /// A name in brackets; else digits without leading zeros.
+    /// Whether the label is a name in brackets; otherwise it has digits without leading zeros.
     named: bool,
     text: &'a [u8],
 }
@@ -40,7 +41,7 @@ impl Label<'_> {
         self.program
     }
 
-    /// The key by which labels of a program are compared.
+    /// The key for comparing labels of a program.
     pub(super) fn key(&self) -> alloc::vec::Vec<u8> {
         let text = self.text.iter().map(u8::to_ascii_lowercase);
         core::iter::once(u8::from(self.named)).chain(text).collect()
@@ -50,11 +51,11 @@ impl Label<'_> {
 /// The state of a scan between two lines.
 #[derive(Clone, Copy)]
 pub(super) struct ScanState {
-    /// Lines so far.
+    /// The number of lines so far.
     pub(super) lines: u32,
-    /// Lines so far that begin with `%`.
+    /// The number of lines so far that begin with `%`.
     pub(super) program: u32,
-    /// Where the comment block began that is open.
+    /// The start of the open comment block.
     pub(super) block: Option<Position>,
 }
 
@@ -65,21 +66,21 @@ impl ScanState {
 /// Scans a text for words and labels; skips comment blocks.
 #[derive(Clone)]
 pub(super) struct Scan<'a> {
-    /// The text after the present line and its end.
+    /// The text after the current line and its end.
     below: &'a [u8],
     line: &'a [u8],
     number: u32,
-    /// The rest of the present line.
+    /// The rest of the current line.
     rest: &'a [u8],
     stage: Stage,
-    /// The rest of the line has no closing bracket.
+    /// Whether the rest of the line has no closing bracket.
     open: bool,
     /// The line after its block number.
     body: &'a [u8],
     /// The label of the line, and the text after it.
     label: Option<(Label<'a>, &'a [u8])>,
     program: u32,
-    /// Where the comment block began that is open.
+    /// The start of the open comment block.
     block: Option<Position>,
 }
 
@@ -87,13 +88,13 @@ pub(super) struct Scan<'a> {
 enum Stage {
     /// No code has been seen in the line.
     Blank,
-    /// The same, in a line that begins a program; its name may contain any words.
+    /// The same, in a line that begins a program, whose name may contain any words.
     Title,
     Body,
 }
 
 impl<'a> Scan<'a> {
-    /// Resumes after the lines that ended in this state.
+    /// Resumes after lines that ended in this state.
     pub(super) const fn resume(state: ScanState, text: &'a [u8]) -> Self {
         let ScanState { lines, program, block } = state;
         Self {
@@ -110,17 +111,17 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// The state after the present line.
+    /// The state after the current line.
     pub(super) const fn state(&self) -> ScanState {
         ScanState { lines: self.number, program: self.program, block: self.block }
     }
 
-    /// The lines after the present one.
+    /// The lines after the current one.
     pub(super) const fn remaining(&self) -> &'a [u8] {
         self.below
     }
 
-    /// Goes to the next line that has a label; returns the label and the line's number.
+    /// Advances to the next line that has a label; returns the label and the line number.
     pub(super) fn next_label(&mut self) -> Option<(Label<'a>, u32)> {
         while self.enter_line() {
             if let Some((label, _)) = self.label {
@@ -130,13 +131,13 @@ impl<'a> Scan<'a> {
         None
     }
 
-    /// The position at which this many bytes of the line are left.
+    /// The position before the last `left` bytes of the line.
     fn position_with(&self, left: usize) -> Position {
         let before = self.line.len().saturating_sub(left);
         Position { line: self.number, column: to_u32(before).saturating_add(1) }
     }
 
-    /// Goes to the next line; `false` after the last.
+    /// Advances to the next line; returns `false` after the last line.
     fn enter_line(&mut self) -> bool {
         if self.below.is_empty() {
             return false;
@@ -172,7 +173,7 @@ impl<'a> Scan<'a> {
         true
     }
 
-    /// The next word of interest in the line, and the length of the line from its start.
+    /// The next word of interest in the line, and the length of the line from that word on.
     fn next_word(&mut self) -> Option<(usize, Word<'a>)> {
         loop {
             self.rest = skip_comments(skip_addresses(self.rest));
@@ -199,7 +200,7 @@ impl<'a> Scan<'a> {
         Word::Code
     }
 
-    /// The word that begins here, if it is of interest.
+    /// The word that begins at the current position, if it is of interest.
     fn word(&mut self, first: u8, after: &'a [u8]) -> Option<Word<'a>> {
         match first {
             b'$' => {
@@ -212,7 +213,7 @@ impl<'a> Scan<'a> {
                 LoopWord::ALL.into_iter().find(is).map(Word::Loop)
             }
             b'"' => {
-                // Quoted text, if the quote is closed.
+                // Skip quoted text, if the quote is closed.
                 let close = after.iter().position(|&byte| byte == b'"');
                 self.rest = match close.and_then(|at| after.get(at.saturating_add(1)..)) {
                     Some(rest) => rest,
@@ -234,7 +235,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// An address with its number, a variable's name, a word of letters.
+    /// An address with its number, the name of a variable, or a word of letters.
     fn letters(&mut self) -> Option<Word<'a>> {
         let (letters, after) = split_while(self.rest, u8::is_ascii_alphabetic);
         match after {
@@ -283,7 +284,7 @@ impl<'a> Scan<'a> {
                 (self.number(digits), rest)
             }
             [b'[', name @ ..] if !self.open => {
-                // No later bracket of the line is closed either.
+                // Later brackets of the line are not closed either.
                 let Some((name, rest)) = name_of(name) else {
                     self.open = true;
                     return None;

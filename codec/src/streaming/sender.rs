@@ -8,11 +8,12 @@ use super::packets::{PacketBytes, Packets};
 use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
-/// The CNC's answer to a write to the stream.
+/// The result of a write to the program stream.
 ///
-/// Which ADS results are temporary is not documented ([`from_result`](Self::from_result)); the
-/// manual's driver retries after every error. If the reply to a write is lost, the outcome is
-/// unknown, and a retry may execute lines twice: acknowledge it as [`Rejected`](Self::Rejected).
+/// Which ADS results are temporary is not documented: see [`from_result`](Self::from_result). The
+/// driver in the manual retries after every error. If the reply to a write is lost, the outcome is
+/// unknown and a retry may execute lines twice: acknowledge the packet as
+/// [`Rejected`](Self::Rejected).
 ///
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///
@@ -34,9 +35,9 @@ pub enum Ack {
 }
 
 impl Ack {
-    /// The acknowledgement for the result of a write. The results of a CNC are not
-    /// documented. Assumed: it rejects an invalid service, address, access or size, and is busy at
-    /// every other error (STM-6, ADS-7).
+    /// The acknowledgement for the ADS result of a write. The results of a CNC are not documented.
+    /// Assumed: an error about service, address, access or size rejects the data; any other error
+    /// means that the CNC is busy (STM-6, ADS-7).
     ///
     /// ```
     /// use ads_cnc::ads::AdsError;
@@ -76,19 +77,19 @@ impl Ack {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SenderState {
-    /// The next packet can be handed out.
+    /// The next packet is ready.
     Ready,
-    /// A packet was handed out and is not acknowledged yet.
+    /// A packet was returned and is not acknowledged yet.
     InFlight,
-    /// The CNC was busy; the same packet can be handed out again.
+    /// The CNC was busy; the same packet is ready again.
     Waiting,
-    /// A packet was rejected; no more are handed out.
+    /// A packet was rejected; no more packets are returned.
     Stopped,
     /// All packets were accepted.
     Done,
 }
 
-/// How much was accepted.
+/// The amount of data that the CNC has accepted.
 ///
 /// ```
 /// use ads_cnc::streaming::{Ack, NcText, Progress, Sender};
@@ -101,15 +102,15 @@ pub enum SenderState {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Progress {
-    /// Packets.
+    /// Number of packets.
     pub packets: usize,
-    /// Lines.
+    /// Number of lines.
     pub lines: usize,
-    /// Bytes, with CR LF after each line.
+    /// Number of bytes, including CR LF after each line.
     pub bytes: usize,
 }
 
-/// An acknowledgement came while no packet was in flight.
+/// The error for an acknowledgement without a packet in flight.
 ///
 /// ```
 /// use ads_cnc::streaming::{Ack, NcText, UnexpectedAck, Sender};
@@ -122,14 +123,14 @@ pub struct Progress {
 #[error("acknowledgement without a packet in flight")]
 pub struct UnexpectedAck;
 
-/// Streams a text: hands out a packet, takes its acknowledgement, goes on.
+/// Streams a text: returns a packet, accepts its acknowledgement, and continues with the next packet.
 ///
-/// After [`Ack::Busy`] it returns the same packet again; the caller waits before, for any time
-/// ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
-/// [`Ack::Rejected`] it returns no more packets. While a packet is in flight, [`packet`](Self::packet)
-/// returns it again without counting it twice.
+/// After [`Ack::Busy`], the sender returns the same packet again. The caller should first wait, for
+/// example [`RETRY_AFTER`](super::RETRY_AFTER), and can give up by dropping the sender. After
+/// [`Ack::Rejected`], the sender returns no more packets. While a packet is in flight,
+/// [`packet`](Self::packet) returns it again without counting it twice.
 ///
-/// Has a buffer for one packet, for text that is [not sent unchanged](NcText::is_wire).
+/// The sender contains a buffer for one packet, for text that is [not sent unchanged](NcText::is_wire).
 ///
 /// Manual: `stream-en`, sections 2.2, 4.2 and 5 (STM-2, STM-4, STM-6).
 ///
@@ -149,7 +150,7 @@ pub struct UnexpectedAck;
 #[derive(Clone)]
 pub struct Sender<'a> {
     text: NcText<'a>,
-    /// The packets that were not accepted yet.
+    /// The packets that are not accepted yet.
     packets: Packets<'a>,
     /// The packet in flight or waiting for a retry, and the packets after it.
     in_flight: Option<(PacketBytes<'a>, Packets<'a>)>,
@@ -160,7 +161,7 @@ pub struct Sender<'a> {
 }
 
 impl<'a> Sender<'a> {
-    /// Begins with the first line. A text without lines is done at once.
+    /// Creates a sender at the first line. For a text without lines, it is done at once.
     pub const fn new(text: NcText<'a>) -> Self {
         let empty = text.bytes().is_empty();
         Self {
@@ -174,7 +175,7 @@ impl<'a> Sender<'a> {
         }
     }
 
-    /// The packet to write now; `None` if all were accepted or one was rejected.
+    /// The packet to write now; `None` if all packets were accepted or one was rejected.
     pub fn packet(&mut self) -> Option<&[u8]> {
         if matches!(self.state, SenderState::Stopped | SenderState::Done) {
             return None;
@@ -188,7 +189,7 @@ impl<'a> Sender<'a> {
         self.packet_in_flight()
     }
 
-    /// Takes the acknowledgement of the packet in flight.
+    /// Reports the result of writing the packet in flight.
     ///
     /// # Errors
     /// [`UnexpectedAck`] if no packet is in flight; nothing changes.
@@ -212,27 +213,27 @@ impl<'a> Sender<'a> {
         self.state
     }
 
-    /// How much was accepted.
+    /// The amount of data that the CNC has accepted.
     pub const fn sent(&self) -> Progress {
         self.sent
     }
 
-    /// Lines that were not accepted yet, those of the packet in flight among them.
+    /// The number of lines that are not accepted yet, including those of the packet in flight.
     pub const fn left_lines(&self) -> usize {
         self.text.line_count().saturating_sub(self.sent.lines)
     }
 
-    /// Bytes that were not accepted yet, with CR LF after each line.
+    /// The number of bytes that are not accepted yet, including CR LF after each line.
     pub const fn left_bytes(&self) -> usize {
         self.text.wire_len().saturating_sub(self.sent.bytes)
     }
 
-    /// The part of the text that was not accepted yet, as it was given.
+    /// The part of the original text that is not accepted yet.
     pub const fn left(&self) -> &'a [u8] {
         self.packets.rest()
     }
 
-    /// The number of [`Ack::Busy`] for the present packet.
+    /// The number of [`Ack::Busy`] results for the current packet.
     pub const fn busy_count(&self) -> u32 {
         self.busy_count
     }

@@ -9,11 +9,10 @@ use super::{LineError, LineErrorKind, Packets};
 use crate::bytes::to_u32;
 use crate::limits::NC_LINE_MAX;
 
-/// NC text in which every line can be streamed.
+/// NC text whose lines can all be streamed.
 ///
-/// A line ends in LF, in CR LF, or in CR without LF (the last is assumed: no CR is then sent within a
-/// line). The last line may have no line end. A line without characters is streamed; text without bytes
-/// has no line.
+/// A line ends in LF, CR LF, or CR without LF. (The last is assumed, so that no CR is sent within a
+/// line.) The last line may lack its line end. Empty lines are streamed; an empty text has no lines.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1 and 3.2 (STM-2, STM-4, STM-7, STM-20).
 ///
@@ -34,10 +33,10 @@ pub struct NcText<'a> {
 }
 
 impl<'a> NcText<'a> {
-    /// Checks the whole text, so that sending its packets cannot fail for a fault of the text.
+    /// Checks the whole text, so that its packets can be sent without further checks.
     ///
     /// # Errors
-    /// The first line over 990 characters, byte that is not ASCII, or NUL.
+    /// The first fault: a line of more than 990 characters, a byte that is not ASCII, or a NUL.
     pub fn new(bytes: &'a [u8]) -> Result<Self, LineError> {
         let (mut lines, mut wire_len, mut crlf) = (0_usize, 0_usize, true);
         let mut rest = bytes;
@@ -52,17 +51,17 @@ impl<'a> NcText<'a> {
         Ok(Self { bytes, lines, wire_len, crlf })
     }
 
-    /// The bytes of the text, as given.
+    /// The original bytes of the text.
     pub const fn bytes(&self) -> &'a [u8] {
         self.bytes
     }
 
-    /// Number of lines.
+    /// The number of lines.
     pub const fn line_count(&self) -> usize {
         self.lines
     }
 
-    /// Bytes of all packets together: of the text with CR LF after each line.
+    /// The length of all packets together in bytes: the text with CR LF after each line.
     pub const fn wire_len(&self) -> usize {
         self.wire_len
     }
@@ -72,17 +71,18 @@ impl<'a> NcText<'a> {
         self.crlf && self.wire_len == self.bytes.len()
     }
 
-    /// The lines, without their ends.
+    /// The lines, without line ends.
     pub const fn lines(&self) -> Lines<'a> {
         Lines(self.bytes)
     }
 
-    /// The packets, as full as whole lines can make them.
+    /// The packets, each with as many whole lines as fit.
     pub const fn packets(&self) -> Packets<'a> {
         Packets::new(self.bytes, self.crlf)
     }
 
-    /// Diagnostics of the text: constructs that streaming does not permit, and lines that would be lost.
+    /// The diagnostics of the text: constructs that are not permitted in a stream, and lines that
+    /// would be lost.
     #[cfg(feature = "alloc")]
     pub fn diagnostics(&self) -> Diagnostics<'a> {
         Diagnostics::new(*self)
@@ -95,7 +95,7 @@ impl fmt::Debug for NcText<'_> {
     }
 }
 
-/// The lines of a text, without their ends.
+/// An iterator over the lines of a text, without line ends.
 ///
 /// ```
 /// use ads_cnc::streaming::NcText;

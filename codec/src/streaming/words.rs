@@ -1,8 +1,8 @@
-//! The words that do not belong in a stream, or end it.
+//! The words that are not permitted in a stream, or end it.
 
 use core::fmt;
 
-/// A word of a loop; streams must not contain loops (STM-8).
+/// A word of a loop. A stream must not contain loops (STM-8).
 ///
 /// Manual: `stream-en`, section 2.3.3.
 ///
@@ -32,7 +32,7 @@ pub enum LoopWord {
 }
 
 impl LoopWord {
-    /// All of them.
+    /// All words of loops.
     pub const ALL: [Self; 8] = [
         Self::For,
         Self::EndFor,
@@ -65,7 +65,7 @@ impl fmt::Display for LoopWord {
     }
 }
 
-/// A word that ends a program, and streaming with it (STM-10).
+/// A word that ends a program, and with it streaming (STM-10).
 ///
 /// Manual: `stream-en`, section 2.2.
 ///

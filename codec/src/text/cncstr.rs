@@ -26,12 +26,12 @@ pub struct CncStr<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// Checked to be in CP1252, with characters beyond ASCII.
+    /// Text with characters beyond ASCII, which were checked to be in CP1252.
     Str(&'a str),
 }
 
 impl<'a> CncStr<'a> {
-    /// The text without characters.
+    /// The empty text.
     pub const EMPTY: CncStr<'static> = CncStr(Source::Bytes(&[]));
 
     /// Checks that all characters of a Rust string are in CP1252.
@@ -53,7 +53,7 @@ impl<'a> CncStr<'a> {
         Ok(Self(if ascii { Source::Bytes(text.as_bytes()) } else { Source::Str(text) }))
     }
 
-    /// Checks CP1252 bytes. Every byte but NUL is allowed, including the five without a character.
+    /// Checks CP1252 bytes. Any byte but NUL is valid, including the five without a character.
     ///
     /// # Errors
     /// [`ErrorKind::InnerNul`]
@@ -66,19 +66,19 @@ impl<'a> CncStr<'a> {
         Ok(Self(Source::Bytes(bytes)))
     }
 
-    /// The text before the first NUL, or all.
+    /// The text before the first NUL, or all of it.
     #[inline]
     pub(crate) fn until_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes.get(..text_len(bytes)).unwrap_or(bytes)))
     }
 
-    /// Bytes that were checked to have no NUL.
+    /// Bytes that the caller has checked to contain no NUL.
     #[inline]
     pub(crate) const fn without_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes))
     }
 
-    /// The number of characters, and so of CP1252 bytes.
+    /// The number of characters, which is also the number of CP1252 bytes.
     #[inline]
     pub fn len(&self) -> usize {
         match self.0 {
@@ -87,7 +87,7 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// Whether the text has no character.
+    /// Returns `true` if the text is empty.
     #[inline]
     pub fn is_empty(&self) -> bool {
         match self.0 {
@@ -119,8 +119,8 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// The text before and from an offset in [`raw`](Self::raw); the whole text and an empty one if no
-    /// character begins there.
+    /// The text before and after an offset in [`raw`](Self::raw); the whole text and an empty text if no
+    /// character begins at the offset.
     pub(crate) fn split_at(self, at: usize) -> (Self, Self) {
         match self.0 {
             Source::Bytes(bytes) => {
@@ -167,7 +167,7 @@ fn put(text: &str, out: &mut [u8]) {
     out.iter_mut().zip(bytes).for_each(|(slot, byte)| *slot = byte);
 }
 
-/// The characters of a [`CncStr`].
+/// An iterator over the characters of a [`CncStr`].
 ///
 /// ```
 /// use ads_cnc::CncStr;
@@ -179,7 +179,7 @@ fn put(text: &str, out: &mut [u8]) {
 pub struct Chars<'a>(CharSource<'a>);
 
 impl<'a> Chars<'a> {
-    /// The characters of a text that may not be CP1252.
+    /// The characters of a text that need not be CP1252.
     pub(crate) fn of_str(text: &'a str) -> Self {
         Self(CharSource::Str(text.chars()))
     }

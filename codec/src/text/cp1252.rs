@@ -1,9 +1,9 @@
-//! Code page 1252, one byte a character.
+//! Code page 1252: one byte per character.
 
-/// Characters of the bytes 0x80..=0x9F; every other byte is the character of its number.
+/// The characters of the bytes 0x80..=0x9F. Any other byte is the character with the same code point.
 ///
-/// 81 8D 8F 90 9D have no character in the code page. The control characters of the same
-/// number replace them, so that every byte has one character and comes back from it.
+/// The code page has no characters for 81, 8D, 8F, 90 and 9D. The control characters with the same
+/// code points stand in for them, so that every byte converts to a character and back.
 const HIGH: [char; 32] = [
     '\u{20AC}', '\u{81}', '\u{201A}', '\u{0192}', '\u{201E}', '\u{2026}', '\u{2020}', '\u{2021}',
     '\u{02C6}', '\u{2030}', '\u{0160}', '\u{2039}', '\u{0152}', '\u{8D}', '\u{017D}', '\u{8F}',
@@ -21,7 +21,7 @@ pub fn cp1252_to_char(byte: u8) -> char {
     high.copied().unwrap_or(char::from(byte))
 }
 
-/// The CP1252 byte of a character, if it has one.
+/// The CP1252 byte of a character; `None` if the code page does not contain it.
 ///
 /// ```
 /// assert_eq!(ads_cnc::text::char_to_cp1252('ß'), Some(0xDF));

@@ -12,12 +12,12 @@ pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((text, rest.get(1..)?))
 }
 
-/// Bytes before the first NUL, or all.
+/// The number of bytes before the first NUL, or of all bytes.
 pub(crate) fn text_len(bytes: &[u8]) -> usize {
     bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len())
 }
 
-/// Text of `len` bytes, if a NUL follows, and only NULs follow that.
+/// Text of `len` bytes, if one or more NULs follow and nothing else.
 #[inline]
 pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     match bytes.split_at_checked(len)? {
@@ -28,7 +28,7 @@ pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     }
 }
 
-/// The number of NULs before another byte. Cold: most texts end in one NUL.
+/// The number of NULs before any other byte. Cold: most texts end in one NUL.
 #[cold]
 #[inline(never)]
 fn padding_len(tail: &[u8]) -> usize {
@@ -55,7 +55,7 @@ pub(crate) fn not_optional_nul(field: Field, at: u32, bytes: &[u8], len: usize) 
     }
 }
 
-/// The error for other bytes than NULs after a text of `len` bytes and its NUL.
+/// The error for bytes other than NUL after a text of `len` bytes and its NUL.
 #[cold]
 #[inline(never)]
 pub(crate) fn not_padded(field: Field, at: u32, len: usize, tail: &[u8]) -> Error {
@@ -69,7 +69,6 @@ pub(crate) fn not_padded(field: Field, at: u32, len: usize, tail: &[u8]) -> Erro
 mod tests {
     use super::*;
 
-    /// The first NUL ends the text, at any offset and with any bytes around it.
     #[test]
     fn the_first_nul_ends_a_text() {
         for filler in [1, 0x7F, 0x80, 0x81, 0xFF] {

@@ -8,11 +8,11 @@ use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
-/// A text field with its end: one NUL, a NUL and more bytes, or no NUL at all.
+/// A text field with its end: one NUL, a NUL and further bytes, or no NUL.
 ///
-/// The end is kept so that a decoded stream encodes to the same bytes: two fields are equal if text and
-/// end are.
-/// [`TextRef::new`] and the conversion from [`CncStr`] give the canonical end, one NUL.
+/// The end is kept so that a decoded stream encodes to the same bytes. Two fields are equal if both
+/// texts and both ends are equal. [`TextRef::new`] and the conversion from [`CncStr`] create the
+/// canonical end: one NUL.
 ///
 /// ```
 /// use ads_cnc::{Decode, VariableNameRef};
@@ -29,7 +29,7 @@ pub struct TextRef<'a> {
 }
 
 impl<'a> TextRef<'a> {
-    /// The text of a Rust string, ended by one NUL.
+    /// A field with the text of a Rust string and one NUL.
     ///
     /// # Errors
     /// Those of [`CncStr::new`].
@@ -37,13 +37,13 @@ impl<'a> TextRef<'a> {
         Ok(CncStr::new(text)?.into())
     }
 
-    /// A text and the bytes after its NUL; `None` for a text without a NUL.
+    /// A field with a text and the bytes after its NUL; `None` for a text without a NUL.
     #[inline]
     pub const fn with_tail(text: CncStr<'a>, tail: Option<&'a [u8]>) -> Self {
         Self { text, tail }
     }
 
-    /// All bytes of a field.
+    /// Splits all bytes of a field into text and tail.
     #[inline]
     pub(crate) fn split(field: &'a [u8]) -> Self {
         match split_nul(field) {
@@ -58,13 +58,13 @@ impl<'a> TextRef<'a> {
         self.text
     }
 
-    /// The bytes after the first NUL; `None` without a NUL.
+    /// The bytes after the first NUL; `None` if there is no NUL.
     #[inline]
     pub const fn tail(&self) -> Option<&'a [u8]> {
         self.tail
     }
 
-    /// Bytes of the field, NUL and tail included.
+    /// The length of the field in bytes, including NUL and tail.
     #[inline]
     pub fn field_len(&self) -> usize {
         let end = self.tail.map_or(0, |tail| tail.len().saturating_add(1));
@@ -79,7 +79,7 @@ impl<'a> TextRef<'a> {
         }
     }
 
-    /// The bytes of a field at the end of a request: a NUL, and only NULs after it.
+    /// Checks a field at the end of a request, which must end in one or more NULs; returns its length.
     pub(crate) fn check_cstring(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
         let len = self.field_len();
         if len > to_usize(max) {
@@ -94,7 +94,7 @@ impl<'a> TextRef<'a> {
         Ok(len)
     }
 
-    /// As [`check_cstring`](Self::check_cstring), but the NUL may be missing.
+    /// Like [`check_cstring`](Self::check_cstring), but the NUL may be missing.
     #[inline]
     pub(crate) fn check_optional_nul(
         &self,
@@ -107,7 +107,7 @@ impl<'a> TextRef<'a> {
         Ok(len)
     }
 
-    /// The bytes of a field that may have between `min` and `max` of them.
+    /// Checks a field of `min` to `max` bytes; returns its length.
     pub(crate) fn check_text_and_tail(
         &self,
         field: Field,
@@ -125,7 +125,7 @@ impl<'a> TextRef<'a> {
         Ok(len)
     }
 
-    /// Only NULs may follow the NUL, if the text has one.
+    /// Checks that only NULs follow the NUL.
     #[inline]
     fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
         if tail.iter().all(|&byte| byte == 0) {
@@ -157,7 +157,7 @@ impl fmt::Display for TextRef<'_> {
     }
 }
 
-/// The text, and its end where that is not one NUL.
+/// The text, and its end unless that is one NUL.
 impl fmt::Debug for TextRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.text, f)?;

@@ -1,15 +1,15 @@
-//! Text in code page CP1252 (GEN-3): on its own, and as a field of a stream.
+//! Text in code page 1252 (GEN-3), by itself and as a field of a stream.
 //!
 //! | | borrowed | owned (feature `alloc`) |
 //! |---|---|---|
-//! | a text, which has no NUL | [`CncStr`] | `CncString` |
-//! | a field of a stream: the text with its NUL and the bytes after that | [`TextRef`] | `Text` |
+//! | a text without a NUL | [`CncStr`] | `CncString` |
+//! | a field of a stream: a text, its NUL and the bytes after the NUL | [`TextRef`] | `Text` |
 //!
 //! ```
 //! use ads_cnc::{CncStr, TextRef};
 //!
 //! let name = CncStr::new("V.E.Länge")?;
-//! assert_eq!(name.len(), 9); // a byte for each character
+//! assert_eq!(name.len(), 9); // one byte per character
 //! assert_eq!(TextRef::from(name).field_len(), 10);
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```

@@ -21,7 +21,7 @@ use crate::error::Error;
 pub struct CncString(Vec<u8>);
 
 impl CncString {
-    /// Bytes that were checked to have no NUL.
+    /// Bytes that the caller has checked to contain no NUL.
     #[cfg(feature = "arbitrary")]
     #[inline]
     pub(crate) const fn without_nul(bytes: Vec<u8>) -> Self {
@@ -85,7 +85,7 @@ impl fmt::Debug for CncString {
     }
 }
 
-/// A text field with its end, owned: see [`TextRef`].
+/// An owned text field with its end: see [`TextRef`].
 ///
 /// ```
 /// use ads_cnc::{Decode, VariableName};
@@ -104,7 +104,7 @@ impl fmt::Debug for CncString {
 pub struct Text {
     /// The text.
     pub text: CncString,
-    /// The bytes after the first NUL; `None` without a NUL.
+    /// The bytes after the first NUL; `None` if there is no NUL.
     pub tail: Option<Vec<u8>>,
 }
 

@@ -1,13 +1,13 @@
-//! The types of variables, objects and elements: one row per type.
+//! The types of variables, objects and elements, declared in one table.
 
 use core::fmt;
 
 use crate::number::code;
 use crate::text::CncStr;
 
-/// Declares the codes of variables' types and [`DataType`] from one table of types.
+/// Declares the codes of the types of variables, and [`DataType`], from one table.
 ///
-/// Types that variables do not use give their name as a string literal.
+/// A type that variables do not use has its name as a string literal.
 macro_rules! data_types {
     (
         $(#[$code_doc:meta])*
@@ -40,30 +40,31 @@ macro_rules! data_types {
         pub enum $data_type { $( #[doc = $variant_doc] $variant, )+ }
 
         impl $data_type {
-            /// All of them, in the order of the table.
+            /// All types, in the order of the table.
             pub const ALL: [Self; [$( $number ),+].len()] = [$( Self::$variant ),+];
 
-            /// Bytes of one element, if the type has a fixed size.
+            /// The size of one element in bytes; `None` for STRING.
             pub const fn size(self) -> Option<u32> {
                 match self { $( Self::$variant => data_types!(@size $size), )+ }
             }
 
-            /// The type's name for variables and elements; for a type that only objects have, that for objects.
+            /// The name of the type for variables and elements; for a type of objects only, its name
+            /// for objects.
             pub const fn name(self) -> &'static str {
                 match self { $( Self::$variant => concat!($( stringify!($code) )? $( $name )?), )+ }
             }
 
-            /// The type's name for objects.
+            /// The name of the type for objects.
             pub const fn object_name(self) -> &'static str {
                 match self { $( Self::$variant => $object, )+ }
             }
 
-            /// The type's number in errors: a variable's code, or a number greater than those.
+            /// The number of the type in errors: the code for variables, or a greater number.
             pub(super) const fn number(self) -> u32 {
                 match self { $( Self::$variant => $number, )+ }
             }
 
-            /// The code of this type of variables; `None` for a type that no variable has.
+            /// The code of the type for variables; `None` for a type that variables do not use.
             pub const fn var_type(self) -> Option<$code_type> {
                 Some(match self {
                     $( $( Self::$variant => $code_type::$code, )? )+
@@ -87,7 +88,7 @@ macro_rules! data_types {
 }
 
 data_types! {
-    /// The code of a variable's type (VAR-5): the numbers 1 to 9 of [`DataType`]'s table.
+    /// The code of the type of a variable (VAR-5): the numbers 1 to 9 in the table of [`DataType`].
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
     ///
@@ -102,7 +103,7 @@ data_types! {
     VariableType;
     /// The type of a value of a variable, an object or an element.
     ///
-    /// That BYTE, WORD, DWORD and LWORD are unsigned is assumed; the manuals have no sizes (GEN-5).
+    /// BYTE, WORD, DWORD and LWORD are assumed to be unsigned. The manuals do not define sizes (GEN-5).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.1 and 4.3.2.
     ///
@@ -118,10 +119,10 @@ data_types! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
-    /// The number is a variable's code. Types that no variable has are numbered for errors only; LINT
-    /// and LWORD are types of objects only.
+    /// The number is the code for variables. Types that variables do not use have numbers for errors
+    /// only. LINT and LWORD are types of objects only.
     DataType;
-    /// One byte; 0 is FALSE, any other TRUE.
+    /// One byte; 0 is FALSE, any other value is TRUE.
     Boolean: BOOLEAN = 1, "BOOL", 1;
     /// Signed, one byte.
     Sgn08: SGN08 = 2, "SINT", 1;
@@ -135,11 +136,11 @@ data_types! {
     Sgn32: SGN32 = 6, "DINT", 4;
     /// Unsigned, four bytes.
     Uns32: UNS32 = 7, "DWORD", 4;
-    /// Signed, eight bytes; of objects only.
+    /// Signed, eight bytes; for objects only.
     Lint: "LINT" = 10, "LINT", 8;
-    /// Unsigned, eight bytes; of objects only.
+    /// Unsigned, eight bytes; for objects only.
     Lword: "LWORD" = 11, "LWORD", 8;
-    /// IEEE 754 binary32; not of variables.
+    /// IEEE 754 binary32; not for variables.
     Real32: "REAL32" = 12, "REAL", 4;
     /// IEEE 754 binary64.
     Real64: REAL64 = 8, "LREAL", 8;
@@ -148,12 +149,12 @@ data_types! {
 }
 
 impl DataType {
-    /// The type with this name, of a variable, an object or an element.
+    /// The type with this name for variables, objects or elements; `None` if there is no such type.
     pub fn by_name(name: CncStr<'_>) -> Option<Self> {
         Self::ALL.into_iter().find(|known| name == known.name() || name == known.object_name())
     }
 
-    /// The type of this number in errors.
+    /// The type with this number in errors.
     pub(crate) fn by_number(number: u32) -> Option<Self> {
         Self::ALL.into_iter().find(|known| known.number() == number)
     }
@@ -167,7 +168,7 @@ impl fmt::Display for DataType {
 }
 
 impl VariableType {
-    /// Bytes of one element, if the type has a fixed size.
+    /// The size of one element in bytes; `None` for STRING and for undocumented codes.
     pub const fn element_size(self) -> Option<u32> {
         match self.data_type() {
             Some(data_type) => data_type.size(),

@@ -6,11 +6,11 @@ use crate::com::{Descriptor, DescriptorRef};
 use crate::error::Error;
 use crate::variable::{DescriptionByNameRef, DescriptionRef, U32List, ValueRef, VariableType};
 
-/// The value's type and shape, from the descriptions by index and by name.
+/// Shape and elements of a value, from a description by index or by name.
 macro_rules! describes {
     ($( $description:ident )+) => { $(
         impl<'a> $description<'a> {
-            /// Type, dimensions and size of the variable, checked to agree (VAR-8).
+            /// Type, dimensions and size of the variable, checked to be consistent (VAR-8).
             ///
             /// # Errors
             /// Those of [`Shape::for_variable`].
@@ -18,7 +18,7 @@ macro_rules! describes {
                 Shape::for_variable(self.var_type, self.dimensions, self.size)
             }
 
-            /// The elements of the whole variable's value.
+            /// The elements in the value of the whole variable.
             ///
             /// # Errors
             /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
@@ -26,7 +26,7 @@ macro_rules! describes {
                 self.shape()?.elements(value.bytes)
             }
 
-            /// The value of one element, read by its indices.
+            /// The element in the value of one element, which was read by its indices.
             ///
             /// ```
             /// use ads_cnc::{Decode, DescriptionByNameRef, Element, ValueRef};
@@ -66,7 +66,7 @@ impl<'a> ValueRef<'a> {
     ///
     /// # Errors
     /// Those of [`Elements::new`], and [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for
-    /// a type the manuals do not have.
+    /// an undocumented type.
     pub fn elements(
         &self,
         var_type: VariableType,
@@ -79,7 +79,7 @@ impl<'a> ValueRef<'a> {
 macro_rules! data_type {
     ($( $descriptor:ty )+) => { $(
         impl $descriptor {
-            /// The type of the content, if [`type_name`](Self::type_name) is one the manuals have.
+            /// The type of the content; `None` if [`type_name`](Self::type_name) is not documented.
             pub fn data_type(&self) -> Option<DataType> {
                 DataType::by_name(self.type_name())
             }
@@ -97,7 +97,7 @@ mod owned {
     macro_rules! describes {
         ($( $description:ident )+) => { $(
             impl $description {
-                /// See the method of the borrowed description.
+                /// Like the method of the borrowed description.
                 ///
                 /// # Errors
                 /// Those of [`Shape::for_variable`].
@@ -105,7 +105,7 @@ mod owned {
                     self.as_ref().shape()
                 }
 
-                /// See the method of the borrowed description.
+                /// Like the method of the borrowed description.
                 ///
                 /// # Errors
                 /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
@@ -113,7 +113,7 @@ mod owned {
                     self.as_ref().elements(value)
                 }
 
-                /// See the method of the borrowed description.
+                /// Like the method of the borrowed description.
                 ///
                 /// # Errors
                 /// Those of [`elements`](Self::elements).

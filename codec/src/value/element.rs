@@ -29,8 +29,8 @@ macro_rules! element {
         /// | BOOLEAN | `bool` |
         /// | STRING | [`TextRef`], [`CncStr`](crate::CncStr) and, with `alloc`, `String` |
         ///
-        /// No others: a REAL32 or REAL64 is never an integer, a REAL64 never an `f32`, a BOOLEAN never a
-        /// number, a number never a `bool`.
+        /// There are no other conversions: no REAL32 or REAL64 to an integer, no REAL64 to `f32`, no
+        /// BOOLEAN to a number, no number to `bool`.
         ///
         /// ```
         /// use ads_cnc::{Element, ErrorKind};
@@ -49,7 +49,7 @@ macro_rules! element {
         /// use ads_cnc::U32List;
         /// use ads_cnc::value::{Boolean, DataType, Element, Elements};
         ///
-        /// // two BOOLEANs, as of V.E.Variable_3
+        /// // Two BOOLEANs, as in the value of V.E.Variable_3.
         /// let elements = Elements::new(DataType::Boolean, U32List::from(&[2]), &[0, 1])?;
         /// let second = elements.element(U32List::from(&[1]))?;
         /// assert_eq!(second, Element::Boolean(Boolean::TRUE));
@@ -64,12 +64,12 @@ macro_rules! element {
                 #[doc = concat!("A value of the type [`DataType::", stringify!($variant), "`].")]
                 $variant($number),
             )+
-            /// Text to its first NUL or to the end of its bytes (VAR-22, assumed).
+            /// Text up to its first NUL or to the end of its bytes (VAR-22, assumed).
             String(TextRef<'a>),
         }
 
         impl<'a> Element<'a> {
-            /// The element's type.
+            /// The type of the element.
             pub const fn data_type(&self) -> DataType {
                 match self {
                     $( Self::$variant(_) => DataType::$variant, )+
@@ -77,7 +77,7 @@ macro_rules! element {
                 }
             }
 
-            /// The element in all of these bytes.
+            /// Decodes an element from exactly these bytes.
             fn read(data_type: DataType, bytes: &'a [u8]) -> Option<Self> {
                 Some(match data_type {
                     $( DataType::$variant => Self::$variant(read(bytes)?), )+
@@ -100,7 +100,7 @@ macro_rules! element {
             }
         }
 
-        /// Numbers as numbers, BOOLEAN as TRUE or FALSE, a text without its end.
+        /// A number, TRUE or FALSE for a BOOLEAN, or a text without its end.
         impl fmt::Display for Element<'_> {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self {
@@ -114,8 +114,8 @@ macro_rules! element {
 
 numbers!(element!);
 
-/// The elements of a value, by their indices or in their order: of more than one dimension, the
-/// last index runs fastest (VAR-21, assumed).
+/// The elements of a value, accessed by their indices or in order. With more than one dimension, the
+/// last index varies fastest (VAR-21, assumed).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2 and 4.3.4 … 4.3.7.
 ///
@@ -135,13 +135,13 @@ pub struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// The elements of a value of this type and these dimensions; an empty list for a single element.
+    /// The elements of a value with this type and these dimensions; no dimensions for a single element.
     ///
-    /// The texts of an array have equal shares of the bytes (assumed).
+    /// In an array of texts, all texts have the same number of bytes (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] if the bytes do not have the size of the
-    /// elements; [`ErrorKind::Mismatch`] if the texts cannot have equal shares of them.
+    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] if the number of bytes is not the size of
+    /// the elements; [`ErrorKind::Mismatch`] if the bytes cannot be divided equally among the texts.
     pub fn new(
         data_type: DataType,
         dimensions: U32List<'a>,
@@ -172,7 +172,7 @@ impl<'a> Elements<'a> {
         to_usize(self.shape.count())
     }
 
-    /// Returns `true` if there are no elements: a dimension is 0.
+    /// Returns `true` if there are no elements, because a dimension is 0.
     pub fn is_empty(&self) -> bool {
         self.shape.count() == 0
     }
@@ -180,8 +180,8 @@ impl<'a> Elements<'a> {
     /// The element at this index, from 0, in the order of [`iter`](Self::iter).
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an index beyond the last, and [`ErrorKind::Missing`] if there
-    /// are no elements.
+    /// [`ErrorKind::OutOfRange`] for an index after the last element, and [`ErrorKind::Missing`] if
+    /// there are no elements.
     pub fn get(&self, index: usize) -> Result<Element<'a>, Error> {
         self.at(index).ok_or_else(|| beyond(self.len(), index))
     }
@@ -203,12 +203,12 @@ impl<'a> Elements<'a> {
         self.get(to_usize(self.shape.index_of(indices)?))
     }
 
-    /// The elements in their order.
+    /// Iterates over the elements in order.
     pub fn iter(&self) -> ElementIter<'a> {
         ElementIter { elements: *self, indices: 0..self.len() }
     }
 
-    /// The bytes.
+    /// The bytes of the value.
     pub const fn as_bytes(&self) -> &'a [u8] {
         self.bytes
     }
@@ -224,7 +224,7 @@ impl fmt::Debug for Elements<'_> {
     }
 }
 
-/// The elements of a value in their order.
+/// An iterator over the elements of a value.
 ///
 /// ```
 /// use ads_cnc::U32List;

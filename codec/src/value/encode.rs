@@ -1,4 +1,4 @@
-//! Values as they are written.
+//! Encoding of values.
 
 use zerocopy::IntoBytes as _;
 
@@ -10,10 +10,10 @@ use crate::layout::typed_value::VALUE;
 use crate::limits::ADS_DATA;
 use crate::text::{CncStr, TextRef};
 
-/// A value that is encoded to bytes: a number, a `bool` or [`Boolean`](super::Boolean), a slice or an
-/// array of them, a text, an [`Element`] or [`Elements`].
+/// A value that can be encoded: a number, a `bool` or [`Boolean`](super::Boolean), a slice or an array
+/// of these, a text, an [`Element`] or [`Elements`].
 ///
-/// The bytes are the value in a request, or the content of an object or of an element. A [`CncStr`] is
+/// The bytes are the value in a request, or the content of an object or element. A [`CncStr`] is
 /// written with one NUL, a [`TextRef`] with its own end.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
@@ -23,7 +23,7 @@ use crate::text::{CncStr, TextRef};
 /// use ads_cnc::operation::{Operation, WriteByName};
 /// use ads_cnc::value::EncodeValue;
 ///
-/// // Section 4.3.7, where the type is not printed.
+/// // The example in section 4.3.7, which does not print the type.
 /// let mut room = [0; 20];
 /// let value = [123, 234, 345, 456, 567].encode_value(&mut room)?;
 /// let op = WriteByName::new(Channel::new(1)?, "V.E.test", value)?;
@@ -42,19 +42,19 @@ pub trait EncodeValue: sealed::Sealed {
 
     /// Writes the value to the front of `buf` and returns the bytes written.
     ///
-    /// Type and number of elements are checked by [`Shape::encode`](super::Shape::encode), the
-    /// limits of a request by its encoder: beside a handle or a name, a value has at most 2040 or
-    /// 2047 bytes.
+    /// This does not check the type or the number of elements: see
+    /// [`Shape::encode`](super::Shape::encode). The encoder of a request checks its limits: a value
+    /// has at most 2040 bytes in a request by handle, and 2047 in a request by name.
     ///
     /// # Errors
-    /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for more than any request takes;
-    /// nothing is written.
+    /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for a value that exceeds the limit of
+    /// all requests. Nothing is written then.
     fn encode_value<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
-    /// The value in a vector of its own.
+    /// Encodes the value into a new vector.
     ///
     /// # Errors
-    /// [`ErrorKind::TooLong`], as [`encode_value`](Self::encode_value).
+    /// [`ErrorKind::TooLong`], as for [`encode_value`](Self::encode_value).
     #[cfg(feature = "alloc")]
     fn value_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
         check(self.value_len())?;
@@ -91,7 +91,7 @@ macro_rules! encode_value {
         impl $(<$item: super::Scalar $(, const $n: usize)?>)? sealed::Sealed for $form {}
 
         $(#[$doc])*
-        #[allow(unused_variables, reason = "the type alone may determine it")]
+        #[allow(unused_variables, reason = "the type alone can determine the result")]
         impl $(<$item: super::Scalar $(, const $n: usize)?>)? EncodeValue for $form {
             fn data_type(&self) -> DataType {
                 let $value = self;
@@ -123,12 +123,12 @@ encode_value! {
     /// One number or BOOLEAN.
     @T T, |item| T::TYPE, 1, size_of::<T::Wire>(),
     |buf| fill(item.value_len(), buf, |out| out.put(item.to_wire().as_bytes()));
-    /// All elements of an array, the last index running fastest (VAR-21, assumed).
+    /// All elements of an array; the last index varies fastest (VAR-21, assumed).
     @T [T], |items| T::TYPE, items.len(), items.len().saturating_mul(size_of::<T::Wire>()),
     |buf| fill(items.value_len(), buf, |out| {
         items.iter().for_each(|item| out.put(item.to_wire().as_bytes()));
     });
-    /// As the slice of its elements.
+    /// Like the slice of its elements.
     @T; N [T; N], |items| T::TYPE, N, items.as_slice().value_len(),
     |buf| items.as_slice().encode_value(buf);
     /// The text and one NUL.

@@ -1,25 +1,26 @@
-//! Values by their types: reads and writes the bytes of variables, objects and elements.
+//! Decodes and encodes the values of variables, objects and elements by their types.
 //!
-//! A [`ValueRef`](crate::ValueRef) and a content are bytes; the type is in a variable's
-//! description, in an object's descriptor or in an element's attribute. [`DataType`] is the type
-//! of all three, [`Shape`] adds dimensions and size, [`Elements`] are the bytes read by a shape.
+//! A [`ValueRef`](crate::ValueRef) or [`ContentRef`](crate::ContentRef) only contains bytes. The type
+//! is in the description of the variable, the descriptor of the object or an attribute of the element.
+//! [`DataType`] is the type of all three. [`Shape`] adds dimensions and size. [`Elements`] applies a
+//! shape to the bytes.
 //!
 //! | task | use |
 //! |---|---|
-//! | read numbers of a type that the program knows | [`ValueRef::get`](crate::ValueRef::get), `iter`, `copy_to`, `to_vec` |
-//! | the same, if it is the described type | [`Elements::items`], `copy_to`, `to_vec` |
+//! | read numbers of a type that your program knows | [`ValueRef::get`](crate::ValueRef::get), `iter`, `copy_to`, `to_vec` |
+//! | the same, and check the type against the description | [`Elements::items`], `copy_to`, `to_vec` |
 //! | read elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
 //! | convert an element to a number, a `bool` or a text | `TryFrom<Element>` |
-//! | read a structure of the program's own | [`Reader`], [`content_error`] |
+//! | read a structure of your own | [`Reader`], [`content_error`] |
 //! | encode a value | [`EncodeValue`], [`Shape::encode`] |
 //!
 //! Only vectors and strings allocate. Bytes are little-endian (GEN-1, assumed) and need not be
-//! aligned. Of more than one dimension, the elements are in row-major order, the last index running
-//! fastest: not documented, **assumed** (VAR-21), as is that each text in an array of STRING has the
-//! same number of bytes.
+//! aligned. The order of the elements with more than one dimension is not documented. This crate
+//! **assumes** row-major order: the last index varies fastest (VAR-21). It also assumes that each text
+//! in an array of STRING has the same number of bytes.
 //!
-//! Errors have the subject `typed-value`. For a wrong index or dimension, the offset is its
-//! position in the list, from 0. Types are numbered as in the table of [`DataType`].
+//! Errors have the subject `typed-value`. For a wrong index or dimension, the offset is its position
+//! in the list, from 0. The table of [`DataType`] lists the numbers of types in errors.
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};
@@ -42,14 +43,14 @@
 //! let first: f64 = elements.get(0)?.try_into()?;
 //! assert_eq!(first, 11.0);
 //!
-//! // One element goes back by its indices, in the bytes of an SGN32.
+//! // Encode one element, an SGN32, to write it by its indices.
 //! let mut buf = [0; 4];
 //! assert_eq!(description.shape()?.element_shape().encode(&123_i32, &mut buf)?, [123, 0, 0, 0]);
 //! assert_eq!([11, 12, 13].encode_value(&mut [0; 12])?, &bytes[..12]);
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
-//! A program that knows the type needs no description:
+//! If your program knows the type, it needs no description:
 //!
 //! ```
 //! # #[cfg(feature = "alloc")] {

@@ -1,4 +1,4 @@
-//! Content of the program's own types.
+//! Content of the application's own types.
 
 use zerocopy::{FromBytes as _, FromZeros as _};
 
@@ -12,10 +12,10 @@ use crate::text::TextRef;
 /// The bytes of a content.
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
-/// Reads the members of a structure, one after the other, without a panic and without a copy.
+/// Reads the members of a structure in sequence, without a panic and without a copy.
 ///
-/// For an object or an element whose type is a structure of the application: implement
-/// [`Decode`](crate::Decode) with it. Errors are those of the content, with the offset of the member.
+/// Use it to implement [`Decode`](crate::Decode) for an object or element whose type is a structure of
+/// your application. Errors have the field of the content and the offset of the member.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
 ///
@@ -52,53 +52,53 @@ const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 pub struct Reader<'a>(bytes::Reader<'a>);
 
 impl<'a> Reader<'a> {
-    /// Begins at the first byte.
+    /// Creates a reader at the first byte.
     pub fn new(bytes: &'a [u8]) -> Self {
         Self(bytes::Reader::without_limit(Stream::Content, bytes))
     }
 
-    /// The next number or BOOLEAN.
+    /// Reads the next number or BOOLEAN.
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
+    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes remain.
     pub fn read<T: Scalar>(&mut self) -> Result<T, Error> {
         let bytes = self.bytes(size_of::<T::Wire>())?;
-        // No error: the length is that of the type.
+        // No error: the bytes have the length of the type.
         let wire = T::Wire::read_from_bytes(bytes).unwrap_or_else(|_| T::Wire::new_zeroed());
         Ok(T::from_wire(wire))
     }
 
-    /// The next bytes.
+    /// Reads the next `count` bytes.
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
+    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes remain.
     pub fn bytes(&mut self, count: usize) -> Result<&'a [u8], Error> {
         self.0.take(CONTENT, to_u32(count))
     }
 
-    /// The text in the next bytes, to its first NUL or to the last of them.
+    /// Reads the text in the next `size` bytes, up to its first NUL or to the last byte.
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
+    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes remain.
     pub fn text(&mut self, size: usize) -> Result<TextRef<'a>, Error> {
         self.bytes(size).map(TextRef::split)
     }
 
-    /// All bytes that are left.
+    /// Reads all remaining bytes.
     pub fn rest(&mut self) -> &'a [u8] {
         self.0.take_all()
     }
 
-    /// Ends the content.
+    /// Checks that no bytes remain.
     ///
     /// # Errors
-    /// [`ErrorKind::Trailing`](crate::ErrorKind::Trailing) if bytes are left.
+    /// [`ErrorKind::Trailing`](crate::ErrorKind::Trailing) if bytes remain.
     pub fn finish(self) -> Result<(), Error> {
         self.0.finish()
     }
 }
 
-/// An error of content whose layout only the application knows, for its own
+/// Creates an error for content whose layout only the application knows, for its own implementations of
 /// [`Decode`](crate::Decode) and [`Encode`](crate::Encode).
 ///
 /// ```

@@ -1,11 +1,11 @@
-//! The Rust types of the CNC's numbers and BOOLEAN.
+//! The Rust types for numbers and BOOLEAN of the CNC.
 
 use core::fmt;
 
 use super::DataType;
 
-/// A number or BOOLEAN of fixed size: `bool`, [`Boolean`], `i8`, `u8`, `i16`, `u16`, `i32`, `u32`, `i64`,
-/// `u64`, `f32` and `f64`.
+/// A Rust type for numbers or BOOLEAN: `bool`, [`Boolean`], `i8`, `u8`, `i16`, `u16`, `i32`, `u32`,
+/// `i64`, `u64`, `f32` and `f64`.
 ///
 /// ```
 /// use ads_cnc::value::{DataType, Scalar};
@@ -14,7 +14,7 @@ use super::DataType;
 /// assert_eq!(<f32 as Scalar>::TYPE, DataType::Real32);
 /// ```
 pub trait Scalar: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
-    /// The CNC's type.
+    /// The type of the CNC.
     const TYPE: DataType;
 }
 
@@ -75,7 +75,7 @@ macro_rules! items {
 
 numbers!(items!);
 
-/// Any byte but 0 is TRUE, which is written as 1. [`Boolean`] keeps the byte.
+/// Any byte but 0 is decoded as TRUE. TRUE is encoded as 1. [`Boolean`] keeps the byte.
 impl Scalar for bool {
     const TYPE: DataType = DataType::Boolean;
 }
@@ -92,13 +92,13 @@ impl sealed::Wire for bool {
     }
 }
 
-/// A BOOLEAN that keeps its byte: 0 is FALSE, any other TRUE.
+/// A BOOLEAN that keeps its byte: 0 is FALSE, any other value is TRUE.
 ///
-/// An [`Element`](super::Element) has this instead of `bool`, so that a value encodes to the bytes it was
-/// read from: `bool` would turn a 2 into a 1.
+/// An [`Element`](super::Element) contains this type instead of `bool`, so that a value encodes to the
+/// bytes that it was decoded from: `bool` would change a 2 to a 1.
 ///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2, where BOOLEAN\[2\] has two bytes. That
-/// any byte but 0 is TRUE is assumed.
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2, where BOOLEAN\[2\] has two bytes. It is
+/// assumed that any byte but 0 is TRUE.
 ///
 /// ```
 /// use ads_cnc::value::Boolean;
@@ -111,12 +111,12 @@ impl sealed::Wire for bool {
 pub struct Boolean(pub u8);
 
 impl Boolean {
-    /// FALSE, as written.
+    /// FALSE: 0 when encoded.
     pub const FALSE: Self = Self(0);
-    /// TRUE, as written.
+    /// TRUE: 1 when encoded.
     pub const TRUE: Self = Self(1);
 
-    /// Whether this is TRUE.
+    /// Whether the value is TRUE: any byte but 0.
     pub const fn is_true(self) -> bool {
         self.0 != 0
     }

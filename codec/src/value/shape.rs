@@ -9,12 +9,12 @@ use crate::layout::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYP
 use crate::text::{CncStr, TextRef};
 use crate::variable::{U32List, VariableType};
 
-/// Type, dimensions and size of a value, checked to agree (VAR-8).
+/// Type, dimensions and size of a value, checked to be consistent (VAR-8).
 ///
-/// It computes the index of an element, and checks values that are to be written.
+/// A shape computes the index of an element, and checks values before they are written.
 ///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2. That the size is that of the type times
-/// the elements follows from the example there.
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2. The example there shows that the size is
+/// the size of the type times the number of elements.
 ///
 /// ```
 /// use ads_cnc::U32List;
@@ -41,13 +41,13 @@ pub struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// A value of `size` bytes; an empty list of dimensions for a single element.
+    /// The shape of a value of `size` bytes; no dimensions for a single element.
     ///
-    /// The STRINGs of an array have equal shares of the bytes, at least one byte each (assumed).
+    /// In an array of STRING, all texts have the same number of bytes, at least one (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] of the size: expected is the size of the elements, for STRING the
-    /// size rounded down to a multiple of their number; found is the size given.
+    /// [`ErrorKind::Mismatch`] for a wrong size: expected is the size of the elements, for STRING the
+    /// size rounded down to a multiple of the number of elements; found is `size`.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {
@@ -63,7 +63,7 @@ impl<'a> Shape<'a> {
             (0, ..) if size == 0 => 0,
             (1, ..) => size,
             (_, Some(each), Some(0)) if each > 0 => each,
-            // Each text has at least its NUL; a value without texts has no bytes.
+            // Each text needs at least its NUL; a value without texts has no bytes.
             (.., left) => return mismatch(size.saturating_sub(left.unwrap_or(size)).max(count)),
         };
         Ok(Self { data_type, dimensions, count, each })
@@ -79,11 +79,11 @@ impl<'a> Shape<'a> {
         count.checked_mul(each).map(|_| Self { data_type, dimensions, count, each })
     }
 
-    /// The shape in a variable's description.
+    /// The shape of a variable, from its description.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`ErrorKind::OutOfRange`] for a type the manuals do not
-    /// have.
+    /// Those of [`new`](Self::new), and [`ErrorKind::OutOfRange`] for an undocumented
+    /// type.
     pub fn for_variable(
         var_type: VariableType,
         dimensions: U32List<'a>,
@@ -92,7 +92,7 @@ impl<'a> Shape<'a> {
         Self::new(known(var_type)?, dimensions, size)
     }
 
-    /// The shape of a single element, which is read and written by its indices.
+    /// The shape of a single element that is read or written by its indices.
     pub fn element_shape(&self) -> Shape<'static> {
         Shape { data_type: self.data_type, dimensions: U32List::EMPTY, count: 1, each: self.each }
     }
@@ -102,7 +102,7 @@ impl<'a> Shape<'a> {
         self.data_type
     }
 
-    /// Elements in each dimension; empty for a single element.
+    /// The number of elements in each dimension; empty for a single element.
     pub const fn dimensions(&self) -> U32List<'a> {
         self.dimensions
     }
@@ -112,33 +112,34 @@ impl<'a> Shape<'a> {
         self.count
     }
 
-    /// Bytes of one element; of a STRING the most it may have, its NUL included.
+    /// The size of one element in bytes; for a STRING, the maximum size including its NUL.
     pub const fn element_size(&self) -> u32 {
         self.each
     }
 
-    /// Bytes of the whole.
+    /// The size of the whole value in bytes.
     pub const fn size(&self) -> u32 {
         self.count.saturating_mul(self.each)
     }
 
-    /// Index of the element in the flat array, from 0: the last index runs fastest (VAR-21,
+    /// The index of an element in the flat array, from 0; the last of `indices` varies fastest (VAR-21,
     /// assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for another number of indices than dimensions;
-    /// [`ErrorKind::OutOfRange`] for an index beyond its dimension, and [`ErrorKind::Missing`] for a
-    /// dimension of 0, which has no element: the offset says which, from 0.
+    /// [`ErrorKind::Mismatch`] if the number of indices is not the number of dimensions;
+    /// [`ErrorKind::OutOfRange`] for an index outside its dimension; [`ErrorKind::Missing`] for a
+    /// dimension of 0, which has no elements. The offset of the last two errors is the position of the
+    /// dimension, from 0.
     pub fn index_of(&self, indices: U32List<'_>) -> Result<u32, Error> {
         index_of(indices, self.dimensions)
     }
 
     /// The elements of a value of this shape.
     ///
-    /// A single STRING may have any length: how many bytes a reply has is not documented (VAR-25).
+    /// A single STRING may have any length, because the length of its reply is not documented (VAR-25).
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for a value of another size.
+    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for a value of a different size.
     pub fn elements(&self, bytes: &'a [u8]) -> Result<Elements<'a>, Error> {
         if self.data_type == DataType::String && self.count == 1 {
             return Elements::new(self.data_type, self.dimensions, bytes);
@@ -154,10 +155,10 @@ impl<'a> Shape<'a> {
         }
     }
 
-    /// Writes a value of this shape to the front of `buf`, for a request or a content.
+    /// Encodes a value of this shape to the front of `buf`, for a request or as content.
     ///
-    /// A STRING is written with the end of the text given; a [`CncStr`] ends in a NUL. A single STRING may
-    /// be shorter than its size.
+    /// A STRING is written with the end of its [`TextRef`], a [`CncStr`] with one NUL. A single STRING
+    /// may be shorter than the size of the shape.
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};
@@ -174,9 +175,9 @@ impl<'a> Shape<'a> {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for another type or another number of elements,
-    /// [`ErrorKind::TooLong`] for a STRING too long, and those of
-    /// [`EncodeValue::encode_value`]. Requests check their own limits.
+    /// [`ErrorKind::Mismatch`] for a different type or number of elements, [`ErrorKind::TooLong`] for
+    /// a STRING that is too long, and those of [`EncodeValue::encode_value`]. The limits of a request
+    /// are checked when the request is encoded.
     pub fn encode<'b, V: EncodeValue + ?Sized>(
         &self,
         value: &V,
@@ -199,7 +200,8 @@ impl<'a> Shape<'a> {
         value.encode_value(buf)
     }
 
-    /// Writes texts, each with its NUL and, in an array, NULs to the size of its element (assumed).
+    /// Encodes texts, each with its NUL and, in an array, padded with NULs to the size of an element
+    /// (assumed).
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};
@@ -212,7 +214,8 @@ impl<'a> Shape<'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`encode`](Self::encode); the offset of a text too long is where it would begin.
+    /// Those of [`encode`](Self::encode). For a text that is too long, the offset is its position in
+    /// the value.
     pub fn encode_texts<'b>(
         &self,
         texts: &[CncStr<'_>],
@@ -256,7 +259,7 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// The type of a variable, if the manuals have it.
+/// The type of a variable; an error if it is not documented.
 pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
     var_type.data_type().ok_or_else(|| {
         let bound = VariableType::STRING.0.min(var_type.0.max(VariableType::BOOLEAN.0));
@@ -266,7 +269,7 @@ pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
 
 /// The product of the dimensions; `None` if it exceeds 32 bits.
 fn count(dimensions: U32List<'_>) -> Option<u32> {
-    // With a dimension of 0 the product is 0, even if that of the others overflows.
+    // If a dimension is 0, the product is 0, even if the product of the others overflows.
     if dimensions.iter().any(|dimension| dimension == 0) {
         return Some(0);
     }

@@ -1,4 +1,4 @@
-//! Numbers of a type that the program knows.
+//! Numbers of a type that is known at compile time.
 
 use zerocopy::FromBytes as _;
 
@@ -10,7 +10,7 @@ use crate::layout::typed_value::{COUNT, INDEX, NEGATIVE, NUMBER, TYPE, VALUE};
 use crate::text::{CncStr, TextRef};
 use crate::variable::ValueRef;
 
-/// The bytes of each number.
+/// Splits the bytes into numbers.
 fn split<T: Scalar>(bytes: &[u8]) -> Result<&[T::Wire], Error> {
     <[T::Wire]>::ref_from_bytes(bytes).map_err(|_| {
         let each = size_of::<T::Wire>();
@@ -35,7 +35,7 @@ fn copy_to<T: Scalar>(bytes: &[u8], out: &mut [T]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The error for an index that is not below `count`.
+/// The error for an index that is not less than `count`.
 pub(super) fn beyond(count: usize, index: usize) -> Error {
     match to_u32(count).checked_sub(1) {
         Some(last) => Error::new(ErrorKind::OutOfRange, INDEX, 0, last, to_u32(index)),
@@ -45,12 +45,11 @@ pub(super) fn beyond(count: usize, index: usize) -> Error {
 
 macro_rules! typed_reads {
     ($( $(#[$meta:meta])? [$($view:lifetime)?] $type:ty, [$($own:lifetime)?], |$this:ident| $bytes:expr, $checked:literal, $example:literal; )+) => { $(
-        /// Numbers and BOOLEANs, read by the type that the program asks for. A single number has
-        /// index 0.
+        /// Numbers and BOOLEANs, decoded by a Rust type. A single number has index 0.
         ///
         /// Only the number of bytes is checked.
         #[doc = $checked]
-        /// checks the type too.
+        /// also checks the type.
         ///
         /// ```
         #[doc = $example]
@@ -68,13 +67,13 @@ macro_rules! typed_reads {
             /// # Errors
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
             /// of the type's size, [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for an
-            /// index beyond the last, [`ErrorKind::Missing`](crate::ErrorKind::Missing) if there are
-            /// no bytes.
+            /// index after the last number, [`ErrorKind::Missing`](crate::ErrorKind::Missing) if there
+            /// are no bytes.
             pub fn get<T: Scalar>(&self, index: usize) -> Result<T, Error> {
                 get(&self.bytes, index)
             }
 
-            /// The numbers in their order.
+            /// Iterates over the numbers in order.
             ///
             /// # Errors
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
@@ -89,17 +88,17 @@ macro_rules! typed_reads {
                 Ok(split::<T>($bytes)?.iter().copied().map(T::from_wire))
             }
 
-            /// Fills `out` with exactly as many numbers.
+            /// Copies all numbers to `out`, which must have exactly their number.
             ///
             /// # Errors
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
-            /// of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch) for another
-            /// number of elements; nothing is written.
+            /// of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch) for a
+            /// different number of elements. Nothing is written then.
             pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
                 copy_to(&self.bytes, out)
             }
 
-            /// The numbers in a vector.
+            /// Copies the numbers to a vector.
             ///
             /// # Errors
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
@@ -129,12 +128,12 @@ typed_reads! {
         "let value = ads_cnc::Content { bytes: vec![77, 1, 0, 0, 200, 1, 0, 0] };";
 }
 
-/// Numbers and BOOLEANs of the type that the program asks for, which must be that of the elements.
+/// Numbers and BOOLEANs, decoded by a Rust type, which must match the type of the elements.
 ///
 /// ```
 /// use ads_cnc::{Decode, DescriptionByNameRef, ValueRef};
 ///
-/// // SGN32[2]
+/// // SGN32[2].
 /// let bytes = b"\x02\0\0\x02\x06\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x02\0\0\0";
 /// let description = DescriptionByNameRef::decode(bytes)?;
 /// let value = ValueRef { bytes: &[77, 1, 0, 0, 200, 1, 0, 0] };
@@ -148,10 +147,10 @@ typed_reads! {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 impl<'a> Elements<'a> {
-    /// The elements in their order.
+    /// Iterates over the elements in order.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for elements of another type.
+    /// [`ErrorKind::Mismatch`] for elements of a different type.
     pub fn items<T: Scalar>(
         &self,
     ) -> Result<impl ExactSizeIterator<Item = T> + DoubleEndedIterator + Clone + use<'a, T>, Error>
@@ -160,19 +159,19 @@ impl<'a> Elements<'a> {
         Ok(split::<T>(self.as_bytes())?.iter().copied().map(T::from_wire))
     }
 
-    /// Fills `out` with exactly as many elements.
+    /// Copies all elements to `out`, which must have exactly their number.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for another type or number of elements; nothing is written.
+    /// [`ErrorKind::Mismatch`] for a different type or number of elements. Nothing is written then.
     pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
         self.check::<T>()?;
         copy_to(self.as_bytes(), out)
     }
 
-    /// The elements in a vector.
+    /// Copies the elements to a vector.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for elements of another type.
+    /// [`ErrorKind::Mismatch`] for elements of a different type.
     #[cfg(feature = "alloc")]
     pub fn to_vec<T: Scalar>(&self) -> Result<alloc::vec::Vec<T>, Error> {
         Ok(self.items()?.collect())
@@ -187,7 +186,7 @@ pub(super) fn mismatch(expected: DataType, found: DataType) -> Error {
     Error::new(ErrorKind::Mismatch, TYPE, 0, expected.number(), found.number())
 }
 
-/// The error for an element that is not converted: an integer does not fit, of any other the type is wrong.
+/// The error for a failed conversion: an integer that does not fit, or an element of the wrong type.
 fn unfit(expected: DataType, element: Element<'_>) -> Error {
     let Some(number) = integer(element) else {
         return mismatch(expected, element.data_type());
@@ -221,10 +220,10 @@ macro_rules! from_integers {
         /// From an integer of any type, by its value.
         ///
         /// # Errors
-        /// [`ErrorKind::Mismatch`] for another kind of element, also a REAL32 or REAL64;
-        /// [`ErrorKind::OutOfRange`] for a number that does not fit: [`Error::expected`] is the number of
-        /// this type, [`Error::found`] and [`Error::offset`] are the low and the high 32 bits of the
-        /// number without its sign.
+        /// [`ErrorKind::Mismatch`] for an element that is not an integer; [`ErrorKind::OutOfRange`]
+        /// for a number that does not fit: [`Error::expected`] is the number of this type in errors,
+        /// [`Error::found`] and [`Error::offset`] are the low and the high 32 bits of the absolute
+        /// value.
         impl TryFrom<Element<'_>> for $type {
             type Error = Error;
 
@@ -239,16 +238,17 @@ macro_rules! from_integers {
 
 from_integers! { i8 u8 i16 u16 i32 u32 i64 u64 }
 
-/// Conversions to floating-point numbers, from those of no greater size and from integers that the
-/// significand represents exactly.
+/// Conversions to floating-point numbers, from floating-point numbers of at most the same size and from
+/// integers that the significand represents exactly.
 macro_rules! from_numbers {
     ($( $type:ty, $digits:literal, |$element:ident| $float:expr; )+) => { $(
-        /// From a floating-point number of no greater size, and from an integer that this type represents
-        /// exactly.
+        /// From a floating-point number of at most the same size, and from an integer that this type
+        /// represents exactly.
         ///
         /// # Errors
-        /// [`ErrorKind::Mismatch`] for another kind of element; [`ErrorKind::OutOfRange`] for an integer
-        /// that is not represented exactly, with the numbers of the conversions to integers.
+        /// [`ErrorKind::Mismatch`] for an element of any other type; [`ErrorKind::OutOfRange`] for an
+        /// integer that cannot be represented exactly, with the same numbers as the conversions to
+        /// integers.
         impl TryFrom<Element<'_>> for $type {
             type Error = Error;
 
@@ -260,7 +260,7 @@ macro_rules! from_numbers {
                 let Some(number) = exact else {
                     return Err(unfit(<$type>::TYPE, $element));
                 };
-                // No step rounds: no partial sum has more significant digits than the number.
+                // No step rounds, because no partial sum has more significant digits than the number.
                 let size = number.unsigned_abs().to_be_bytes().into_iter().fold(0.0, |size, byte| {
                     size * 256.0 + Self::from(byte)
                 });
@@ -292,7 +292,7 @@ fn digits(number: i128) -> u32 {
 macro_rules! from_one {
     ($( $(#[$meta:meta])? $type:ty, $data_type:ident, $element:pat => $value:expr; )+) => { $(
         /// # Errors
-        /// [`ErrorKind::Mismatch`] for another kind of element.
+        /// [`ErrorKind::Mismatch`] for an element of any other type.
         $(#[$meta])?
         impl<'a> TryFrom<Element<'a>> for $type {
             type Error = Error;

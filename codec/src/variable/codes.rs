@@ -1,4 +1,4 @@
-//! Codes of a description; unknown codes are kept (VAR-23).
+//! Codes in descriptions; unknown codes are kept (VAR-23).
 
 use crate::number::code;
 
@@ -15,15 +15,15 @@ code! {
     /// assert_eq!(VariableAccess::READ_WRITE.to_string(), "READ_WRITE");
     /// ```
     VariableAccess(u32) {
-        /// Reading only.
+        /// The variable can only be read.
         READ_ONLY = 1;
-        /// Reading and writing.
+        /// The variable can be read and written.
         READ_WRITE = 2;
     }
 }
 
 impl VariableAccess {
-    /// Whether the variable may be written. An undocumented code does not permit it.
+    /// Whether the variable may be written: `false` for undocumented codes.
     pub const fn is_writable(self) -> bool {
         self.0 == Self::READ_WRITE.0
     }
@@ -32,8 +32,8 @@ impl VariableAccess {
 code! {
     /// Whether access to a variable is synchronised (VAR-15).
     ///
-    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8; the editions spell the second code's
-    /// name SYNCHRONISED and SYNCHRONIZED (E-23).
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8; the name of the second code is
+    /// spelled SYNCHRONISED or SYNCHRONIZED (E-23).
     ///
     /// ```
     /// assert_eq!(ads_cnc::Synchronisation(2), ads_cnc::Synchronisation::SYNCHRONIZED);
@@ -47,7 +47,7 @@ code! {
 }
 
 code! {
-    /// Where a variable is valid (VAR-15).
+    /// The scope of a variable (VAR-15).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
     ///
@@ -55,9 +55,9 @@ code! {
     /// assert_eq!(ads_cnc::Validity(1), ads_cnc::Validity::CHANNEL);
     /// ```
     Validity(u32) {
-        /// In its channel.
+        /// The variable is valid in its channel.
         CHANNEL = 1;
-        /// In all channels.
+        /// The variable is valid in all channels.
         GLOBAL = 2;
     }
 }

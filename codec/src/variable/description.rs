@@ -6,13 +6,13 @@ use crate::declare::stream;
 stream! {
     /// The description of a variable: the reply to a request by index.
     ///
-    /// How the name ends is not documented (E-17): a NUL, NULs up to 256 bytes, and the end of the
-    /// stream are accepted. Bytes after the NUL are kept, and a name has at least one byte. A new
-    /// description ends in one NUL.
+    /// The manuals do not document how the name ends (E-17). Accepted are one NUL, NULs up to 256
+    /// bytes, and the end of the stream. Bytes after the NUL are kept. A name has at least one byte. A
+    /// new description ends in one NUL.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -24,7 +24,7 @@ stream! {
     /// assert_eq!(variable.var_type, VariableType::BOOLEAN);
     /// assert_eq!(variable.dimensions.get(0), Some(2));
     /// assert_eq!(variable.name.text(), "V.E.Variable_3");
-    /// // It can be kept when the bytes are gone.
+    /// // To keep the description longer than the bytes, copy it.
     /// # #[cfg(feature = "alloc")]
     /// assert_eq!(variable.to_owned().dimensions, [2]);
     /// # Ok::<(), ads_cnc::Error>(())
@@ -44,10 +44,10 @@ stream! {
 stream! {
     /// The description of a variable by its name: [`DescriptionRef`] without the name.
     ///
-    /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
-    /// `ads-de` 1.051 reserve the offset in section 4.2.1.
+    /// Only the public help pages document it, for CNC versions from V3.1.3132.0 and V4.29.0 on;
+    /// `ads-en` 1.05 and `ads-de` 1.051 reserve the offset in section 4.2.1.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
@@ -72,7 +72,7 @@ stream! {
 }
 
 impl<'a> DescriptionRef<'a> {
-    /// The same without the name, as a description by name has it.
+    /// The description without the name, as in a description by name.
     pub const fn without_name(&self) -> DescriptionByNameRef<'a> {
         DescriptionByNameRef {
             handle: self.handle,

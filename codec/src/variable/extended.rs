@@ -10,12 +10,12 @@ use crate::stream::{Decode, Encode};
 stream! {
     /// Further properties of a V.E variable.
     ///
-    /// V.G and V.A variables have no extended description: their reply has no bytes. Decode a reply as
+    /// V.G and V.A variables have no extended description: their reply is empty. Decode a reply as
     /// [`ExtendedReply`].
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -35,12 +35,12 @@ stream! {
     }
 }
 
-/// The reply to a query of an extended description: [`ExtendedDescription`], or no bytes for a V.G or
-/// V.A variable.
+/// The reply to a request for an extended description: an [`ExtendedDescription`], or empty for a V.G
+/// or V.A variable.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
 ///
-/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`TooLong`](crate::ErrorKind::TooLong).
 ///
 /// ```

@@ -7,11 +7,12 @@ use crate::declare::stream;
 stream! {
     /// The handle of a variable.
     ///
-    /// Valid until the controller restarts; that of an axis variable belongs to the index of the axis.
+    /// A handle is valid until the controller restarts. The handle of an axis variable belongs to the
+    /// index of the axis.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.3.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -40,13 +41,13 @@ impl fmt::Debug for Handle {
 }
 
 stream! {
-    /// Asks for the value of a variable by its handle.
+    /// The request to read the value of a variable by its handle.
     ///
-    /// Without an index it asks for the whole variable; otherwise there is one index for each dimension.
+    /// Without indices, it reads the whole variable. Otherwise, it has one index for each dimension.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.4.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
@@ -67,13 +68,13 @@ stream! {
 }
 
 stream! {
-    /// Writes the value of a variable by its handle.
+    /// The request to write the value of a variable by its handle.
     ///
-    /// Without an index it writes the whole variable; otherwise there is one index for each dimension.
+    /// Without indices, it writes the whole variable. Otherwise, it has one index for each dimension.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.6.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```

@@ -1,4 +1,4 @@
-//! Requests of the number of variables of a kind and of one description (VAR-1 … VAR-3).
+//! Requests for the number of variables of a kind, and for one description (VAR-1 … VAR-3).
 
 use core::fmt;
 use core::hash::{Hash, Hasher};
@@ -7,13 +7,14 @@ use crate::declare::stream;
 use crate::error::Error;
 use crate::text::{CncStr, TextRef};
 
-/// A kind of variables, `V.E` for one: the text without a final dot.
+/// A kind of variables, such as `V.E`: the text without a final dot.
 ///
-/// Any text is a kind: which kinds a function takes depends on the CNC. The editions differ:
+/// Any text is accepted, because the CNC determines which kinds a function supports. The editions
+/// differ:
 ///
 /// | | `ads-en` 1.05 | `ads-de` 1.051 |
 /// |---|---|---|
-/// | on the channel interface | V.E, V.G, V.A, V.CYC | those, and V.P, V.L, V.S from V2.11.2077, V2.11.2847, V3.1.3081.07, V3.1.3115 and V4.18.0 on |
+/// | on the channel interface | V.E, V.G, V.A, V.CYC | these, and V.P, V.L, V.S from V2.11.2077, V2.11.2847, V3.1.3081.07, V3.1.3115 and V4.18.0 on |
 /// | by name only, without a handle (0x46, 0x47, 0x49) | V.CYC | V.CYC, V.P, V.L, V.S |
 ///
 /// Requirements: VAR-18, VAR-19.
@@ -45,17 +46,17 @@ impl<'a> Kind<'a> {
     pub const V_L: Kind<'static> = Kind::ascii(b"V.L");
     /// Variables of the kind V.S, on the channel interface by name only (VAR-18, VAR-19).
     pub const V_S: Kind<'static> = Kind::ascii(b"V.S");
-    /// V.E, V.G and V.A together; only for the number of variables.
+    /// V.E, V.G and V.A together; valid only for counting variables.
     pub const ALL: Kind<'static> = Kind::ascii(b"");
 
     const fn ascii(text: &'static [u8]) -> Kind<'static> {
         Kind(TextRef::with_tail(CncStr::without_nul(text), Some(&[])))
     }
 
-    /// The kind of this name.
+    /// The kind with this name.
     ///
-    /// The syntax is not checked; [`VariablePath::new`](crate::VariablePath::new) checks that of the kind in a
-    /// whole name.
+    /// The syntax is not checked. [`VariablePath::new`](crate::VariablePath::new) checks the kind in
+    /// the name of a variable.
     ///
     /// # Errors
     /// Those of [`CncStr::new`].
@@ -74,13 +75,13 @@ impl<'a> Kind<'a> {
         self.0.text()
     }
 
-    /// The text with its end.
+    /// The text field, including its end.
     pub const fn field(&self) -> TextRef<'a> {
         self.0
     }
 }
 
-/// Of the text: NULs after it are no part of the kind (E-34).
+/// Compares the texts; NULs after a text are not part of the kind (E-34).
 impl PartialEq for Kind<'_> {
     fn eq(&self, other: &Kind<'_>) -> bool {
         self.text() == other.text()
@@ -109,18 +110,18 @@ impl fmt::Debug for Kind<'_> {
 }
 
 stream! {
-    /// Asks for the number of variables of a kind.
+    /// The request for the number of variables of a kind.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.1.
     ///
-    /// `decode` rejects bytes with [`MissingNul`](crate::ErrorKind::MissingNul),
+    /// `decode` can fail with [`MissingNul`](crate::ErrorKind::MissingNul),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::{Decode, VariableKindRef};
     ///
     /// assert_eq!(VariableKindRef::decode(b"V.E\0")?.kind.text(), "V.E");
-    /// // An empty kind requests the sum of all kinds; it is written as one NUL.
+    /// // An empty kind requests the sum of all kinds. It is encoded as one NUL.
     /// assert!(VariableKindRef::decode(b"")?.kind.text().is_empty());
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
@@ -137,7 +138,7 @@ stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.1.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -155,11 +156,11 @@ stream! {
 crate::number::shown!(VariableCount);
 
 stream! {
-    /// Asks for the description of a variable by its index.
+    /// The request for the description of a variable by its index.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
     ///
-    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`MissingNul`](crate::ErrorKind::MissingNul), [`Trailing`](crate::ErrorKind::Trailing) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///

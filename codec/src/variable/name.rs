@@ -3,13 +3,13 @@
 use crate::declare::stream;
 
 stream! {
-    /// Asks for a handle, a value or a description by a variable's name.
+    /// The request for the handle, the value or the description of a variable by its name.
     ///
     /// NULs may pad the name up to 256 bytes (E-34).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.3 and 4.3.5.
     ///
-    /// `decode` rejects bytes with [`MissingNul`](crate::ErrorKind::MissingNul),
+    /// `decode` can fail with [`MissingNul`](crate::ErrorKind::MissingNul),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -29,13 +29,13 @@ stream! {
 }
 
 stream! {
-    /// Writes the value of a variable by its name.
+    /// The request to write the value of a variable by its name.
     ///
-    /// The value begins after the name's NUL, so the name cannot be padded.
+    /// The value begins after the NUL of the name, so the name cannot be padded.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.7 and 4.3.11.
     ///
-    /// `decode` rejects bytes with [`MissingNul`](crate::ErrorKind::MissingNul) or
+    /// `decode` can fail with [`MissingNul`](crate::ErrorKind::MissingNul) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```

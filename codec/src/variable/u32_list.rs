@@ -7,8 +7,8 @@ use zerocopy::little_endian::U32;
 
 use crate::bytes::Writer;
 
-/// Dimensions or indices: borrowed from a stream's bytes, from a slice of numbers or from the
-/// brackets of a name.
+/// A list of dimensions or indices, borrowed from the bytes of a stream, from a slice of numbers or
+/// from the brackets in a name.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2, 4.3.4 and 4.3.6.
 ///
@@ -30,7 +30,7 @@ pub struct U32List<'a>(Source<'a>);
 enum Source<'a> {
     Wire(&'a [U32]),
     Memory(&'a [u32]),
-    /// `[3][4]`, which was checked.
+    /// Checked text such as `[3][4]`.
     Name(&'a [u8]),
 }
 
@@ -43,7 +43,7 @@ impl<'a> U32List<'a> {
         Self(Source::Wire(numbers))
     }
 
-    /// The indices of a name that was checked to be well-formed.
+    /// The indices in a checked name.
     pub(crate) const fn from_name(brackets: &'a [u8]) -> Self {
         Self(Source::Name(brackets))
     }
@@ -64,7 +64,7 @@ impl<'a> U32List<'a> {
         self.len() == 0
     }
 
-    /// The number at this index, from 0.
+    /// The number at this index, from 0; `None` after the end.
     #[inline]
     pub fn get(&self, index: usize) -> Option<u32> {
         match self.0 {
@@ -74,13 +74,13 @@ impl<'a> U32List<'a> {
         }
     }
 
-    /// The numbers in their order.
+    /// Iterates over the numbers in order.
     #[inline]
     pub fn iter(&self) -> U32Iter<'a> {
         U32Iter(self.0)
     }
 
-    /// Copies the numbers.
+    /// Copies the numbers to a vector.
     #[cfg(feature = "alloc")]
     pub fn to_vec(self) -> alloc::vec::Vec<u32> {
         match self.0 {
@@ -105,7 +105,7 @@ impl<'a> U32List<'a> {
             Source::Memory(numbers) => {
                 let slots = out.next(self.encoded_len()).chunks_exact_mut(4);
                 for (slot, number) in slots.zip(numbers) {
-                    // Not `copy_from_slice`: optimised for size, it would keep its panic.
+                    // Not `copy_from_slice`, which keeps its panic when optimised for size.
                     slot.iter_mut().zip(number.to_le_bytes()).for_each(|(to, from)| *to = from);
                 }
             }
@@ -127,7 +127,7 @@ const fn count_opened(mut brackets: &[u8]) -> usize {
     count
 }
 
-/// The numbers of a [`U32List`] in their order.
+/// An iterator over the numbers of a [`U32List`].
 ///
 /// ```
 /// use ads_cnc::{U32Iter, U32List};
@@ -231,9 +231,8 @@ impl fmt::Debug for U32List<'_> {
 mod tests {
     use super::*;
 
-    /// Equal lists have the same hash, in whichever form they are stored.
     #[test]
-    fn equal_numbers_have_one_hash() {
+    fn equal_lists_from_all_sources_have_equal_hashes() {
         use std::hash::BuildHasher as _;
 
         let state = std::collections::hash_map::RandomState::new();
@@ -255,9 +254,8 @@ mod tests {
         }
     }
 
-    /// The iterators of all sources know at each step how many numbers are left.
     #[test]
-    fn iterators_know_their_length() {
+    fn iterators_report_their_exact_length() {
         let wire = [U32::new(3), U32::new(0), U32::MAX_VALUE];
         let sources = [
             U32List::from_wire(&wire),

@@ -1,13 +1,13 @@
-//! Values of variables, whose types are in the descriptions.
+//! Values of variables; the descriptions contain their types.
 
 use crate::declare::stream;
 
 stream! {
-    /// The value of a variable: one element, or the whole array if no index was given.
+    /// The value of a variable: one element, or the whole variable if the request has no indices.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.4 and 4.3.5.
     ///
-    /// `decode` rejects bytes with [`TooLong`](crate::ErrorKind::TooLong).
+    /// `decode` can fail with [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::{Decode, ValueRef};

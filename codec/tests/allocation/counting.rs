@@ -1,9 +1,9 @@
-//! An allocator that counts.
+//! An allocator that counts allocations.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-/// Counts by thread, as tests run beside each other.
+/// Counts per thread, because tests run in parallel.
 struct Counting;
 
 thread_local! {
@@ -21,14 +21,14 @@ unsafe impl GlobalAlloc for Counting {
         PEAK.set(PEAK.get().max(LIVE.get()));
         COUNT.set(COUNT.get() + 1);
         BYTES.set(BYTES.get() + layout.size());
-        // SAFETY: the caller keeps the contract, which is the same.
+        // SAFETY: the caller upholds the same contract.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // What another thread allocated is not taken off here.
+        // Memory that another thread allocated is not subtracted.
         LIVE.set(LIVE.get().saturating_sub(layout.size()));
-        // SAFETY: the caller keeps the contract, which is the same.
+        // SAFETY: the caller upholds the same contract.
         unsafe { System.dealloc(memory, layout) }
     }
 }
@@ -36,7 +36,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// The most bytes held at once while this runs, and how often it allocated.
+/// Runs a function; returns the maximum number of allocated bytes and the number of allocations.
 pub(crate) fn measure(run: impl FnOnce()) -> (usize, usize) {
     let before = (LIVE.get(), COUNT.get());
     PEAK.set(before.0);
@@ -44,20 +44,20 @@ pub(crate) fn measure(run: impl FnOnce()) -> (usize, usize) {
     (PEAK.get() - before.0, COUNT.get() - before.1)
 }
 
-/// How often this allocated.
+/// Runs a function; returns the number of allocations.
 pub(crate) fn allocations(run: impl FnOnce()) -> usize {
     measure(run).1
 }
 
-/// How often this thread has allocated, and how many bytes in all, whether or not they are held.
+/// The number of allocations of this thread, and the total of allocated bytes, including freed ones.
 #[cfg(feature = "alloc")]
 pub(crate) fn allocated() -> (usize, usize) {
     (COUNT.get(), BYTES.get())
 }
 
-/// The counters count: without this, no test here could fail.
+/// Without this, no test here could fail.
 #[test]
-fn the_counters_count() {
+fn counters_detect_allocations() {
     let before = BYTES.get();
     let held = measure(|| drop(std::hint::black_box(vec![0_u8; 1000])));
     assert_eq!((held, BYTES.get() - before), ((1000, 1), 1000));

@@ -1,23 +1,23 @@
-//! What is decoded: every golden vector, every sample, and what an attacker would make of them.
+//! The inputs: every golden vector, every sample, and malicious variants of them.
 
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::vectors;
 
 use crate::common::each_sample;
 
-/// Numbers that four bytes on the wire can promise and no stream can hold.
+/// Counts of four bytes that exceed every stream.
 const HUGE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
 
-/// Bytes of a long input; enough for a factor to show beside 4 KiB.
+/// The length of a long input, for which a factor exceeds 4 KiB.
 pub(crate) const LONG: usize = 0x4000;
 
-/// Every golden vector of a stream, accepted or refused.
+/// Every golden vector of a stream, accepted or rejected.
 pub(crate) fn each_vector() -> impl Iterator<Item = (Stream, Vec<u8>)> {
     vectors().iter().filter_map(|vector| Some((Stream::by_name(&vector.stream)?, vector.bytes())))
 }
 
-/// Every vector and every sample: as it is, cut at every length, with every number in it huge or
-/// at odds with the bytes there are; and every sample drawn out to the longest stream and beyond.
+/// Every vector and sample: unchanged, truncated at every length, and with every number huge or
+/// inconsistent with the length; also every sample extended to the maximum length and beyond.
 pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     let samples = || each_sample().map(|(stream, sample)| (stream, sample.bytes()));
     for (stream, bytes) in each_vector().chain(samples()) {
@@ -36,17 +36,18 @@ pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     samples().for_each(|(stream, bytes)| each_long(stream, &bytes, &mut visit));
 }
 
-/// The first and the last of so many places, all of them if they are few.
+/// The first and the last indices below a count; all of them if the count is small.
 fn ends(places: usize) -> impl Iterator<Item = usize> {
     (0..places).filter(move |at| *at < 128 || *at + 64 > places)
 }
 
-/// Counts of bytes and of numbers about as many as are left.
+/// Counts close to the number of remaining bytes or numbers.
 fn counts(left: u32) -> [u32; 6] {
     [left, left + 1, left.saturating_sub(1), left / 4, left / 4 + 1, (left / 4).saturating_sub(1)]
 }
 
-/// A sample repeated, and a sample and more bytes, each number in it once a count of what follows.
+/// A repeated sample, and a sample with more bytes, with each number replaced by a count of the bytes
+/// after it.
 fn each_long(stream: Stream, sample: &[u8], visit: &mut impl FnMut(Stream, &[u8])) {
     let max = stream.layout().max as usize;
     let len = max.min(LONG);

@@ -1,4 +1,4 @@
-//! What decoding and encoding allocate, counted by the allocator of this test binary.
+//! The allocations of decoding and encoding, counted by the allocator of this test binary.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -21,10 +21,10 @@ use common::{CALLS, Subject};
 use counting::{allocations, measure};
 use inputs::{each_input, each_vector};
 
-/// A decoder: the length of what it read when encoded.
+/// A decoder that returns the encoded length of the decoded value.
 type Decoder = fn(&[u8]) -> Result<usize, Error>;
 
-/// Bytes that decoding holds beyond what the input warrants: twice its length and 4 KiB.
+/// The bytes that decoding allocates in excess of twice the length of the input plus 4 KiB.
 fn excess(decode: Decoder, bytes: &[u8]) -> usize {
     let (held, _) = measure(|| {
         let _ = black_box(decode(bytes));
@@ -36,10 +36,10 @@ fn start(bytes: &[u8]) -> &[u8] {
     &bytes[..bytes.len().min(64)]
 }
 
-/// A reading that believes the count, or that copies once too often, is found out by the same
-/// inputs: the test of owned readings can fail.
+/// The test of owned types can fail: it detects a decoder that trusts a count, and one that copies too
+/// often.
 #[test]
-fn greedy_readings_are_found_out() {
+fn decoders_that_allocate_too_much_are_detected() {
     let believes: Decoder = |bytes| {
         let count =
             bytes.get(4..8).map_or(0, |count| u32::from_le_bytes(count.try_into().unwrap()));
@@ -59,7 +59,6 @@ fn greedy_readings_are_found_out() {
     assert_eq!(found, (true, true));
 }
 
-/// Views, walks and encoders never allocate, whatever the bytes.
 #[test]
 fn views_walks_and_encoders_allocate_nothing() {
     let mut buf = vec![0; 0x41_0000];
@@ -75,10 +74,10 @@ fn views_walks_and_encoders_allocate_nothing() {
     });
 }
 
-/// Nor does any public function that borrows: all that the no-panic proof links, which is held
-/// against the list of the public API, on every vector.
+/// Calls all public functions that borrow, on every vector: the functions of the no-panic proof, which
+/// is compared with the list of the public API.
 #[test]
-fn what_is_linked_without_an_allocator_allocates_nothing() {
+fn borrowing_functions_allocate_nothing() {
     for (stream, bytes) in each_vector().filter(|(_, bytes)| bytes.len() <= 4096) {
         let count = allocations(|| {
             black_box(everything::runs(&bytes));
@@ -87,8 +86,8 @@ fn what_is_linked_without_an_allocator_allocates_nothing() {
     }
 }
 
-/// Nor do dispatch, the encoding of requests and replies, and the reading of replies: for every
-/// call there is, with its own data and with that of every vector, as it is and cut.
+/// Dispatch, requests and replies: for every call, with its own data and that of every vector,
+/// complete and truncated.
 #[test]
 fn dispatch_and_replies_allocate_nothing() {
     let vectors: Vec<_> = each_vector().filter(|(_, bytes)| bytes.len() <= 4096).collect();
@@ -116,9 +115,8 @@ fn dispatch_and_replies_allocate_nothing() {
     assert!(dispatched > CALLS.len() && answered > CALLS.len());
 }
 
-/// Nor does a call that nobody answers.
 #[test]
-fn refusals_allocate_nothing() {
+fn dispatch_errors_allocate_nothing() {
     for sample in CALLS {
         let count = allocations(|| {
             for port in [0, 551, 552, 553, 851] {
@@ -132,7 +130,7 @@ fn refusals_allocate_nothing() {
     }
 }
 
-/// Nor does the splitting of frames, whatever they promise.
+/// Frames with any length in their headers.
 #[test]
 fn frames_allocate_nothing() {
     let data = [0; 64];
@@ -154,7 +152,7 @@ fn frames_allocate_nothing() {
     }
 }
 
-/// Streaming allocates nothing: neither packets nor the sender.
+/// Packets and the sender.
 #[test]
 fn streaming_allocates_nothing() {
     let jumps: String = (0..200).map(|n| format!("N{n}: X1\n$GOTO N{}\n", n / 2)).collect();
@@ -181,7 +179,6 @@ fn streaming_allocates_nothing() {
     }
 }
 
-/// Names are taken apart and put together without allocating.
 #[test]
 fn names_allocate_nothing() {
     use ads_cnc::{U32List, VariablePath};
@@ -195,7 +192,8 @@ fn names_allocate_nothing() {
     assert_eq!(count, 0);
 }
 
-/// Values of all types are read, found and written without allocating; owned, they have their bytes.
+/// Values of all types are decoded and encoded without allocating; owned values only allocate their
+/// bytes.
 #[test]
 fn typed_values_hold_no_more_than_their_bytes() {
     use ads_cnc::value::{DataType, Elements, EncodeValue};
@@ -231,7 +229,6 @@ fn typed_values_hold_no_more_than_their_bytes() {
     }
 }
 
-/// Nor does a host of the Service Interface.
 #[test]
 fn services_allocate_nothing() {
     use ads_cnc::CncStr;

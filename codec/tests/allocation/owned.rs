@@ -1,4 +1,4 @@
-//! What owned readings allocate.
+//! The allocations of owned types.
 
 use std::collections::BTreeMap;
 use std::hint::black_box;
@@ -10,10 +10,9 @@ use crate::counting::{allocated, allocations, measure};
 use crate::inputs::{LONG, each_input};
 use crate::{excess, start};
 
-/// No count or length in the bytes makes an owned reading hold more than the bytes warrant.
 #[test]
-fn owned_readings_hold_no_more_than_the_input_warrants() {
-    // Refused and accepted inputs, and the longest accepted one.
+fn memory_of_decoding_is_limited_by_the_input() {
+    // Rejected and accepted inputs, and the longest accepted input.
     let mut seen: BTreeMap<Stream, (u32, u32, usize)> = BTreeMap::new();
     each_input(|stream, bytes| {
         let decode = Subject::of(stream).owned.len;
@@ -37,7 +36,7 @@ fn owned_readings_hold_no_more_than_the_input_warrants() {
     }
 }
 
-/// What a reading allocated and what a copy of it did, each as how often and how many bytes.
+/// The allocations of decoding and of copying the value: number and bytes of each.
 fn decoded_and_copied(twice: fn(&[u8], &mut dyn FnMut()), bytes: &[u8]) -> [(usize, usize); 2] {
     let mut marks = [allocated(); 3];
     let mut next = 1;
@@ -49,10 +48,10 @@ fn decoded_and_copied(twice: fn(&[u8], &mut dyn FnMut()), bytes: &[u8]) -> [(usi
     [0, 1].map(|at| (marks[at + 1].0 - marks[at].0, marks[at + 1].1 - marks[at].1))
 }
 
-/// An owned reading allocates what it returns and no more: as often as a copy of it, and as many
-/// bytes. Nothing grows, nothing is thrown away, and what is refused has allocated nothing.
+/// Decoding allocates as often and as many bytes as copying the value: no buffer grows or is
+/// discarded. Rejected bytes allocate nothing.
 #[test]
-fn owned_readings_allocate_what_they_return() {
+fn decoding_allocates_as_much_as_a_copy() {
     let mut most: BTreeMap<Stream, (usize, usize)> = BTreeMap::new();
     each_input(|stream, bytes| {
         let [decoded, copied] = decoded_and_copied(Subject::of(stream).twice, bytes);
@@ -71,7 +70,7 @@ fn owned_readings_allocate_what_they_return() {
     }
 }
 
-/// Texts are allocated once, with no room to spare, also those that are made of UTF-8.
+/// Texts are allocated once, without spare capacity, including texts from UTF-8.
 #[test]
 fn owned_texts_are_allocated_once() {
     use ads_cnc::{CncStr, CncString, Text, TextRef};
@@ -89,9 +88,9 @@ fn owned_texts_are_allocated_once() {
     }
 }
 
-/// A reading that grows, or that reads into what it throws away, is told from its copy.
+/// The test above can fail: growth and discarded buffers differ from a copy.
 #[test]
-fn growth_and_waste_are_found_out() {
+fn growth_and_waste_are_detected() {
     let grown: fn(&[u8], &mut dyn FnMut()) = |bytes, call| {
         let mut text = Vec::new();
         bytes.iter().for_each(|&byte| text.push(black_box(byte)));
@@ -111,9 +110,8 @@ fn growth_and_waste_are_found_out() {
     assert_eq!((decoded, copied), ((2, 40), (1, 20)));
 }
 
-/// To encode an owned reading allocates nothing on top of what it took to decode it.
 #[test]
-fn encoders_of_owned_readings_allocate_nothing() {
+fn encoding_an_owned_value_allocates_nothing() {
     let mut buf = vec![0; 0x41_0000];
     each_input(|stream, bytes| {
         let owned = Subject::of(stream).owned;
@@ -127,9 +125,9 @@ fn encoders_of_owned_readings_allocate_nothing() {
     });
 }
 
-/// The same count finds an owned reading out.
+/// The test above can fail: it detects the allocations of decoding.
 #[test]
-fn owned_readings_are_seen_to_allocate() {
+fn allocations_of_decoding_are_detected() {
     let owned = Subject::of(Stream::VariableHandleRead).owned;
     let request = [1, 0, 0, 2, 1, 0, 0, 0, 4, 0, 0, 0];
     let decoding = allocations(|| {
@@ -138,13 +136,13 @@ fn owned_readings_are_seen_to_allocate() {
     assert!(decoding > 0);
 }
 
-/// A checker remembers no more of a program without end than of a long one, however long its labels
-/// are and whether or not it begins anew.
+/// The memory of a checker is limited for an endless program, whatever the length of its labels and
+/// whether or not new programs begin.
 #[test]
-fn checkers_hold_no_more_than_the_labels_that_they_know() {
+fn memory_of_a_checker_is_limited() {
     use ads_cnc::streaming::Checker;
 
-    // Two generations; a label is a node's share, a key of its own and its characters.
+    // Two generations; a label needs its share of a node, a key and its characters.
     const MOST: usize = 2 * (Checker::LABELS_KNOWN * 160 + 2 * Checker::CHARACTERS_KNOWN);
     for (length, each) in [(1, "[{}]"), (990, "[{}]"), (1, "%\n[{}]")] {
         let held = |labels: usize| {
@@ -159,16 +157,16 @@ fn checkers_hold_no_more_than_the_labels_that_they_know() {
         let (long, endless) = (held(3 * known), held(6 * known));
         assert!(endless <= MOST, "{endless} of {MOST}");
         assert!(endless <= long + long / 4, "{length}: {long}, then {endless}");
-        // Labels of another program are forgotten at once.
+        // Labels of another program are discarded at once.
         let forgets = each.starts_with('%');
         assert_eq!(forgets, endless < 4096, "{endless}");
         assert_ne!(forgets, long > Checker::CHARACTERS_KNOWN / 2, "{long}");
     }
 }
 
-/// The check of a whole text holds its labels and nothing that grows with anything else.
+/// The memory of the check of a whole text only grows with its labels.
 #[test]
-fn findings_hold_no_more_than_the_labels_of_the_text() {
+fn memory_of_diagnostics_is_limited_by_the_labels() {
     use ads_cnc::streaming::NcText;
 
     let peak = |lines: &dyn Fn(usize) -> String| {
@@ -180,7 +178,7 @@ fn findings_hold_no_more_than_the_labels_of_the_text() {
     let names = 20_000 * "N10000".len();
     let labels = peak(&|n| format!("N{}:\n", 10_000 + n));
     assert!((names..20_000 * 88).contains(&labels), "{labels}");
-    // The same labels again cost nothing.
+    // Repeated labels need no memory.
     let again = peak(&|n| format!("N{}:\n", n % 65));
     assert!(again < 65 * 160, "{again}");
 }

@@ -1,4 +1,4 @@
-//! Calls as they reach a CNC, written by hand.
+//! Calls as a CNC receives them, written by hand.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -56,7 +56,8 @@ const fn sample(
     CallSample { slug, function, call }
 }
 
-/// Each function at least once, logically and by index; where printed, as printed.
+/// Each function at least once, logically and by index, with the printed values where the manuals have
+/// them.
 pub(crate) const CALLS: &[CallSample] = &[
     read("objects-of-channel-1", Function::CountObjects, (0x13_0101, 0, 4)),
     read("objects-of-platform", Function::CountObjects, (0x13_0100, 0, 4)),
@@ -99,7 +100,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         (0x2_2302, 0x48, 2048),
         b"V.E.Testvar\0\0\0\0",
     ),
-    // GEO answers for the classes too (ADR-10, assumed).
+    // GEO also serves the classes (ADR-10, assumed).
     sample(
         "handle-from-geo",
         Function::HandleByName,
@@ -184,7 +185,7 @@ pub(crate) const CALLS: &[CallSample] = &[
     sda("elements-of-decoder-axis", Function::CountElements, (0x12_2301, 0x2_0000, 4)),
     sda("elements-of-spindle", Function::CountElements, (0x2_5302, 0, 4)),
     sda("content-printed", Function::ReadElement, (0x12_3301, 1, 1)),
-    // The first element under the stride 0x1000 is any element under the other (E-01).
+    // The first element with the stride 0x1000 is an ordinary element with the other stride (E-01).
     sda("content-platform-axis", Function::ReadElement, (0x12_3300, 0x1000, 4)),
     sda("content-position-controller", Function::ReadElement, (0x12_0300, 0x1_0001, 8)),
     sda("content-of-reserved-offset", Function::ReadElement, (0x12_2301, 0x4D, 4)),
@@ -221,7 +222,7 @@ pub(crate) const CALLS: &[CallSample] = &[
     read("object-printed-platform", Function::ReadObject, (0x12_0100, 0x251, 4)),
     read("object-printed-axis", Function::ReadObject, (0x12_0201, 0x1_0001, 4)),
     read("object-printed-channel", Function::ReadObject, (0x12_0101, 1, 4)),
-    // The stream is an object of channels, not of the platform.
+    // The program stream is an object of channels, not of the platform.
     read("object-platform-0x90", Function::ReadObject, (0x12_0100, 0x90, 4)),
     sample(
         "write-object-printed",

@@ -1,11 +1,11 @@
-//! What holds for the findings in a program that comes packet by packet.
+//! Laws of the diagnostics of a program that arrives packet by packet.
 
 use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
 use super::findings::{FindingsBend, findings_of};
 use super::streaming::reference_lines;
 
-/// Diagnostics but for the last, which is no event but what is missing, and program ends.
+/// The program ends, and all diagnostics except that of an open comment, which is not an event.
 pub(crate) fn check_lines(
     checker: &mut Checker,
     lines: &[u8],
@@ -20,7 +20,7 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// The first program end of a text: a line added comes after it.
+/// The first program end of a text: an added line follows it.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -30,8 +30,8 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     })
 }
 
-/// A program that comes in lots of whole lines: after each, what is found in it is what is found
-/// there in all that came, as one lot.
+/// Checks that the events of each part of whole lines equal those of the same lines in the text so
+/// far, checked as one part.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,
@@ -44,7 +44,7 @@ impl CheckedLots {
         Self { checker: Checker::new(), so_far: Vec::new(), ended: None, bend }
     }
 
-    /// Lines that can be streamed.
+    /// Checks lines that can be streamed.
     pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Diagnostic> {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);
@@ -67,8 +67,7 @@ impl CheckedLots {
     }
 }
 
-/// Any bytes, as they come through the interface: what is found is in its order, and lines are
-/// counted.
+/// Checks that the events of any bytes are in order, and that lines are counted.
 pub(crate) fn check_any_lots<'l>(lots: impl IntoIterator<Item = &'l [u8]>) {
     let (mut checker, mut lines) = (Checker::new(), 0);
     for lot in lots {

@@ -1,4 +1,4 @@
-//! Errors as tests compare them.
+//! Errors in the form that tests compare.
 
 use ads_cnc::{Error, ErrorKind};
 
@@ -24,7 +24,7 @@ impl Fault {
     }
 }
 
-/// A fault as a person writes it down; of the numbers, the one expected comes first.
+/// A fault written by hand; the expected number precedes the found number.
 pub(crate) fn fault(
     kind: ErrorKind,
     field: &'static str,
@@ -34,7 +34,7 @@ pub(crate) fn fault(
     Fault { kind, field, offset, expected, found }
 }
 
-/// The fault of what has to be refused.
+/// The fault of a result that must be an error.
 #[track_caller]
 pub(crate) fn fault_of<T>(result: Result<T, Error>) -> Fault {
     Fault::of(result.err().expect("an error"))

@@ -1,17 +1,17 @@
-//! What holds for the findings in a program.
+//! Laws of the diagnostics of a program.
 
 use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
 use super::streaming::reference_lines;
 
-/// What is wrong in one thing with what is found in some lines, behind so many others.
+/// A fault added to the diagnostics of lines, after a number of other lines.
 pub(crate) type FindingsBend = fn(&mut Vec<Diagnostic>, u32);
 
 pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
     NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
-/// Any text: the findings are in the text and in its order, and do not depend on how lines end.
+/// For any text, diagnostics are within the text, in its order, and independent of the line ends.
 pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
     bend(&mut all, 0);

@@ -1,4 +1,4 @@
-//! What holds for frames on a TCP stream, however their bytes arrive (ADS-5).
+//! Laws of frames on a TCP stream, however it is split into pieces (ADS-5).
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::ADS_DATA_MAX;
@@ -6,19 +6,19 @@ use ads_cnc::{Decode as _, Encode as _, Error, ErrorKind};
 
 use super::{Fault, SAMPLES};
 
-/// How frames are taken off a stream: [`FrameRef::split`], or what is wrong in one thing.
+/// A function that splits frames: [`FrameRef::split`], or a variant with one fault.
 pub(crate) type Split = for<'a> fn(&'a [u8], u32) -> Result<Option<(FrameRef<'a>, usize)>, Error>;
 
-/// As it is.
+/// Without a fault.
 pub(crate) const SPLIT: Split = |received, max_data| FrameRef::split(received, max_data);
 
-/// Header of the Read sample: 12 bytes follow it.
+/// The header of the Read sample; 12 bytes follow it.
 pub(crate) fn frame_header() -> [u8; 32] {
     let (_, samples) = SAMPLES.iter().find(|(stream, _)| *stream == AmsHeader::STREAM).unwrap();
     samples[0].bytes().try_into().unwrap()
 }
 
-/// A frame by hand: both headers and data, lengths right.
+/// A frame built by hand, with both headers, correct lengths and data.
 pub(crate) fn frame(data: &[u8]) -> Vec<u8> {
     let length = |more: usize| u32::try_from(data.len() + more).unwrap().to_le_bytes();
     let mut header = frame_header();
@@ -26,7 +26,7 @@ pub(crate) fn frame(data: &[u8]) -> Vec<u8> {
     [&[0, 0][..], &length(32), &header, data].concat()
 }
 
-/// How many bytes the first frame has, if they are all there; what is wrong, as soon as it is.
+/// The length of the first frame if it is complete, or the fault as soon as it can be detected.
 fn wanted(received: &[u8], max_data: u32) -> Result<Option<usize>, Fault> {
     let number = |at: usize| u32::from_le_bytes(received[at..at + 4].try_into().unwrap()) as usize;
     let fault =
@@ -54,8 +54,8 @@ fn wanted(received: &[u8], max_data: u32) -> Result<Option<usize>, Fault> {
     Ok((received.len() >= 6 + length).then_some(6 + length))
 }
 
-/// The first frame that is received is the bytes it takes: its parts are theirs, it encodes to
-/// them. Returns how many; none if more have to come.
+/// Checks that the first received frame has the parts of its bytes and encodes to them. Returns its
+/// length; `None` if the frame is not complete.
 pub(crate) fn check_split(
     received: &[u8],
     max_data: u32,
@@ -75,11 +75,10 @@ pub(crate) fn check_split(
     len
 }
 
-/// The frames of a stream, and the fault behind them or what is left.
+/// The frames of a stream, and the fault after them or the remaining bytes.
 pub(crate) type Frames = (Vec<Vec<u8>>, Result<Vec<u8>, Fault>);
 
-/// Reads a stream that comes in pieces. Each time something has come, all frames that are whole
-/// are taken off.
+/// Reads a stream in pieces. After each piece, all complete frames are split off.
 pub(crate) fn check_frames<'p>(
     pieces: impl IntoIterator<Item = &'p [u8]>,
     max_data: u32,
@@ -104,7 +103,7 @@ pub(crate) fn check_frames<'p>(
     (frames, Ok(rest))
 }
 
-/// More bytes never take back what fewer have shown, be it a frame or a fault.
+/// Checks that more bytes do not change a frame or a fault.
 pub(crate) fn check_verdicts_stay(bytes: &[u8], max_data: u32, split: Split) {
     let mut verdict = Ok(None);
     for cut in 0..=bytes.len() {

@@ -1,4 +1,4 @@
-//! What holds for any bytes, accepted or not.
+//! Laws for any bytes, accepted or rejected.
 
 use std::fmt::Debug;
 
@@ -12,43 +12,42 @@ use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 use super::subjects::ReadAndWritten;
 use super::{Fault, Reading, Subject};
 
-/// What a buffer holds where nothing was written.
+/// The value of buffer bytes that were not written.
 const UNTOUCHED: u8 = 0x55;
 
-/// How many bytes a stream has, or the error.
+/// The length of a stream in bytes, or the error.
 type Length = Result<usize, Error>;
 
-/// What a codec does that is wrong in one thing, put around one that is right: so it can be seen
-/// that the laws find it.
+/// A fault added to a correct codec, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct Bend {
-    /// To the length that is announced, or the error.
+    /// Changes the announced length, or the error.
     pub(crate) len: fn(Length) -> Length,
-    /// To the parts of an error.
+    /// Changes the parts of an error.
     pub(crate) fault: fn(Fault) -> Fault,
-    /// To the bytes that were written.
+    /// Changes the written bytes.
     pub(crate) written: fn(&mut [u8]),
-    /// To a buffer that was too small.
+    /// Changes a buffer that was too small.
     pub(crate) small: fn(&mut [u8]),
-    /// To the bytes that were written into a vector.
+    /// Changes the bytes written into a vector.
     pub(crate) vec: fn(&mut Vec<u8>),
-    /// To how many bytes a segment has.
+    /// Changes the length of a segment.
     pub(crate) segment: fn(usize) -> usize,
-    /// To the bytes that were put together from segments.
+    /// Changes the bytes joined from segments.
     pub(crate) joined: fn(&mut Vec<u8>),
-    /// To the answer whether both readings hold the same.
+    /// Changes the result of comparing view and owned type.
     pub(crate) same: fn(&[u8], bool) -> bool,
-    /// To what `decode_prefix` returns: how many bytes belong to the stream, or the error.
+    /// Changes the result of `decode_prefix`: the length of the stream, or the error.
     pub(crate) prefix: fn(&[u8], Length) -> Length,
-    /// To the bytes that `BinWrite` writes of what `BinRead` reads, and to the reader's position.
+    /// Changes the bytes that `BinWrite` writes after `BinRead`, and the position of the reader.
     #[cfg(all(feature = "binrw", feature = "std"))]
     pub(crate) binrw: fn(&[u8], ReadAndWritten) -> ReadAndWritten,
-    /// To the bytes of a value that were written as a type's.
+    /// Changes the bytes of a value written by its type.
     pub(crate) typed: fn(&mut [u8]),
 }
 
 impl Bend {
-    /// Nothing is wrong.
+    /// No fault.
     pub(crate) const NONE: Self = Self {
         len: |len| len,
         fault: |fault| fault,
@@ -64,19 +63,19 @@ impl Bend {
         typed: |_| (),
     };
 
-    /// An announced length or an error as it is compared, with the stream of its field.
+    /// A result in the form that is compared: an error with its field.
     fn told<T>(&self, told: Result<T, Error>) -> Result<(), (Fault, Field)> {
         told.map(drop).map_err(|error| ((self.fault)(Fault::of(error)), error.field()))
     }
 }
 
-/// All readings and the walk agree, errors included, and what they accept they encode to the same
-/// bytes. Returns their common verdict.
+/// Checks that view, owned type and walk agree, including errors, and encode accepted bytes to the
+/// same bytes. Returns their common result.
 pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
     check_bent(stream, bytes, &Bend::NONE)
 }
 
-/// The same of a codec that may be wrong.
+/// The same for a codec that may have a fault.
 pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let subject = Subject::of(stream);
     let verdict = walk(stream, bytes, bend);
@@ -111,14 +110,14 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
         let read = (bend.binrw)(bytes, (subject.binrw)(bytes));
         assert_eq!(read, wanted, "{stream}: BinRead and BinWrite of {bytes:x?}");
     }
-    // More bytes are more of the same, and take their time.
+    // Longer input would only repeat the same case, and take time.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
         super::check_typed(bytes, bend.typed);
     }
     verdict
 }
 
-/// Whether every stream of this table ends after the same fields, however many bytes follow.
+/// Whether the fields determine the end of the stream, however many bytes follow.
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
@@ -127,7 +126,7 @@ fn ends_by_its_fields(stream: Stream) -> bool {
     !layout.repeats && !layout.fields.is_empty() && layout.fields.iter().all(ends)
 }
 
-/// `decode_prefix` reads the same stream whether or not bytes follow it.
+/// Checks that `decode_prefix` decodes the same stream whether or not bytes follow it.
 fn check_prefix(
     stream: Stream,
     bytes: &[u8],
@@ -144,7 +143,7 @@ fn check_prefix(
     }
 }
 
-/// A value encodes to bytes that are read as that value, and that every reading accepts.
+/// Checks that a value encodes to bytes that decode to that value, by each type of the stream.
 #[cfg(feature = "alloc")]
 pub(crate) fn check_value<T>(value: &T)
 where
@@ -153,7 +152,7 @@ where
     check_value_bent(value, &Bend::NONE);
 }
 
-/// The same of a codec that may be wrong. Returns the bytes.
+/// The same for a codec that may have a fault. Returns the bytes.
 #[cfg(feature = "alloc")]
 pub(crate) fn check_value_bent<T>(value: &T, bend: &Bend) -> Vec<u8>
 where
@@ -168,8 +167,8 @@ where
     bytes
 }
 
-/// Segments of accepted bytes tile them, and `join` makes the same bytes of them; an error lies inside the
-/// stream that it names.
+/// Checks that the segments of accepted bytes cover them without gaps and join to the same bytes, and
+/// that the offset of an error is within its stream.
 fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let (mut end, mut parts) = (0, Vec::new());
     let verdict = stream.walk(bytes, |segment| {
@@ -194,8 +193,8 @@ fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     verdict
 }
 
-/// Encodes what `bytes` are read as: into too small a buffer nothing, else the same bytes and
-/// nothing behind them.
+/// Checks that the decoded value encodes to the same bytes and nothing after them, and that too small
+/// a buffer is not written to.
 fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
@@ -206,7 +205,8 @@ fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     check_too_small(bytes.len(), bend, |buf| (reading.encode)(bytes, buf));
 }
 
-/// Every buffer that is too small is refused by the bytes needed and there, and nothing is written.
+/// Checks that too small a buffer is rejected with the needed and the available bytes, and not written
+/// to.
 fn check_too_small<T: Debug>(
     len: usize,
     bend: &Bend,
@@ -225,13 +225,12 @@ fn check_too_small<T: Debug>(
     }
 }
 
-/// What a call is dispatched to encodes to the same call, and that is dispatched to the same.
+/// Checks that a dispatched request encodes to the same call, which is dispatched to the same request.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Bend::NONE, |_| ()).map(drop)
 }
 
-/// The same of a codec that may be wrong, where `wrong` is what it does to the call that is encoded.
-/// Returns the function.
+/// The same for a codec that may have a fault: `wrong` changes the encoded call. Returns the function.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
     bend: &Bend,
@@ -253,13 +252,13 @@ pub(crate) fn check_call_bent(
     let spec = request.function().spec();
     assert_eq!(spec.service, call.service);
     assert_eq!(spec.request.is_none(), call.service == Service::Read);
-    // SDA and GEO stand in for each other.
+    // SDA and GEO serve the same functions.
     let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
     assert_eq!(is_com(&again), is_com(call));
     Ok(request.function())
 }
 
-/// A call comes out of a frame as it went in; a Write has no read length there, a Read no data.
+/// Checks that a call is unchanged by a frame; a Write has no read length in a frame, a Read no data.
 fn check_frame(call: &Call<'_>, bend: &Bend) {
     let mut bytes = vec![0; call.encoded_len()];
     let data = match call.encode(&mut bytes) {
@@ -279,7 +278,7 @@ fn check_frame(call: &Call<'_>, bend: &Bend) {
     assert_eq!(Call::from_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
-/// A call takes what the stream of its function's request takes, and refuses the rest as that does.
+/// Checks that a call accepts and rejects the same data as the stream of the request of its function.
 pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), DispatchError> {
     let verdict = check_call(call);
     if let Some(stream) = function.spec().request {
@@ -289,13 +288,13 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
     verdict
 }
 
-/// A request takes for a reply what the stream of its function's reply takes, as long as it is no
-/// longer than was asked for; that encodes to the same bytes.
+/// Checks that a request accepts and rejects the same replies as the stream of the reply of its
+/// function, up to the read length, and that accepted replies encode to the same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
     check_reply_bent(call, bytes, &Bend::NONE).map(drop)
 }
 
-/// The same of a codec that may be wrong. Returns the function.
+/// The same for a codec that may have a fault. Returns the function.
 pub(crate) fn check_reply_bent(
     call: &Call<'_>,
     bytes: &[u8],
@@ -308,12 +307,12 @@ pub(crate) fn check_reply_bent(
         None => NoData::decode(bytes).map(drop),
     };
     let verdict = (bend.len)(reply.map(|reply| reply.encoded_len()));
-    // A length that is no multiple of a descriptor's asks for one of them (COM-3).
+    // A length that is not a multiple of 84 requests one descriptor (COM-3).
     let asked = match (request, call.read_length as usize) {
         (Request::ReadDescriptors(_), length) if length % DESCRIPTOR_LEN != 0 => DESCRIPTOR_LEN,
         (_, length) => length,
     };
-    // The most that the function has, or what it was asked for.
+    // The maximum length of the reply, or the requested length.
     let mut buf = vec![0; request.encoded_len()];
     let most = request.encode(&mut buf).map(|call| call.read_length as usize);
     if let Ok(len) = verdict {

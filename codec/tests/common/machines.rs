@@ -1,4 +1,4 @@
-//! A host of the Service Interface, whatever it is told.
+//! Laws of a host of the Service Interface, for any input.
 
 use ads_cnc::CncStr;
 use ads_cnc::service::*;
@@ -10,7 +10,7 @@ pub(crate) fn service_ids() -> [ServiceId; 2] {
     ]
 }
 
-/// Of a value the text, up to its NUL.
+/// The text of a value, up to its NUL.
 pub(super) fn text(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or(value)
 }
@@ -23,16 +23,17 @@ pub(super) fn is_text(variable: ServiceVariable) -> bool {
     !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState)
 }
 
-/// What is wrong in one thing around a host.
+/// A fault added to a host.
 #[derive(Clone, Copy)]
 pub(crate) struct HostBend {
-    /// The value a host is told, of what was read and what was read of the variable before that.
+    /// Changes the value passed to the host, given the read value and the previous value of the
+    /// variable.
     pub(crate) read: for<'v> fn(&'v [u8], Option<&'v [u8]>) -> &'v [u8],
     pub(crate) state: fn(u32) -> u32,
     pub(crate) written: fn(&mut Host<'_>),
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) poll: fn(&mut Host<'_>),
-    /// After a value that is none.
+    /// Changes the host after an invalid value.
     pub(crate) refused: fn(&mut Host<'_>),
 }
 
@@ -55,11 +56,11 @@ pub(crate) enum Step {
     Wait,
 }
 
-/// A host, and all that it was told.
+/// A host, and all its inputs.
 pub(crate) struct CheckedHost<'s> {
     host: Host<'s>,
     ids: &'s [ServiceId],
-    /// What was read, one behind the other.
+    /// The values read, in order.
     reads: Vec<(ServiceVariable, Vec<u8>)>,
     asked: Option<Step>,
     answer: (Vec<u8>, u32),
@@ -83,7 +84,7 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Values that are none are errors; what is no request is none.
+    /// Checks that invalid values are errors, and that values without a request cause none.
     pub(crate) fn read(&mut self, value: &[u8]) {
         let before = self.step();
         let Step::Read(variable) = before else {
@@ -103,13 +104,13 @@ impl<'s> CheckedHost<'s> {
         self.reads.push((variable, value.to_vec()));
         match self.step() {
             Step::Read(_) | Step::Wait => {}
-            // SVC-2: found twice, one behind the other.
+            // SVC-2: read twice in sequence.
             Step::Serve(id, request, asked) => {
                 assert!(asked != 0 && request.len() < 128 && self.ids.contains(&id));
                 assert!(self.found(2, &id, &request, asked), "{:x?}", self.reads);
                 self.asked = Some(self.step());
             }
-            // Found once more; or it looked after a write that failed.
+            // Read once more, or read after a failed write.
             Step::Write(ServiceVariable::Response, value) => {
                 assert_eq!(value, [&self.answer.0[..], b"\0"].concat());
                 let Some(Step::Serve(id, request, asked)) = &self.asked else { unreachable!() };
@@ -122,7 +123,7 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Whether the last that was read is a request, so many times.
+    /// Whether the last reads are the same request, this number of times.
     fn found(&self, times: usize, id: &ServiceId, request: &[u8], asked: u32) -> bool {
         let values =
             [ServiceVariable::RequestState, ServiceVariable::Uuid, ServiceVariable::Request];
@@ -137,7 +138,7 @@ impl<'s> CheckedHost<'s> {
         from.is_some_and(|from| self.reads[from..].chunks(3).all(is))
     }
 
-    /// RESPONSE, REQUEST_STATE, RESPONSE_STATE.
+    /// Checks the order of the writes: RESPONSE, REQUEST_STATE, RESPONSE_STATE.
     pub(crate) fn written(&mut self) {
         let before = self.step();
         (self.bend.written)(&mut self.host);
@@ -157,7 +158,7 @@ impl<'s> CheckedHost<'s> {
         assert_eq!(self.step(), wanted);
     }
 
-    /// After a write it looks, any other step stays.
+    /// Checks that the host reads after a failed write, and repeats any other step.
     pub(crate) fn failed(&mut self) {
         let before = self.step();
         (self.bend.failed)(&mut self.host);
@@ -181,7 +182,7 @@ impl<'s> CheckedHost<'s> {
         assert_eq!(self.step(), Step::Read(ServiceVariable::RequestState));
     }
 
-    /// Taken if it is one and there is a request.
+    /// Checks that the answer is accepted if it is valid and there is a request.
     pub(crate) fn answer(&mut self, response: &[u8], response_state: u32) {
         let before = self.step();
         let response = text(response);

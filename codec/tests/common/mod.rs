@@ -1,5 +1,5 @@
-//! What the tests of all streams share: samples, the readings of each stream, and the laws that
-//! hold for them. The fuzz targets hold streams to the same laws through this same file.
+//! Common code of the tests of all streams: samples, the types of each stream, and the laws that they
+//! must satisfy. The fuzz targets check the same laws with this file.
 
 #![allow(dead_code, unused_imports, reason = "no test uses all of it")]
 #![allow(unexpected_cfgs, reason = "the fuzz targets have not all features of the codec")]

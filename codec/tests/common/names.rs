@@ -1,4 +1,4 @@
-//! What holds for any name of a variable: taken apart, put together, refused (VAR-20).
+//! Laws of names of variables: parsing, building, rejecting (VAR-20).
 
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::text::cp1252_to_char;
@@ -6,7 +6,7 @@ use ads_cnc::{CncStr, Error, ErrorKind, Kind, PathPart, U32List, VariablePath};
 
 use super::Fault;
 
-/// A name in pieces, to compare with and to build from.
+/// The pieces of a name, to compare with and to build from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pieces {
     pub(crate) kind: String,
@@ -32,7 +32,7 @@ impl Pieces {
         VariablePath::write(Kind::new(&self.kind).unwrap(), parts, buf)
     }
 
-    /// The name, by the standard library alone.
+    /// The name, built by the standard library only.
     pub(crate) fn name(&self) -> String {
         let mut name = self.kind.clone();
         for (part, indices) in &self.parts {
@@ -43,7 +43,7 @@ impl Pieces {
     }
 }
 
-/// A name's pieces by splitting strings.
+/// The pieces of a name, by splitting strings.
 pub(crate) fn split(name: &str) -> Option<Pieces> {
     let mut parts = name.split('.');
     let (v, kind) = (parts.next()?, parts.next()?);
@@ -66,12 +66,12 @@ pub(crate) fn split(name: &str) -> Option<Pieces> {
     (!parts.is_empty()).then(|| Pieces { kind: format!("V.{kind}"), parts })
 }
 
-/// What is wrong in one thing with names.
+/// A fault added to names.
 #[derive(Clone, Copy)]
 pub(crate) struct NameBend {
     pub(crate) pieces: fn(&mut Pieces),
     pub(crate) fault: fn(Fault) -> Fault,
-    /// Names that are put together.
+    /// Changes built names.
     pub(crate) written: fn(String) -> String,
 }
 
@@ -80,8 +80,8 @@ impl NameBend {
         Self { pieces: |_| (), fault: |fault| fault, written: |name| name };
 }
 
-/// Any CP1252 bytes without NUL: the same verdict and the same pieces as by splitting strings, be
-/// it of them or of UTF-8; a name is put together again, and refused where it is wrong.
+/// Checks any CP1252 bytes without NUL: from CP1252 and from UTF-8, parsing has the same result as
+/// splitting strings; a name is built again, and an error is at the fault.
 pub(crate) fn check_name(wire: &[u8], bend: NameBend) -> Result<Pieces, Fault> {
     let utf8: String = wire.iter().map(|&byte| cp1252_to_char(byte)).collect();
     let of_wire = VariablePath::from_text(CncStr::from_bytes(wire).expect("no NUL"));
@@ -109,7 +109,7 @@ pub(crate) fn check_name(wire: &[u8], bend: NameBend) -> Result<Pieces, Fault> {
     }
 }
 
-/// A variable is named by what its name begins with.
+/// Checks that the name of a variable is the start of the name of its element.
 fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     assert_eq!((path.to_string(), path.text().len()), (name.to_string(), name.chars().count()));
     let variable = path.variable();
@@ -122,8 +122,8 @@ fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     assert_eq!(path.axis().map(|axis| axis.to_string()), axis.map(|(name, _)| name.clone()));
 }
 
-/// What is built of the pieces is the name, but for zeros before an index; so are an element of its
-/// array, and the way to the axis interface and back.
+/// Checks that the name built from the pieces is the name without leading zeros of indices; also
+/// checks an element of its array, and the conversion to the axis interface and back.
 fn check_built(path: VariablePath<'_>, pieces: &Pieces, bend: NameBend) {
     let mut buf = [0x55; NAME_MAX + 1];
     let built = pieces.write(&mut buf).expect("no longer than it was");
@@ -157,7 +157,7 @@ fn check_built(path: VariablePath<'_>, pieces: &Pieces, bend: NameBend) {
     }
 }
 
-/// Before the place of a fault nothing is wrong but that the name may end too early.
+/// Checks that the text before a fault is valid, or only ends too early.
 fn check_fault(name: &str, fault: Fault) {
     let count = name.chars().count();
     assert!(fault.offset <= count, "{fault:?} of {name:?}");

@@ -1,4 +1,4 @@
-//! What holds for any operation, of any function.
+//! Laws of operations, for every function.
 
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -10,7 +10,7 @@ use ads_cnc::{Error, ErrorKind, Handle, Kind, U32List};
 
 use super::check_call;
 
-/// What operations are made of; each takes what it needs.
+/// Parameters of operations; each operation uses some of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Parameters<'a> {
     pub(crate) channel: Channel,
@@ -19,7 +19,7 @@ pub(crate) struct Parameters<'a> {
     pub(crate) spindle: Spindle,
     pub(crate) class: Class,
     pub(crate) dynamic: DynamicKind,
-    /// Which of the lists, groups or elements that there are.
+    /// Selects a list, group or element.
     pub(crate) place: u8,
     pub(crate) element: u32,
     pub(crate) number: u32,
@@ -41,7 +41,7 @@ impl Parameters<'_> {
     fn object(&self) -> (IndexGroup, IndexOffset) {
         let group = match self.place % 4 {
             0 => IndexGroup::new(0x12_0100),
-            // With the axis in the offset (E-04).
+            // The axis is in the offset (E-04).
             1 => IndexGroup::new(0x12_0200),
             2 => self.platform_axis.com(Access::Element),
             _ => self.channel.com(Access::Element),
@@ -58,8 +58,8 @@ impl Parameters<'_> {
     }
 }
 
-/// An operation of this function reaches the server as it was meant, if it can be made of these
-/// parameters; `bend` puts something wrong into the call that is encoded.
+/// Checks that a server dispatches the operation of this function to the same operation, if these
+/// parameters are valid; `bend` adds a fault to the encoded call.
 pub(crate) fn check_made(
     function: Function,
     of: &Parameters<'_>,
@@ -97,7 +97,7 @@ pub(crate) fn check_made(
         }
         Function::FindInstance => {
             let find = FindInstance::new(class, number, count);
-            // Spindles have no logical form.
+            // Spindles have no logical address.
             let by_index = class != Class::Spindle && of.place % 2 == 1;
             made(if by_index { find.by_index() } else { find }, bend)
         }
@@ -122,45 +122,46 @@ pub(crate) fn check_made(
     }
 }
 
-/// What a client means reaches the server as it was meant, and encodes to the same call.
+/// Checks that a server dispatches a call to the operation of the client, and that it encodes to the
+/// same call.
 pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
     assert_eq!(made(operation, &|_| ()), Ok(()));
 }
 
-/// The same of one that may not be encoded: then nothing is written.
+/// The same for an operation that may be invalid: then nothing is written.
 fn made<'a, O: Operation + Into<Request<'a>>>(
     operation: O,
     bend: &dyn Fn(&mut Call<'_>),
 ) -> Result<(), Error> {
     let (group, offset) = (operation.index_group(), operation.index_offset());
     let (length, len) = (operation.read_length(), operation.encoded_len());
-    let meant: Request<'_> = operation.into();
-    assert_eq!(meant.function(), O::FUNCTION);
+    let request: Request<'_> = operation.into();
+    assert_eq!(request.function(), O::FUNCTION);
     let (spec, wanted) = (O::FUNCTION.spec(), (group, offset, length, len));
 
     let mut buf = vec![0x55; len];
-    let mut call = match meant.encode(&mut buf) {
+    let mut call = match request.encode(&mut buf) {
         Ok(call) => call,
         Err(error) => {
-            assert!(buf.iter().all(|&byte| byte == 0x55), "{error}: {meant:?}");
+            assert!(buf.iter().all(|&byte| byte == 0x55), "{error}: {request:?}");
             return Err(error);
         }
     };
     bend(&mut call);
     let found = (call.index_group, call.index_offset, call.read_length, call.data.len());
-    assert_eq!(found, wanted, "{meant:?}");
-    assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{meant:?}");
+    assert_eq!(found, wanted, "{request:?}");
+    assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{request:?}");
     match call.dispatch() {
-        // A server cannot tell these two apart where the strides differ (E-01).
+        // A server cannot distinguish these two with the stride 0x1000 (E-01).
         Ok(read @ Request::ReadElement(_)) if O::FUNCTION == Function::CountElements => {
             assert_eq!(read.encode(&mut []), Ok(call));
         }
-        dispatched => assert_eq!(dispatched, Ok(meant)),
+        dispatched => assert_eq!(dispatched, Ok(request)),
     }
     assert_eq!(check_call(&call), Ok(()));
     if let Some(less) = len.checked_sub(1) {
         let mut small = vec![0x55; less];
-        assert_eq!(meant.encode(&mut small).unwrap_err().kind(), ErrorKind::BufferTooSmall);
+        assert_eq!(request.encode(&mut small).unwrap_err().kind(), ErrorKind::BufferTooSmall);
         assert!(small.iter().all(|&byte| byte == 0x55));
     }
     Ok(())

@@ -1,11 +1,11 @@
-//! Valid bytes of every stream, written by hand field by field, never by an encoder.
+//! Valid bytes of every stream, written by hand field by field, not by an encoder.
 
 use ads_cnc::layout::Stream;
 
 use super::samples_ads::*;
 use super::samples_elements::*;
 
-/// A valid stream, cut by hand into its fields; a field of several items stands once for each.
+/// A valid stream, split by hand into its fields; a list appears once for each item.
 pub(crate) struct Sample {
     pub(crate) slug: &'static str,
     pub(crate) fields: &'static [(&'static str, &'static [u8])],
@@ -40,7 +40,7 @@ pub(super) const fn sample(
     Sample { slug, fields }
 }
 
-/// `text` in `N` bytes, NULs behind it.
+/// `text` in `N` bytes, padded with NULs.
 pub(super) const fn padded<const N: usize>(text: &[u8]) -> [u8; N] {
     let mut bytes = [0; N];
     let mut at = 0;

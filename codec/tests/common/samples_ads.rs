@@ -23,7 +23,7 @@ pub(super) const AMS_HEADER: &[Sample] = &[
             ("invoke_id", b"\x01\0\0\0"),
         ],
     ),
-    // Nothing that an AMS implementation knows; all of it is kept.
+    // Numbers that are not documented; all of them are kept.
     sample(
         "unknown",
         &[
@@ -131,7 +131,7 @@ pub(super) const DEVICE_INFO_REPLY: &[Sample] = &[
             ("name", b"CNC\0\0\0\0\0\0\0\0\0\0\0\0\0"),
         ],
     ),
-    // A name that fills its bytes, and an error that says all the same.
+    // A name that fills its bytes, and an error with all fields.
     sample(
         "error-with-all",
         &[

@@ -1,11 +1,11 @@
-//! What holds for a value of any type, dimensions and size (VAR-8, VAR-21).
+//! Laws of values of any type, dimensions and size (VAR-8, VAR-21).
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue as _, Shape};
 use ads_cnc::{ErrorKind, U32List};
 
 use super::Fault;
 
-/// A value as it may be described, and an element of it.
+/// A value with its description, and the indices of an element.
 #[derive(Clone, Debug)]
 pub(crate) struct Described<'a> {
     pub(crate) data_type: DataType,
@@ -15,10 +15,10 @@ pub(crate) struct Described<'a> {
     pub(crate) bytes: &'a [u8],
 }
 
-/// What is wrong in one thing with values.
+/// A fault added to values.
 #[derive(Clone, Copy)]
 pub(crate) struct ShapeBend {
-    /// The indices that are asked for.
+    /// Changes the indices.
     pub(crate) indices: fn(&mut [u32]),
     pub(crate) place: fn(Result<u32, Fault>) -> Result<u32, Fault>,
     pub(crate) written: fn(&mut [u8]),
@@ -30,10 +30,10 @@ impl ShapeBend {
         Self { indices: |_| (), place: |place| place, written: |_| (), size: |size| size };
 }
 
-/// How many bytes each element has, if the size is that of so many.
+/// The size of an element, if the value has this number of elements.
 fn each(of: &Described<'_>) -> Option<u32> {
     let size = u128::from(of.size);
-    // Four factors of 32 bits fit.
+    // The product of four factors of 32 bits fits.
     let count = of.dimensions.iter().map(|&dimension| u128::from(dimension)).product::<u128>();
     match (of.data_type.size(), count) {
         (Some(each), _) => (count.checked_mul(each.into()) == Some(size)).then_some(each),
@@ -43,7 +43,7 @@ fn each(of: &Described<'_>) -> Option<u32> {
     }
 }
 
-/// The place of the element, or what is wrong with the indices, by the sizes of the inner arrays.
+/// The index of the element or the fault of the indices, from the sizes of the inner arrays.
 fn place(of: &Described<'_>) -> Result<u128, Fault> {
     let fault = |kind, field, offset, expected: usize, found: u32| {
         Err(Fault { kind, field, offset, expected, found: found as usize })
@@ -67,8 +67,8 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
     Ok(place)
 }
 
-/// A shape is taken if its size is that of its elements; an element is where the sizes of the
-/// inner arrays say, and all is written back as it was.
+/// Checks that a shape is accepted if its size is that of its elements, that the sizes of the inner
+/// arrays give the index of an element, and that values are encoded to the same bytes.
 pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, ErrorKind> {
     let dimensions = U32List::from(of.dimensions);
     let shape = Shape::new(of.data_type, dimensions, (bend.size)(of.size));
@@ -92,7 +92,7 @@ pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, Er
     let fits = open || of.bytes.len() == of.size as usize;
     assert_eq!(elements.is_ok(), fits, "{of:?}");
     let elements = elements.map_err(|error| error.kind())?;
-    // A single text may be shorter than there is room.
+    // A single text may be shorter than the size.
     let (count, each) =
         (shape.count() as usize, if open { of.bytes.len() } else { shape.element_size() as usize });
     assert_eq!((elements.len(), elements.iter().len()), (count, count));
@@ -109,7 +109,7 @@ pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, Er
     Ok(shape.count())
 }
 
-/// An element is written as it is read, by itself too.
+/// Checks that an element encodes to its bytes, also by itself.
 fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], bend: ShapeBend) {
     let mut buf = vec![0x55; bytes.len()];
     assert_eq!(element.encode_value(&mut buf), Ok(bytes));

@@ -1,9 +1,9 @@
-//! What holds for NC text, its packets and their sender.
+//! Laws of NC text, its packets and their sender.
 
 use ads_cnc::limits::{NC_LINE_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
 
-/// Another way to the lines: by replacing, on a copy.
+/// The lines, computed in another way: by replacing line ends in a copy.
 pub(crate) fn reference_lines(bytes: &[u8]) -> Vec<Vec<u8>> {
     let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
@@ -22,14 +22,14 @@ pub(crate) fn reference_wire(bytes: &[u8]) -> Vec<u8> {
     ended(&reference_lines(bytes))
 }
 
-/// Line, column and kind of what is wrong.
+/// Line, column and kind of a fault.
 pub(crate) type TextFault = (usize, usize, LineErrorKind);
 
 pub(crate) fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
-/// The first fault, looked for byte by byte.
+/// The first fault, found byte by byte.
 fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 0);
     for (at, &byte) in bytes.iter().enumerate() {
@@ -52,7 +52,7 @@ fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     None
 }
 
-/// What packets are made of a text that are wrong in one thing.
+/// A fault added to the packets of a text.
 #[derive(Clone, Copy)]
 pub(crate) struct TextBend {
     pub(crate) packets: fn(&mut Vec<Vec<u8>>),
@@ -69,7 +69,7 @@ pub(crate) fn packets(bytes: &[u8]) -> Vec<Vec<u8>> {
     std::iter::from_fn(|| packets.next_into(&mut buf).map(<[u8]>::to_vec)).collect()
 }
 
-/// Any bytes: the first fault is found, or packets are made of the text.
+/// Checks that the first fault of any bytes is detected, or that the packets of the text are correct.
 pub(crate) fn check_text(bytes: &[u8], bend: TextBend) -> Result<Vec<Vec<u8>>, TextFault> {
     let verdict = NcText::new(bytes).map(drop).map_err(fault_of);
     let found = verdict.err().and_then(bend.fault);
@@ -77,7 +77,7 @@ pub(crate) fn check_text(bytes: &[u8], bend: TextBend) -> Result<Vec<Vec<u8>>, T
     verdict.map(|()| check_packets_bent(bytes, bend))
 }
 
-/// The laws of packets.
+/// Checks the laws of packets.
 pub(crate) fn check_packets(bytes: &[u8]) {
     check_packets_bent(bytes, TextBend::NONE);
 }
@@ -107,12 +107,12 @@ fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
     packets
 }
 
-/// What is wrong in one thing around a sender.
+/// A fault added to a sender.
 #[derive(Clone, Copy)]
 pub(crate) struct SenderBend {
-    /// What the sender is told.
+    /// Changes the acknowledgement.
     pub(crate) ack: fn(Ack) -> Ack,
-    /// What it says to have sent.
+    /// Changes the reported progress.
     pub(crate) sent: fn(Progress) -> Progress,
 }
 
@@ -120,14 +120,14 @@ impl SenderBend {
     pub(crate) const NONE: Self = Self { ack: |ack| ack, sent: |sent| sent };
 }
 
-/// A sender beside what it should be.
+/// A sender and its expected state.
 pub(crate) struct CheckedSender<'t> {
     sender: Sender<'t>,
     wire: Vec<u8>,
     packets: Vec<Vec<u8>>,
     sent: Progress,
     state: SenderState,
-    refusals: u32,
+    busy_count: u32,
     bend: SenderBend,
 }
 
@@ -137,12 +137,12 @@ impl<'t> CheckedSender<'t> {
         let state = if packets.is_empty() { SenderState::Done } else { SenderState::Ready };
         let sender = Sender::new(NcText::new(text).unwrap());
         let (wire, sent) = (packets.concat(), Progress::default());
-        let checked = Self { sender, wire, packets, sent, state, refusals: 0, bend };
+        let checked = Self { sender, wire, packets, sent, state, busy_count: 0, bend };
         checked.check();
         checked
     }
 
-    /// The next packet, the same until it is acknowledged.
+    /// The next packet, which is the same until it is acknowledged.
     pub(crate) fn packet(&mut self) -> Option<Vec<u8>> {
         let ended = matches!(self.state, SenderState::Stopped | SenderState::Done);
         let wanted = if ended { None } else { self.packets.get(self.sent.packets) };
@@ -155,7 +155,7 @@ impl<'t> CheckedSender<'t> {
         packet
     }
 
-    /// Takes one acknowledgement for one packet, and none else.
+    /// Checks that the sender accepts exactly one acknowledgement per packet.
     pub(crate) fn acknowledge(&mut self, ack: Ack) {
         let out = self.state == SenderState::InFlight;
         let taken = self.sender.acknowledge((self.bend.ack)(ack));
@@ -165,14 +165,14 @@ impl<'t> CheckedSender<'t> {
             Ack::Rejected => self.state = SenderState::Stopped,
             Ack::Busy => {
                 self.state = SenderState::Waiting;
-                self.refusals += 1;
+                self.busy_count += 1;
             }
             Ack::Accepted => {
                 let packet = &self.packets[self.sent.packets];
                 self.sent.packets += 1;
                 self.sent.lines += packet.iter().filter(|&&byte| byte == b'\n').count();
                 self.sent.bytes += packet.len();
-                self.refusals = 0;
+                self.busy_count = 0;
                 let all = self.sent.packets == self.packets.len();
                 self.state = if all { SenderState::Done } else { SenderState::Ready };
             }
@@ -180,29 +180,29 @@ impl<'t> CheckedSender<'t> {
         self.check();
     }
 
-    /// What was accepted is the text from its start on, without gap and without repetition, and
+    /// Checks that the accepted data is the start of the text, without gaps and repetitions, and that
     /// the counts agree.
     fn check(&self) {
         let sender = &self.sender;
         let found = ((self.bend.sent)(sender.sent()), sender.state(), sender.busy_count());
-        assert_eq!(found, (self.sent, self.state, self.refusals));
+        assert_eq!(found, (self.sent, self.state, self.busy_count));
         assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
     }
 
-    /// What is not accepted is the rest of the text.
+    /// The rest of the text, which is not accepted yet.
     pub(crate) fn check_left(&self) {
         let left = reference_lines(self.sender.left());
         assert_eq!(self.sender.left_lines(), left.len());
         assert_eq!(ended(&left), self.wire[self.sent.bytes..]);
     }
 
-    /// What was accepted.
+    /// The accepted text.
     pub(crate) fn taken(&self) -> &[u8] {
         &self.wire[..self.sent.bytes]
     }
 }
 
-/// The first line that does not end in CR LF, looked for byte by byte.
+/// The first line that does not end in CR LF, found byte by byte.
 pub(crate) fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 1);
     for (at, &byte) in bytes.iter().enumerate() {

@@ -1,47 +1,47 @@
-//! The readings of each stream, as functions over bytes.
+//! The types of each stream, as functions on bytes.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::{Decode as _, Encode as _, Error};
 
 use super::Bend;
 
-/// One reading of a stream.
+/// One type of a stream.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
     /// `view` or `owned`.
     pub(crate) name: &'static str,
-    /// Decodes the bytes and asks how long they are when encoded.
+    /// Decodes the bytes; returns the encoded length.
     pub(crate) len: fn(&[u8]) -> Result<usize, Error>,
-    /// Decodes the bytes and encodes them into the buffer; says how many it wrote.
+    /// Decodes the bytes and encodes the value to the buffer; returns the number of written bytes.
     pub(crate) encode: fn(&[u8], &mut [u8]) -> Result<usize, Error>,
 }
 
-/// Bytes through `BinRead` and `BinWrite`: what was written if the bytes were accepted, and the
-/// reader's position.
+/// The result of `BinRead` and `BinWrite`: the written bytes if the input was accepted, and the
+/// position of the reader.
 #[cfg(all(feature = "binrw", feature = "std"))]
 pub(crate) type ReadAndWritten = (Option<Vec<u8>>, usize);
 
-/// A stream with its readings.
+/// A stream with its types.
 pub(crate) struct Subject {
     pub(crate) stream: Stream,
     pub(crate) view: Reading,
     #[cfg(feature = "alloc")]
     pub(crate) owned: Reading,
-    /// Decodes the bytes from their front: how many belong to the stream.
+    /// Decodes the stream at the front of the bytes; returns its length.
     pub(crate) prefix: fn(&[u8]) -> Result<usize, Error>,
-    /// Decodes both and compares them.
+    /// Decodes both types and compares them.
     #[cfg(feature = "alloc")]
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
-    /// Reads the bytes by `BinRead` and writes what was read by `BinWrite`.
+    /// Reads the bytes with `BinRead`, and writes the value with `BinWrite`.
     #[cfg(all(feature = "binrw", feature = "std"))]
     pub(crate) binrw: fn(&[u8]) -> ReadAndWritten,
-    /// Decodes the bytes, owned, and encodes them into a vector.
+    /// Decodes the bytes to the owned type, and encodes it into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
     /// Decodes the bytes, owned, calls, copies what was read if any was, and calls again.
     #[cfg(feature = "alloc")]
     pub(crate) twice: fn(&[u8], &mut dyn FnMut()),
-    /// Makes a value of the bytes, holds it to the laws, and says what it encodes to.
+    /// Generates a value from the bytes, checks the laws, and returns the encoded bytes.
     #[cfg(feature = "arbitrary")]
     pub(crate) made: fn(&[u8], &Bend) -> Vec<u8>,
 }
@@ -60,7 +60,7 @@ impl Subject {
     }
 }
 
-/// Makes a value of these bytes; empty bytes make one too.
+/// Generates a value from these bytes, which may be empty.
 #[cfg(feature = "arbitrary")]
 pub(crate) fn made<T>(bytes: &[u8]) -> T
 where
@@ -121,7 +121,7 @@ macro_rules! subjects {
         #[cfg(feature = "arbitrary")]
         made: subjects!(@made $view $( , $owned )?),
     }, )+] };
-    // A stream of fixed length that holds no text: one type reads and owns it.
+    // A stream of numbers has one type.
     (@owned $both:ty) => { reading!("owned", $both) };
     (@owned $view:ty, $owned:ty) => { reading!("owned", $owned) };
     (@same $both:ty) => { |bytes| <$both>::decode(bytes).map(|_| true) };

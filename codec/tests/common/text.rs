@@ -1,4 +1,4 @@
-//! What holds for any text, judged by another implementation of CP1252 (GEN-3).
+//! Laws of texts, compared with another implementation of CP1252 (GEN-3).
 
 use std::hash::{DefaultHasher, Hash, Hasher as _};
 
@@ -6,12 +6,12 @@ use ads_cnc::text::{TextRef, char_to_cp1252, cp1252_to_char};
 use ads_cnc::{CncStr, Error, ErrorKind};
 use encoding_rs::{EncoderResult, WINDOWS_1252};
 
-/// What is wrong in one thing with a text.
+/// A fault added to a text.
 #[derive(Clone, Copy)]
 pub(crate) struct CncStrBend {
     pub(crate) shown: fn(String) -> String,
     pub(crate) bytes: fn(&mut Vec<u8>),
-    /// The length, of what is shown so.
+    /// Changes the length of the displayed text.
     pub(crate) len: fn(usize, &str) -> usize,
     pub(crate) fault: fn(Fault) -> Option<Fault>,
 }
@@ -21,14 +21,14 @@ impl CncStrBend {
         Self { shown: |text| text, bytes: |_| (), len: |len, _| len, fault: Some };
 }
 
-/// Kind, offset and what was found.
+/// Kind, offset and found number.
 type Fault = (ErrorKind, usize, u32);
 
 fn fault_of(error: Error) -> Fault {
     (error.kind(), error.offset() as usize, error.found())
 }
 
-/// Any bytes as CP1252: text if there is no NUL, of the characters that encoding_rs says.
+/// Checks any bytes as CP1252: text without a NUL has the characters of encoding_rs.
 pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fault> {
     let found = CncStr::from_bytes(bytes).map_err(fault_of);
     let nul = bytes.iter().position(|&byte| byte == 0);
@@ -45,7 +45,8 @@ pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fau
     Ok(shown)
 }
 
-/// Any Rust string: text of the bytes that encoding_rs says, or the first character without one.
+/// Checks any Rust string: its bytes are those of encoding_rs, or the first character without a byte
+/// is an error.
 pub(crate) fn check_utf8(utf8: &str, bend: CncStrBend) -> Result<String, Fault> {
     let found = CncStr::new(utf8).map_err(fault_of);
     let mut bytes = Vec::new();
@@ -72,7 +73,7 @@ fn encoded(character: char) -> Option<u8> {
     (result == EncoderResult::InputEmpty && written == 1).then_some(byte[0])
 }
 
-/// Text from these characters is text from these bytes, whichever it is made of.
+/// Checks that texts from these characters and from these bytes are equal.
 fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend) -> String {
     let shown = (bend.shown)(text.to_string());
     assert_eq!(shown, characters);
@@ -92,7 +93,7 @@ fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend
     };
     assert!(wire == typed && hash(wire) == hash(typed));
     assert_eq!((format!("{wire} {wire:?}")), format!("{typed} {typed:?}"));
-    // A character more or less is another text.
+    // A text with one character more or less differs.
     let longer = [bytes, b"x"].concat();
     assert!(CncStr::from_bytes(&longer).unwrap() != typed);
     #[cfg(feature = "alloc")]
@@ -105,7 +106,7 @@ fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend
     shown
 }
 
-/// A field is its text and its end, whichever that is; the text decides what it shows.
+/// Checks that fields are equal if text and end are, and that only the text is displayed.
 fn check_field(bytes: &[u8]) {
     let text = CncStr::from_bytes(bytes).expect("text without NUL");
     for (tail, len) in [(None, 0), (Some(&[][..]), 1), (Some(&[0, 0][..]), 3)] {

@@ -1,10 +1,10 @@
-//! What holds for any bytes as a value of any type.
+//! Laws of any bytes as a value of any type.
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Scalar};
 use ads_cnc::{ErrorKind, U32List, ValueRef};
 
-/// All ways of reading the bytes by a type agree, and each writes the same bytes again; `wrong` is
-/// what a codec does to those that are written element by element, if it is wrong.
+/// Checks that all ways to decode the bytes by a type agree and encode to the same bytes; `wrong` is a
+/// fault that changes the bytes written element by element.
 pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
     for data_type in DataType::ALL {
         let each = data_type.size().map_or(3, |size| size as usize);
@@ -12,7 +12,7 @@ pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
         let dimension = [count as u32];
         let elements = Elements::new(data_type, U32List::from(&dimension), bytes);
         let each = if data_type == DataType::String { count } else { each };
-        // No element has no byte.
+        // No elements have no bytes.
         let fits = bytes.len().checked_rem(each).map_or(bytes.is_empty(), |left| left == 0);
         assert_eq!(elements.is_ok(), fits, "{data_type:?}: {bytes:x?}");
         let Ok(elements) = elements else { continue };
@@ -52,7 +52,7 @@ fn check_elements(elements: Elements<'_>, bytes: &[u8], wrong: fn(&mut [u8])) {
     }
 }
 
-/// The typed readings of a value and of its elements agree, and no other type is read.
+/// Checks that a value and its elements decode to the same numbers, and reject other types.
 fn check_items<T: Scalar>(elements: Elements<'_>) {
     let (items, bytes) = (elements.items::<T>().expect("its own type"), elements.as_bytes());
     assert_eq!(items.len(), elements.len());
@@ -86,7 +86,7 @@ fn check_items<T: Scalar>(elements: Elements<'_>) {
     }
 }
 
-/// The texts share the bytes, and are no numbers.
+/// Checks that texts have equal shares of the bytes, and do not convert to numbers.
 fn check_strings(elements: Elements<'_>) {
     let each = elements.shape().element_size() as usize;
     let each = if elements.len() == 1 { elements.as_bytes().len() } else { each };
@@ -97,7 +97,7 @@ fn check_strings(elements: Elements<'_>) {
     assert!(elements.items::<u8>().is_err());
 }
 
-/// The same elements in a rectangle: by their indices, they are where a nested loop finds them.
+/// Checks that indices select the same elements as a nested loop over two dimensions.
 fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
     for rows in [2, 3].into_iter().filter(|rows| count % rows == 0) {
         let dimensions = [rows, count / rows];
@@ -113,7 +113,7 @@ fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
     }
 }
 
-/// Equal by their bytes: a NaN is no number that equals itself.
+/// Compares bytes, because a NaN does not equal itself.
 fn same(one: &Element<'_>, two: &Element<'_>) -> bool {
     let (mut first, mut second) = ([0; 8], [0; 8]);
     match (one, two) {

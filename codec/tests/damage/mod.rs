@@ -1,9 +1,9 @@
-//! What goes wrong with bytes on their way.
+//! Mutations of bytes.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// Damage to bytes: at a place, by a byte.
+/// A mutation of bytes, with its position and byte.
 #[derive(Clone, Debug)]
 pub(crate) enum Damage {
     Set(Index, u8),
@@ -16,7 +16,7 @@ pub(crate) enum Damage {
 
 pub(crate) fn damage() -> impl Strategy<Value = Damage> {
     let at = any::<Index>;
-    // Numbers around what streams can hold, where counts and lengths go wrong.
+    // Numbers near the limits of counts and lengths.
     let number = select(vec![0, 1, 2, 255, 256, 257, 506, 507, 510, 511, 0x4000_0001, u32::MAX]);
     prop_oneof![
         (at(), any::<u8>()).prop_map(|(at, byte)| Damage::Set(at, byte)),
@@ -38,7 +38,7 @@ impl Damage {
             Self::Set(at, byte) => bytes[at.index(len)] = *byte,
             Self::Flip(at, bit) => bytes[at.index(len)] ^= 1 << bit,
             Self::Remove(at) => drop(bytes.remove(at.index(len))),
-            // At a multiple of four, where numbers stand.
+            // At a multiple of four, like most numbers.
             Self::Number(at, number) => {
                 let at = at.index(len) / 4 * 4;
                 let le = number.to_le_bytes();

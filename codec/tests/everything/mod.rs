@@ -1,6 +1,6 @@
-//! Uses every borrowed reading, every operation, framing and the state machines, on bytes that the
-//! compiler does not know: for the no-panic proof, in which each panic they might hold is linked, and
-//! for the test that counts allocations.
+//! Uses every borrowing type, every operation, frames and the state machines on bytes that the
+//! compiler does not know: for the no-panic proof, which would link any reachable panic, and for the
+//! test that counts allocations.
 
 #![allow(unused_qualifications, reason = "the proof is searched for whole paths")]
 
@@ -16,7 +16,7 @@ use ads_cnc::value::{Boolean, EncodeValue as _, Scalar};
 use ads_cnc::*;
 use core::hint::black_box;
 
-/// Reads, and writes what was read.
+/// Decodes a stream and encodes it again.
 fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
     let mut buf = [0; 2200];
     let written = T::decode(bytes).and_then(|value| value.encode(&mut buf).map(<[u8]>::len));
@@ -44,7 +44,7 @@ fn walks(bytes: &[u8]) -> usize {
     seen
 }
 
-/// Dispatch of any call, its encoding again, and the reading of any reply to it.
+/// Dispatches any call, encodes it again, and decodes any reply to it.
 fn operations(bytes: &[u8]) -> Result<usize, Error> {
     let number = |at: usize| {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
@@ -70,7 +70,7 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
     Ok(reply.encode(&mut out)?.len().wrapping_add(again))
 }
 
-/// The next element of whatever instance the bytes address, in each of its attributes.
+/// The next element of the instance that the bytes address, in each attribute.
 fn elements(bytes: &[u8]) -> Result<usize, Error> {
     let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
     let next = first.nth(black_box(1))?;
@@ -98,7 +98,7 @@ fn texts(bytes: &[u8]) -> Result<usize, Error> {
     Ok(element.parts().count().wrapping_add(value.len()))
 }
 
-/// Bytes as a value of whatever type, dimensions and size they themselves say.
+/// Decodes bytes as a value whose type, dimensions and size are taken from the bytes.
 fn values(bytes: &[u8]) -> Result<usize, Error> {
     let value = ValueRef { bytes };
     if let Ok(nameless) = DescriptionByNameRef::decode(bytes) {
@@ -124,7 +124,7 @@ fn values(bytes: &[u8]) -> Result<usize, Error> {
     Ok(seen.wrapping_add(items::<f64>(elements)?))
 }
 
-/// How many types the element can be converted to.
+/// The number of types that the element can be converted to.
 fn converted(element: Element<'_>) -> usize {
     [
         i8::try_from(element).is_ok(),
@@ -186,7 +186,7 @@ fn services(bytes: &[u8]) -> Result<usize, Error> {
     Ok(0)
 }
 
-/// Runs all of it; what comes of it does not matter.
+/// Runs everything and ignores the results.
 pub(crate) fn runs(bytes: &[u8]) -> bool {
     let numbers = [
         operations(bytes).unwrap_or(1),

@@ -1,4 +1,4 @@
-//! Lists the cases in their order, for `results.py`: group, what each is, its units, its limits.
+//! Lists the cases in order, for `results.py`: subject, implementation, units, limits.
 
 use ads_cnc_benches::{Case, Limit, gate, others};
 

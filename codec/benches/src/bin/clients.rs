@@ -1,5 +1,5 @@
-//! `clients write FOLDER`: the bytes for clients in other languages. `clients time FOLDER`: what
-//! this crate takes for them.
+//! `clients write FOLDER` writes the bytes for clients in other languages; `clients time FOLDER`
+//! measures the time of this crate for the same bytes.
 
 use std::path::Path;
 use std::{env, io};

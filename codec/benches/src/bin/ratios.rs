@@ -1,5 +1,5 @@
-//! Times each case against those it is held against, in turns, so that what else the machine does
-//! meets both. Prints subject, who, against whom, and the median, least and greatest of the ratios.
+//! Times each case and its references alternately, so that other load of the machine affects both.
+//! Prints subject, implementation, reference, and the median, minimum and maximum of the ratios.
 
 use std::time::{Duration, Instant};
 
@@ -29,7 +29,7 @@ fn ratios(mut one: Work, mut other: Work) -> [f64; 3] {
     [ratios[PAIRS / 2], ratios[0], ratios[PAIRS - 1]]
 }
 
-/// How many goes make a turn; warms up on the way.
+/// The number of runs in a turn; also warms up.
 fn goes(work: &mut Work) -> u32 {
     let start = Instant::now();
     let mut goes = 0_u32;
@@ -40,7 +40,7 @@ fn goes(work: &mut Work) -> u32 {
     goes.div_ceil(4)
 }
 
-/// Nanoseconds for each unit.
+/// Nanoseconds per unit.
 fn time(work: &mut Work, goes: u32) -> f64 {
     let start = Instant::now();
     for _ in 0..goes {

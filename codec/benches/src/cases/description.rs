@@ -9,7 +9,7 @@ use crate::plain;
 type ByHand<'a> = hand::Description<&'a [u8], &'a [u8]>;
 type OwnedByHand = hand::Description<Vec<u8>, Vec<u32>>;
 
-/// Descriptions of one go.
+/// The number of descriptions in a run.
 const COUNT: usize = 100;
 
 macro_rules! descriptions {
@@ -58,7 +58,7 @@ descriptions! {
     "description, 2 dimensions": 2;
 }
 
-/// Named as in programs, from `V.E.a` on, one more character each.
+/// Names as in programs, starting with `V.E.a`, each one character longer.
 fn descriptions(dimensions: u32) -> Vec<Vec<u8>> {
     (0..COUNT).map(|at| description(dimensions, 5 + at % 28)).collect()
 }

@@ -6,7 +6,7 @@ use crate::case::{Case, Limit, Work, each};
 use crate::hand::{self, Hand};
 use crate::plain;
 
-/// Descriptors of one go, in however many lists.
+/// The number of descriptors in a run, in all lists together.
 const RECORDS: u64 = 10_000;
 
 macro_rules! lists {
@@ -43,7 +43,7 @@ lists! {
     "10,000 descriptors": 10_000;
 }
 
-/// What a client does that looks for a place: one field of each.
+/// A client that searches for an address: reads one field of each descriptor.
 pub(super) fn last_offset(list: DescriptorsRef<'_>) -> u32 {
     list.iter().fold(0, |sum, object| sum ^ object.index_offset().get())
 }
@@ -54,7 +54,7 @@ pub(super) fn lists(count: u64) -> Vec<Vec<u8>> {
         .collect()
 }
 
-/// Object number `at` as a manual would list it.
+/// Object number `at`, as a manual would list it.
 pub(crate) fn record(at: u64) -> [u8; 84] {
     let mut bytes = [0; 84];
     bytes[..4].copy_from_slice(&(at as u32).to_le_bytes());

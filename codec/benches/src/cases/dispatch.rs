@@ -1,4 +1,4 @@
-//! Calls of each function: dispatched, refused, encoded.
+//! Calls of each function: dispatched, rejected, encoded.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -14,10 +14,10 @@ use ads_cnc::{
 use crate::case::{Case, Limit, Work, each};
 use crate::hand;
 
-/// Calls of one go.
+/// The number of calls in a run.
 const CALLS: usize = 100;
 
-/// One byte more than any stream has.
+/// One byte more than the longest stream.
 const TOO_LONG: &[u8] = &[0; ads_cnc::limits::ADS_DATA_MAX + 1];
 
 macro_rules! functions {
@@ -39,7 +39,7 @@ macro_rules! functions {
             Case::new(concat!("call: ", $subject), "encode", || {
                 encode(call(row!($port $service $group $offset $length), $data))
             })
-            // All operations share the code that puts a call together.
+            // All operations share the code that builds a call.
             .within(&[Limit::Instructions("encode by hand", 4.0)]),
             Case::new(concat!("call: ", $subject), "encode by hand", || {
                 encode_by_hand(hand::requests::Request::$function $parameters)
@@ -152,7 +152,7 @@ functions! {
         by hand WriteObject { group: 0x12_0101, offset: 1, content: b"\x01" };
 }
 
-/// A handle by name as it is asked for, and with one thing wrong.
+/// A request for a handle by name, and variants with one fault.
 macro_rules! refusals {
     ($( $who:literal: $port:literal $service:ident $group:literal $offset:literal; )+) => {
         pub(super) const REFUSALS: &[Case] = &[$(
@@ -160,7 +160,7 @@ macro_rules! refusals {
                 let data = b"V.E.vartest\0";
                 each!([call(row!($port $service $group $offset 4), data); CALLS], |call| call.dispatch())
             })
-            // The whole table has been scanned before an address is rejected.
+            // An address is rejected after the whole table was scanned.
             .within(&[Limit::Over("none", 1000.0)]),
         )+];
     };
@@ -200,7 +200,7 @@ mod tests {
 
     use super::*;
 
-    /// What is measured against makes the same calls.
+    /// The reference implementation makes the same calls.
     #[test]
     fn encoded_by_hand_is_the_same_call() {
         assert_eq!(FUNCTIONS.len(), 5 * ads_cnc::operation::Function::ALL.len());
@@ -219,7 +219,7 @@ mod tests {
         }
     }
 
-    /// What is measured as refused is, for its data.
+    /// The calls measured as rejected are rejected because of their data.
     #[test]
     fn data_is_refused() {
         for (call, data, _) in BY_HAND {

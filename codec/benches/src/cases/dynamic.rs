@@ -1,4 +1,4 @@
-//! Dynamic parameters, and NC text on its way.
+//! Dynamic parameters, and writes to the program stream.
 
 use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;

@@ -60,7 +60,7 @@ fn frame(at: u32, data_length: u32) -> Vec<u8> {
     bytes
 }
 
-/// Each of the three faults a header can have, and too much data.
+/// Each of the three possible faults of a header, and too much data.
 fn refused() -> Vec<Vec<u8>> {
     let broken = |(at, mut bytes): (usize, Vec<u8>)| {
         bytes[[0, 2, 4, 26][at % 4]] = 7;
@@ -73,7 +73,7 @@ fn refused() -> Vec<Vec<u8>> {
 mod tests {
     use super::*;
 
-    /// Every frame, every cut of it, every change of a byte of its headers.
+    /// Every frame, truncated at every length and with every byte of its headers changed.
     #[test]
     fn by_hand_splits_the_same_frames() {
         let changed = |bytes: &Vec<u8>| {

@@ -1,11 +1,11 @@
-//! What one record costs among few and among many.
+//! The cost of a record among few and among many.
 
 use ads_cnc::{Decode, Description, DescriptionRef, Descriptors, DescriptorsRef, Encode};
 
 use super::descriptors::{last_offset, lists};
 use crate::case::{Case, Limit, Work, each};
 
-/// Each of many costs hardly more than each of few, here before it in the list.
+/// Each of many costs hardly more than each of few, which precede it in the list.
 macro_rules! grows {
     ($subject:literal: $($who:literal $(after $less:literal)?, $work:expr;)+) => {
         &[$(
@@ -15,7 +15,7 @@ macro_rules! grows {
     };
 }
 
-/// More than these do not fit into one reply: a million come in lists of so many.
+/// The maximum number of descriptors in a reply; a million is split into lists of this length.
 const LIST: u64 = 40_000;
 
 pub(super) const CASES: &[&[Case]] = &[
@@ -40,7 +40,7 @@ pub(super) const CASES: &[&[Case]] = &[
         "10,000" after "100", encode(10_000, 1);
         "1,000,000" after "10,000", encode(LIST, 25);
     },
-    // The whole description, whatever there is in it.
+    // The whole description.
     grows! {
         "dimensions, borrowed":
         "0", each!(descriptions(0), |bytes| DescriptionRef::decode(bytes));
@@ -66,7 +66,7 @@ fn records(count: u64) -> Vec<u8> {
     lists(count).swap_remove(0)
 }
 
-/// The same list again and again, which spares the memory for a million.
+/// Repeats the same list, which saves the memory for a million.
 fn borrowed(count: u64, times: usize) -> Work {
     let bytes = records(count);
     each!(vec![(); times], count, |_again| {

@@ -17,7 +17,7 @@ use stream::Entry;
 
 use crate::Case;
 
-/// All of them, in an order that stays.
+/// All cases, in a fixed order.
 pub fn all() -> impl Iterator<Item = Case> {
     let lists = [descriptors::CASES, description::CASES].into_iter().flatten();
     let streams = streams().flat_map(|entry| entry.cases);
@@ -29,12 +29,12 @@ pub fn all() -> impl Iterator<Item = Case> {
     all.copied()
 }
 
-/// Those that have limits, and those they are held against.
+/// The cases with limits, and their references.
 pub fn gate() -> impl Iterator<Item = Case> {
     all().filter(Case::is_gated)
 }
 
-/// What is measured beside them.
+/// The references of these cases.
 pub fn others() -> impl Iterator<Item = Case> {
     all().filter(|case| !case.is_gated())
 }
@@ -61,7 +61,7 @@ mod tests {
         }
     }
 
-    /// What is compared does the same work.
+    /// Compared cases do the same work.
     #[test]
     fn codec_and_hand_agree_on_every_stream() {
         streams().for_each(|entry| (entry.alike)());
@@ -78,7 +78,7 @@ mod tests {
         }
     }
 
-    /// Every go does something, and may be repeated.
+    /// Every run has an effect and can be repeated.
     #[test]
     fn every_case_runs() {
         for case in all() {

@@ -1,4 +1,4 @@
-//! Objects of the COM task, content of any.
+//! Objects of the COM task, and content.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::{

@@ -1,4 +1,4 @@
-//! What is measured of every stream.
+//! The cases of every stream.
 
 use ads_cnc::layout::Stream;
 
@@ -9,12 +9,12 @@ pub(crate) struct Entry {
     #[cfg_attr(not(test), expect(dead_code, reason = "the tests see that none is missing"))]
     pub(crate) stream: Stream,
     pub(crate) cases: &'static [Case],
-    /// Fails where codec and hand-written code differ.
+    /// Fails if codec and handwritten code differ.
     #[cfg(test)]
     pub(crate) alike: fn(),
 }
 
-/// Inputs are the codec's samples. What is owned, or both at once, is what encodes.
+/// The inputs are the samples of the codec. The owned or only type of a stream is encoded.
 macro_rules! stream {
     ($subject:literal, $stream:ident, $both:ty, by hand $hand:ty) => {
         $crate::cases::stream::Entry {
@@ -95,7 +95,7 @@ macro_rules! stream {
     };
 }
 
-/// Both take the same bytes, refuse the same, and give back what they took.
+/// Both accept and reject the same bytes, and encode accepted bytes to the same bytes.
 #[cfg(test)]
 macro_rules! alike {
     ($stream:ident, $codec:ty, $hand:ty) => {{

@@ -1,10 +1,10 @@
-//! NC text: cut into packets, and checked.
+//! NC text: split into packets, and checked.
 
 use ads_cnc::streaming::{Ack, Checker, NcText, Sender};
 
 use crate::case::{Case, Limit, Work};
 
-/// A hundred times the text costs as much for each byte.
+/// A text of a hundred times the length costs the same per byte.
 macro_rules! texts {
     ($($subject:literal: $lines:expr;)+) => {
         pub(super) const PACKETS: &[&[Case]] = &[$(
@@ -57,8 +57,8 @@ checks! {
     "names": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30");
 }
 
-/// A hundred times the text may cost 10^(2 × 1.1) times the instructions, which is 1.58 for each
-/// byte: the labels are in a sorted tree.
+/// A text of a hundred times the length may cost 10^(2 × 1.1) times the instructions, which is 1.58
+/// per byte: the labels are in a sorted tree.
 macro_rules! grows {
     ($($subject:literal: $lines:expr;)+) => {
         pub(super) const GROWTH: &[Case] = &[$(
@@ -72,7 +72,7 @@ macro_rules! grows {
     };
 }
 
-// A line by its number and by how many there are.
+// A line by its number and the number of lines.
 grows! {
     "labels": |at, _| format!("N{at}: X1");
     "jumps to lines above": |at, _| format!("N{at}: $GOTO N{}", at / 2);
@@ -112,7 +112,7 @@ grows! {
     "open quotes": |_, _| "\"(".repeat(400);
 }
 
-/// What a program is like: motion, comments, subroutines, conditions, labels and jumps.
+/// A typical program: motion, comments, subroutines, conditions, labels and jumps.
 fn program(at: usize) -> String {
     let number = at * 10;
     match at % 40 {
@@ -140,7 +140,7 @@ fn program(at: usize) -> String {
     }
 }
 
-/// So many bytes of these lines, and those that end the last one.
+/// The given number of bytes of these lines, extended to the end of the last line.
 fn text(line: &dyn Fn(usize) -> String, end: &str, size: usize) -> Vec<u8> {
     let mut text = Vec::with_capacity(size + 1000);
     for at in 0.. {
@@ -177,7 +177,7 @@ fn sent(text: Vec<u8>) -> Work {
     })
 }
 
-/// In lots as they are in the CNC's interface.
+/// In parts like those in the interface of the CNC.
 fn checked(text: Vec<u8>) -> Work {
     let mut packets = NcText::new(&text).unwrap().packets();
     let mut lots = Vec::new();
@@ -194,9 +194,9 @@ fn checked(text: Vec<u8>) -> Work {
     })
 }
 
-/// About so many bytes.
+/// About the given number of bytes.
 fn whole(size: usize, line: fn(usize, usize) -> String) -> Work {
-    // The longest line of the size is near the end.
+    // The longest line is near the end.
     let lines = size / (line(size / 16, size).len() + 1);
     findings(text(&|at| line(at, lines), "\n", size))
 }

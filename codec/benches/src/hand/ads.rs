@@ -87,7 +87,7 @@ impl<'a> Hand<'a> for Header {
     }
 }
 
-/// Both headers and the data.
+/// Both headers, and the data.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame<'a> {
     header: Header,
@@ -95,7 +95,7 @@ pub(crate) struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// The first frame of what was received and its bytes, if it is whole.
+    /// The first received frame and its length, if it is complete.
     pub(crate) fn split(received: &'a [u8], max: u32) -> Result<Option<(Self, usize)>, Fault> {
         if received.len() < 6 {
             return Ok(None);
@@ -160,7 +160,7 @@ impl<'a> Hand<'a> for ReadRequest {
     }
 }
 
-/// All that is left, which is as much as the length in front of it says.
+/// All remaining bytes, which must have the length given before them.
 fn data(bytes: &[u8], at: usize) -> Result<&[u8], Fault> {
     let expected = u32_at(bytes, at);
     let data = &bytes[at + 4..];
@@ -238,7 +238,7 @@ impl<'a, B: Held<'a>> Hand<'a> for ReadWriteRequest<B> {
     }
 }
 
-/// Of Read and of ReadWrite; an error may have no data.
+/// The reply to Read and ReadWrite; an error may have no data.
 #[derive(Clone, Debug)]
 pub(crate) struct Reply<B> {
     result: u32,

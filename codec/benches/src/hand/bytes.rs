@@ -1,4 +1,4 @@
-//! Bytes that mean nothing by themselves.
+//! Bytes without a structure.
 
 use super::{Fault, Hand, Held, at_least, at_most, room};
 

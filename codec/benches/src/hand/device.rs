@@ -1,4 +1,4 @@
-//! What a device says of itself.
+//! Device information and state.
 
 use super::{Fault, Hand, exactly, room, u16_at, u32_at};
 

@@ -17,7 +17,7 @@ impl<'a> Hand<'a> for Number {
     }
 }
 
-/// A number that is not 0.
+/// A number that must not be 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NonZero(u32);
 

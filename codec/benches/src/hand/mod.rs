@@ -1,4 +1,4 @@
-//! What a stack writes that has no codec: `from_le_bytes` on slices, with the same checks.
+//! Handwritten code without the codec: `from_le_bytes` on slices, with the same checks.
 
 mod ads;
 mod bytes;
@@ -21,7 +21,7 @@ pub(crate) use variable::{
     Description, DescriptionByName, Extended, HandleRead, HandleWrite, IndexKind, NameWrite,
 };
 
-/// What is wrong and where, without which nobody would look for a fault twice.
+/// The fault and its position, which users need to find it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Truncated { at: u32, expected: u32, found: u32 },
@@ -33,13 +33,13 @@ pub(crate) enum Fault {
     BufferTooSmall { expected: u32, found: u32 },
 }
 
-/// A stream that is read from all of its bytes and written to the front of a buffer.
+/// A stream that is decoded from all of its bytes and encoded to the front of a buffer.
 pub(crate) trait Hand<'a>: Sized {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault>;
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Fault>;
 }
 
-/// Bytes that are borrowed or owned, as the reader wants them.
+/// Borrowed or owned bytes.
 pub(crate) trait Held<'a>: From<&'a [u8]> + AsRef<[u8]> {}
 
 impl<'a, B: From<&'a [u8]> + AsRef<[u8]>> Held<'a> for B {}
@@ -52,7 +52,7 @@ pub(crate) fn u32_at(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }
 
-/// All bytes, which are as many as the stream always has.
+/// All bytes of a stream of fixed length.
 pub(crate) fn exactly<const N: usize>(bytes: &[u8]) -> Result<&[u8; N], Fault> {
     let (expected, found) = (N as u32, bytes.len() as u32);
     bytes.try_into().map_err(|_| match found < expected {
@@ -61,7 +61,7 @@ pub(crate) fn exactly<const N: usize>(bytes: &[u8]) -> Result<&[u8; N], Fault> {
     })
 }
 
-/// Whether a stream or a value has `max` bytes at the most.
+/// Checks that a stream or value has at most `max` bytes.
 pub(crate) fn at_most(max: usize, len: usize) -> Result<(), Fault> {
     match len > max {
         true => Err(Fault::TooLong { max: max as u32, found: len as u32 }),
@@ -69,7 +69,7 @@ pub(crate) fn at_most(max: usize, len: usize) -> Result<(), Fault> {
     }
 }
 
-/// The numbers in front, of a stream that may be longer.
+/// The numbers at the start of a stream that may be longer.
 pub(crate) fn at_least(min: usize, bytes: &[u8]) -> Result<(), Fault> {
     match bytes.len() < min {
         true => Err(Fault::Truncated { at: 0, expected: min as u32, found: bytes.len() as u32 }),
@@ -77,7 +77,7 @@ pub(crate) fn at_least(min: usize, bytes: &[u8]) -> Result<(), Fault> {
     }
 }
 
-/// So many bytes of the buffer.
+/// The given number of bytes of the buffer.
 pub(crate) fn room(buf: &mut [u8], needed: usize) -> Result<&mut [u8], Fault> {
     let found = buf.len() as u32;
     buf.get_mut(..needed).ok_or(Fault::BufferTooSmall { expected: needed as u32, found })

@@ -1,4 +1,4 @@
-//! What a client without the codec sends: every function it may call, each with its place and data.
+//! The requests of a client without the codec: every function with its address and data.
 
 use super::Fault;
 
@@ -13,7 +13,7 @@ pub(crate) enum Service {
     ReadWrite = 9,
 }
 
-/// It is sent as it is.
+/// The data is sent unchanged.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(not(test), expect(dead_code, reason = "nothing here sends it"))]
 pub(crate) struct Call<'b> {
@@ -25,7 +25,7 @@ pub(crate) struct Call<'b> {
     pub(crate) data: &'b [u8],
 }
 
-/// Objects and elements are by their group; all else is by the channel's number.
+/// Objects and elements are addressed by group; all others by the channel number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Request<'a> {
     CountObjects { group: u32 },

@@ -1,8 +1,8 @@
-//! Text fields: the text, and what follows its NUL if there is one.
+//! Text fields: the text, and the bytes after its NUL.
 
 use super::{Fault, Hand, Held, at_least, at_most, room};
 
-/// Text never has a NUL: it is only made by reading.
+/// The text never has a NUL, because it is only created by decoding.
 #[derive(Clone, Debug)]
 pub(crate) struct Text<B> {
     text: B,
@@ -17,7 +17,7 @@ impl<'a, B: Held<'a>> Text<B> {
         }
     }
 
-    /// Text with a NUL, and only NULs behind it.
+    /// Text with a NUL, followed only by NULs.
     pub(crate) fn terminated(field: &'a [u8], at: u32, max: usize) -> Result<Self, Fault> {
         let found = field.len() as u32;
         if field.len() > max {
@@ -41,7 +41,7 @@ impl<'a, B: Held<'a>> Text<B> {
         self.text.as_ref().len() + tail.map_or(0, |tail| tail.as_ref().len() + 1)
     }
 
-    /// What [`terminated`](Self::terminated) would refuse.
+    /// The values that [`terminated`](Self::terminated) would reject.
     pub(crate) fn check_terminated(&self, at: u32, max: usize) -> Result<(), Fault> {
         at_most(max, self.len())?;
         match self.tail {
@@ -87,7 +87,7 @@ impl<'a, B: Held<'a>> Text<B> {
     }
 }
 
-/// Text that a NUL must end.
+/// Text that must end in a NUL.
 #[derive(Clone, Debug)]
 pub(crate) struct Name<B>(Text<B>);
 
@@ -102,7 +102,7 @@ impl<'a, B: Held<'a>> Hand<'a> for Name<B> {
     }
 }
 
-/// The same, or nothing at all.
+/// The same, or no bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Kind<B>(Text<B>);
 
@@ -122,7 +122,7 @@ impl<'a, B: Held<'a>> Hand<'a> for Kind<B> {
     }
 }
 
-/// Text that a NUL or the end of the stream ends.
+/// Text that ends in a NUL or at the end of the stream.
 #[derive(Clone, Debug)]
 pub(crate) struct Open<B, const MIN: usize, const MAX: usize>(Text<B>);
 
@@ -139,7 +139,7 @@ impl<'a, B: Held<'a>, const MIN: usize, const MAX: usize> Hand<'a> for Open<B, M
     }
 }
 
-/// Text that a NUL may end, and only NULs behind it.
+/// Text that may end in a NUL, followed only by NULs.
 #[derive(Clone, Debug)]
 pub(crate) struct Padded<B, const MAX: usize>(Text<B>);
 

@@ -5,11 +5,11 @@ use super::{Fault, Hand, Held, at_least, at_most, exactly, room, u32_at};
 
 const MAX: usize = 2048;
 
-/// Dimensions or indices, as they stand in the stream or as numbers.
+/// Dimensions or indices, as bytes of a stream or as numbers.
 pub(crate) trait U32List<'a> {
     fn read(bytes: &'a [u8]) -> Self;
     fn count(&self) -> usize;
-    /// Fills `out`, which has four bytes for each.
+    /// Fills `out`, which has four bytes for each number.
     fn put(&self, out: &mut [u8]);
 }
 
@@ -43,7 +43,7 @@ impl<'a> U32List<'a> for Vec<u32> {
     }
 }
 
-/// So many numbers and what stands behind them; their count stands at `at`, right before.
+/// A list of numbers and the bytes after it; the count is at `at`, before the list.
 fn numbers<'a, N: U32List<'a>>(
     bytes: &'a [u8],
     at: usize,
@@ -66,7 +66,7 @@ fn check_count<'a>(numbers: &impl U32List<'a>, at: u32, max: usize) -> Result<us
     }
 }
 
-/// The five numbers in front of both descriptions.
+/// The five numbers at the start of both descriptions.
 #[derive(Clone, Copy, Debug)]
 struct Head {
     handle: u32,
@@ -261,7 +261,7 @@ impl<'a, B: Held<'a>> Hand<'a> for IndexKind<B> {
     }
 }
 
-/// Synchronisation and validity, of a variable that has them.
+/// Synchronisation and validity of a variable that has an extended description.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extended(Option<(u32, u32)>);
 

@@ -1,4 +1,4 @@
-//! binrw, over its own cursor.
+//! binrw, with its own cursor.
 
 use binrw::io::Cursor;
 use binrw::{BinRead, BinResult, binread, helpers::until_eof};

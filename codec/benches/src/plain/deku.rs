@@ -1,4 +1,4 @@
-//! deku, over its own reader.
+//! deku, with its own reader.
 
 use deku::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Declarations as the libraries' own documentation has them, without anything of ours.
+//! Declarations as in the documentation of the libraries, without code of this project.
 
 pub(crate) mod binrw;
 pub(crate) mod deku;

@@ -1,6 +1,6 @@
-// A client and a server, joined by the call of Beckhoff's AdsLib. `Send` has the signature of
-// AdsSyncReadWriteReqEx2, so with AdsLib it is that function; here a small CNC answers instead, which shows
-// the side of a server. Everything else stays as it is.
+// A client and a server, connected by a function with a signature of Beckhoff's AdsLib. `Send` has the signature
+// of AdsSyncReadWriteReqEx2, so a real client calls that function instead. In this example, `Send` is a small
+// CNC, which shows how to write a server.
 #include "ads_cnc.h"
 
 #include <cstdio>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// As AdsDef.h has them.
+// The same as in AdsDef.h.
 struct AmsNetId {
     uint8_t b[6];
 };
@@ -37,9 +37,9 @@ static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, u
     const AdsCncBytes data{static_cast<const uint8_t *>(written), write_length};
     const AdsCncCall call{address->port, 9, group, offset, read_length, data};
     AdsCncRequest request;
-    uint32_t indices[510], refusal;
-    if (!ads_cnc_dispatch(&call, indices, 510, &request, &refusal, nullptr))
-        return static_cast<long>(refusal);
+    uint32_t indices[510], ads_error;
+    if (!ads_cnc_dispatch(&call, indices, 510, &request, &ads_error, nullptr))
+        return static_cast<long>(ads_error);
     const uint32_t invalid_size = 0x705, unknown = 0x710, unsupported = 0x701;
     if (request.function != function("HandleByName")) return unsupported;
     if (text(request.name) != "V.E.a") return unknown;
@@ -50,7 +50,7 @@ static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, u
     return 0;
 }
 
-// The handle of a variable.
+// Reads the handle of a variable.
 static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, uint32_t &handle,
                       std::string &fault) {
     AdsCncRequest request{};
@@ -62,11 +62,11 @@ static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, ui
     AdsCncError error;
     AdsCncField field;
     uint32_t count, bytes_read = 0;
-    auto refused = [&] {
+    auto failed = [&] {
         fault = text(error.subject) + ": " + text(error.name) + ": " + text(error.text);
         return false;
     };
-    if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) return refused();
+    if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) return failed();
     std::vector<uint8_t> reply(call.read_length);
     AmsAddr address{cnc.netId, static_cast<uint16_t>(call.port)};
     long result = send(0, &address, call.index_group, call.index_offset, call.read_length, reply.data(),
@@ -75,9 +75,9 @@ static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, ui
         fault = "ADS error " + std::to_string(result);
         return false;
     }
-    // The length that was received, not that of the buffer.
+    // The received length, not the length of the buffer.
     if (!ads_cnc_decode_reply(&request, reply.data(), bytes_read, &field, 1, &count, &error))
-        return refused();
+        return failed();
     handle = field.number;
     return true;
 }

@@ -3,7 +3,7 @@
  *
  *     read_variable 127.0.0.1 48898 127.0.0.1.1.1 1 V.E.matrix
  *
- * The description says what type the value has; then the value is read. Plain POSIX and C11.
+ * Reads the description, which contains the type, then the value. Plain POSIX and C11.
  */
 #include "ads_cnc.h"
 
@@ -22,7 +22,7 @@ static void die(const char *what) {
     exit(1);
 }
 
-static void refuse(const AdsCncError *e) {
+static void fail(const AdsCncError *e) {
     fprintf(stderr, "%.*s: %.*s at offset %u: %.*s, expected %u, found %u\n", (int)e->subject.length,
             (const char *)e->subject.data, (int)e->name.length, (const char *)e->name.data, e->offset,
             (int)e->text.length, (const char *)e->text.data, e->expected, e->found);
@@ -54,26 +54,26 @@ static AdsCncBytes ask(int connection, const uint8_t net_id[6], const AdsCncCall
     frame.command = call->command;
     frame.state_flags = ADS_CNC_REQUEST;
     frame.invoke_id = 1;
-    if (!ads_cnc_call_write(call, payload, sizeof payload, &length, &error)) refuse(&error);
+    if (!ads_cnc_call_write(call, payload, sizeof payload, &length, &error)) fail(&error);
     frame.data = (AdsCncBytes){payload, length};
-    if (!ads_cnc_frame_write(&frame, sent, sizeof sent, &length, &error)) refuse(&error);
+    if (!ads_cnc_frame_write(&frame, sent, sizeof sent, &length, &error)) fail(&error);
     if (write(connection, sent, length) != (ssize_t)length) die("not sent");
 
     while (used == 0) {
         ssize_t more = read(connection, received + there, sizeof received - there);
         if (more <= 0) die("no reply");
         there += (uint32_t)more;
-        if (!ads_cnc_frame_read(received, there, sizeof received, &frame, &used, &error)) refuse(&error);
+        if (!ads_cnc_frame_read(received, there, sizeof received, &frame, &used, &error)) fail(&error);
     }
     if (frame.error != 0) {
         fprintf(stderr, "AMS error 0x%x\n", frame.error);
         exit(1);
     }
-    /* The data of the frame is a stream too: result, length, data. */
+    /* The data of the frame is a stream: result, length, data. */
     AdsCncField fields[3];
     uint32_t count = 0, reply = ads_cnc_stream("read-write-reply", 16);
     if (!ads_cnc_decode(reply, frame.data.data, frame.data.length, fields, 3, &count, &error))
-        refuse(&error);
+        fail(&error);
     if (fields[0].number != 0) {
         fprintf(stderr, "ADS error 0x%x\n", fields[0].number);
         exit(1);
@@ -115,14 +115,14 @@ int main(int argc, char **argv) {
     uint8_t net_id[6], data[512];
     for (int at = 0; at < 6; at++) net_id[at] = (uint8_t)part[at];
 
-    /* A name is CP1252 on the wire. */
+    /* Names are CP1252 on the wire. */
     AdsCncError error;
     AdsCncRequest request = {0};
     uint8_t name[256];
     uint32_t length = 0;
     if (!ads_cnc_text_from_utf8((const uint8_t *)argv[5], (uint32_t)strlen(argv[5]), name, sizeof name,
                                 &length, &error))
-        refuse(&error);
+        fail(&error);
     request.channel = (uint32_t)strtoul(argv[4], NULL, 10);
     request.name = (AdsCncBytes){name, length};
 
@@ -131,10 +131,10 @@ int main(int argc, char **argv) {
     uint32_t count = 0, code = 0;
     int connection = dial(argv[1], argv[2]);
     request.function = ads_cnc_function("DescribeByName", 14);
-    if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) refuse(&error);
+    if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) fail(&error);
     AdsCncBytes reply = ask(connection, net_id, &call);
     if (!ads_cnc_decode_reply(&request, reply.data, reply.length, fields, 512, &count, &error))
-        refuse(&error);
+        fail(&error);
     uint32_t type_field = ads_cnc_field(ads_cnc_stream("variable-description-by-name", 28), "type", 4);
     for (uint32_t at = 0; at < count; at++)
         if (fields[at].field == type_field) code = fields[at].number;
@@ -145,16 +145,16 @@ int main(int argc, char **argv) {
     }
 
     request.function = ads_cnc_function("ReadByName", 10);
-    if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) refuse(&error);
+    if (!ads_cnc_encode(&request, data, sizeof data, &call, &error)) fail(&error);
     reply = ask(connection, net_id, &call);
     if (!ads_cnc_decode_reply(&request, reply.data, reply.length, fields, 512, &count, &error))
-        refuse(&error);
+        fail(&error);
     const uint8_t *value = reply.data + fields[0].offset;
     printf("%s: %.*s", argv[5], (int)type.name.length, (const char *)type.name.data);
     if (type.kind == ADS_CNC_TYPE_TEXT) {
         uint8_t text[3 * 2048];
         if (!ads_cnc_text_to_utf8(value, fields[0].length, text, sizeof text, &length, &error))
-            refuse(&error);
+            fail(&error);
         printf(" %.*s", (int)length, (const char *)text);
     } else {
         for (uint32_t at = 0; at + type.size <= fields[0].length; at += type.size) show(&type, value + at);

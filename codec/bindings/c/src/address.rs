@@ -1,4 +1,4 @@
-//! Index groups, index offsets and names by their parts.
+//! Index groups, index offsets and names, parsed into their parts.
 
 use codec::address::{
     Access, Addressing, Attribute, AxisStride, Class, ComTable, Group, IndexGroup, IndexOffset,
@@ -10,7 +10,7 @@ use crate::memory::{AdsCncBytes, bytes, put, put_item, to_u32};
 use crate::request::CLASSES;
 use crate::stream::AdsCncField;
 
-/// An index group by its parts, in words.
+/// The parts of an index group, as words.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncGroup {
@@ -20,17 +20,17 @@ pub struct AdsCncGroup {
     pub access: AdsCncBytes,
     /// "index" or "logical".
     pub addressing: AdsCncBytes,
-    /// Of COM: "channel" or "axis".
+    /// For COM: "channel" or "axis".
     pub table: AdsCncBytes,
-    /// Of SDA and GEO: the class.
+    /// For SDA and GEO: the class.
     pub object_class: AdsCncBytes,
-    /// Of SDA and GEO: the attribute of the element.
+    /// For SDA and GEO: the attribute of the element.
     pub attribute: AdsCncBytes,
     /// Channel, axis or spindle; 0 for none.
     pub instance: u32,
 }
 
-/// Names that the codec displays but does not return; a test compares them with what it displays.
+/// Names that the codec displays but does not return as `&str`; a test compares them.
 pub(crate) const ATTRIBUTES: [&str; 7] =
     ["content", "name", "type", "length", "unit", "write flag", "object address"];
 const ALL_ATTRIBUTES: [Attribute; 7] = Attribute::ALL;
@@ -39,13 +39,13 @@ fn word(text: &str) -> AdsCncBytes {
     AdsCncBytes::of(text.as_bytes())
 }
 
-/// The name of one of these.
+/// The name of `one`, at its index in `all`.
 fn name<T: PartialEq>(all: impl IntoIterator<Item = T>, names: &[&str], one: &T) -> AdsCncBytes {
     let found = all.into_iter().zip(names).find(|(it, _)| it == one);
     found.map_or(AdsCncBytes::NONE, |(_, name)| word(name))
 }
 
-/// The parts of an index group; false for one that is not documented.
+/// Parses an index group; false if it is not documented.
 ///
 /// # Safety
 /// `parts` is null or points to room for them.
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn ads_cnc_offset_parts(
     unsafe { told(read(), error) }
 }
 
-/// Takes the name of a variable apart.
+/// Parses the name of a variable.
 ///
 /// # Safety
 /// `name` points to `length` bytes, `parts` to room for as many as `room`; `count` and `error` are null or
@@ -170,7 +170,7 @@ pub unsafe extern "C" fn ads_cnc_path(
         give(0, 0, 0, (0, kind), 0);
         let mut end = kind;
         for (record, part) in (0..).zip(path.parts()) {
-            // Behind the dot that follows the indices of the part before.
+            // The text after the dot that follows the indices of the previous part.
             let rest = name.get(end..).unwrap_or_default();
             let dot = rest.iter().position(|byte| *byte == b'.').unwrap_or(0);
             let at = end.saturating_add(dot).saturating_add(1);

@@ -1,4 +1,4 @@
-//! Errors: those of the codec, and those of a caller.
+//! Errors of the codec and of the caller.
 
 use codec::operation::DispatchError;
 use codec::{Error, ErrorKind};
@@ -7,27 +7,27 @@ use crate::ADS_CNC_NONE;
 use crate::memory::{AdsCncBytes, put};
 use crate::tables::{field_number, stream_number};
 
-/// Why a function returned false.
+/// The reason why a function returned false.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncError {
     /// The class: `ADS_CNC_TRUNCATED` and so on.
     pub kind: u32,
-    /// The number of the stream at fault; `ADS_CNC_NONE` if it is none.
+    /// The number of the stream at fault, or `ADS_CNC_NONE`.
     pub stream: u32,
-    /// The number of its field at fault; `ADS_CNC_NONE` for the whole.
+    /// The number of the field at fault; `ADS_CNC_NONE` for the stream as a whole.
     pub field: u32,
-    /// Where the field begins, in bytes from the start of the stream.
+    /// The offset of the field in the stream, in bytes.
     pub offset: u32,
     /// The number that was expected.
     pub expected: u32,
     /// The number that was found.
     pub found: u32,
-    /// The name of the stream, or of what else is at fault.
+    /// The name of the stream or other subject at fault.
     pub subject: AdsCncBytes,
     /// The name of the field or part.
     pub name: AdsCncBytes,
-    /// The class in words.
+    /// A description of the class.
     pub text: AdsCncBytes,
 }
 
@@ -40,15 +40,15 @@ pub(crate) enum Fault {
     NoFunction,
     NoStream,
     NoField,
-    /// The name of an argument with a value that the function does not take.
+    /// The name of an argument whose value the function does not accept.
     Argument(&'static str),
-    /// Memory for too few items: the number needed, the number given.
+    /// Too little room: the number of items needed, the number available.
     Room(u32, u32),
     /// A sender or host that was never started.
     NotStarted,
     /// A line of an NC program: its number, column, the number found.
     Line(u32, u32, u32, &'static str),
-    /// A received call that has no function.
+    /// A received call that cannot be dispatched.
     Dispatch(DispatchError),
 }
 
@@ -58,7 +58,7 @@ impl From<Error> for Fault {
     }
 }
 
-/// The numbers and words of the classes.
+/// The number and the description of each class.
 fn class(kind: ErrorKind) -> (u32, &'static str) {
     match kind {
         ErrorKind::Truncated => (1, "truncated"),
@@ -116,11 +116,9 @@ impl AdsCncError {
             Fault::NoStream => of(34, "no stream has this number"),
             Fault::NoField => of(35, "no field of the stream has this number"),
             Fault::Argument(name) => {
-                named(of(36, "an argument the function does not take"), "call", name)
+                named(of(36, "argument not accepted by the function"), "call", name)
             }
-            Fault::Room(needed, given) => {
-                numbers(of(37, "room for too few items"), 0, needed, given)
-            }
+            Fault::Room(needed, given) => numbers(of(37, "too little room"), 0, needed, given),
             Fault::NotStarted => of(38, "never started"),
             Fault::Line(line, column, found, text) => {
                 named(numbers(of(39, text), column, line, found), "nc-text", "line")
@@ -141,7 +139,7 @@ impl AdsCncError {
                 }
                 DispatchError::Service { expected, found } => {
                     let [expected, found] = [expected, found].map(|it| it.command().0.into());
-                    let error = of(43, "the function takes another command");
+                    let error = of(43, "the function requires another command");
                     named(numbers(error, 0, expected, found), "call", "command")
                 }
                 DispatchError::Stream(error) => Self::new(Fault::Codec(error)),

@@ -8,7 +8,7 @@ use crate::error::{AdsCncError, Fault, told};
 use crate::memory::{AdsCncBytes, bytes, fill, get, put, to_u32};
 use crate::request::AdsCncCall;
 
-/// Who sends or receives a frame.
+/// The address of the sender or receiver of a frame.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncAddress {
@@ -22,9 +22,9 @@ pub struct AdsCncAddress {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncFrame {
-    /// Who receives it.
+    /// The address of the receiver.
     pub target: AdsCncAddress,
-    /// Who sends it.
+    /// The address of the sender.
     pub source: AdsCncAddress,
     /// The AMS command.
     pub command: u32,
@@ -32,9 +32,9 @@ pub struct AdsCncFrame {
     pub state_flags: u32,
     /// The AMS error number, 0 for none.
     pub error: u32,
-    /// The number by which a response is known.
+    /// The number that matches a response to its request.
     pub invoke_id: u32,
-    /// What follows the header.
+    /// The data after the header.
     pub data: AdsCncBytes,
 }
 
@@ -63,7 +63,7 @@ impl AdsCncFrame {
     }
 }
 
-/// Writes a frame, with both lengths.
+/// Encodes a frame, including both lengths.
 ///
 /// # Safety
 /// `frame` points to a frame and that to its data, `buffer` to `room` bytes; `length` and `error` are null
@@ -88,7 +88,7 @@ pub unsafe extern "C" fn ads_cnc_frame_write(
     unsafe { told(write(), error) }
 }
 
-/// Reads the frame at the front of what was received; `used` is its length, or 0 if bytes are missing.
+/// Decodes the first received frame; `used` is its length, or 0 if the frame is not complete yet.
 ///
 /// # Safety
 /// `data` points to `length` bytes; `frame`, `used` and `error` are null or point to room for one.
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn ads_cnc_frame_read(
     unsafe { told(read(), error) }
 }
 
-/// Writes what a call is in a frame: the data of a Read, Write or ReadWrite request.
+/// Encodes the data of the frame for a call: a Read, Write or ReadWrite request.
 ///
 /// # Safety
 /// `call` points to a call and that to its data, `buffer` to `room` bytes; `length` and `error` are null or
@@ -153,7 +153,7 @@ pub unsafe extern "C" fn ads_cnc_call_write(
     unsafe { told(write(), error) }
 }
 
-/// Reads the call of a frame that is a Read, Write or ReadWrite request.
+/// Decodes the call in a frame that is a Read, Write or ReadWrite request.
 ///
 /// # Safety
 /// `frame` points to a frame and that to its data; `call` and `error` are null or point to room for one.

@@ -1,8 +1,8 @@
-//! The codec for C, and for every language that calls C: `include/ads_cnc.h` documents it.
+//! The codec for C and for languages that call C. `include/ads_cnc.h` documents it.
 //!
-//! No allocator, no global, no ownership: the caller has all memory, nothing is ever freed, and every
-//! function may be called from any thread. Structs are numbers and pointers. A wrong number or length is an
-//! error; only a wrong pointer is undefined, as everywhere in C.
+//! The library has no allocator, no globals and no ownership: the caller provides all memory, nothing
+//! is freed, and any thread may call any function. Structs consist of numbers and pointers. A wrong
+//! number or length is an error; only an invalid pointer is undefined behaviour, as usual in C.
 
 #![cfg_attr(not(test), no_std)]
 
@@ -29,10 +29,10 @@ pub use request::{AdsCncCall, AdsCncRequest};
 pub use stream::{AdsCncField, AdsCncPart};
 pub use tables::{AdsCncFieldInfo, AdsCncFunctionInfo, AdsCncStreamInfo, AdsCncType};
 
-/// In place of the number of a function, stream or field that does not exist.
+/// The number of a function, stream or field that does not exist.
 pub const ADS_CNC_NONE: u32 = u32::MAX;
 
-/// The number of the ABI: programs built with a header of another number must not use this library.
+/// The ABI of the library. Programs built with a header of another ABI must not use this library.
 #[unsafe(no_mangle)]
 pub extern "C" fn ads_cnc_abi() -> u32 {
     const { decimal(env!("CARGO_PKG_VERSION_MINOR").as_bytes()) }
@@ -55,9 +55,9 @@ const fn decimal(mut digits: &[u8]) -> u32 {
     number
 }
 
-/// A panic needs a symbol that is not defined. No panic can be reached from the functions, so a release build
-/// never refers to it; `codec/bindings/run` verifies that. If the linker reports the symbol, the build has
-/// less optimisation than the proof needs.
+/// A panic refers to an undefined symbol. No function can reach a panic, so a release build does not
+/// refer to the symbol; `codec/bindings/run` verifies this. If the linker reports the symbol, the
+/// build is optimised less than the proof requires.
 #[cfg(not(any(test, debug_assertions)))]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {

@@ -11,8 +11,8 @@ use codec::{CncStr, Error};
 use crate::error::{AdsCncError, Fault, told};
 use crate::memory::{AdsCncBytes, bytes, put, slice, to_u32};
 
-/// A state machine in the caller's memory, after a number that marks it as started. C may copy it: it has
-/// no pointer into itself.
+/// A state machine in memory of the caller, preceded by a number that marks it as started. C may copy
+/// it, because it has no pointer into itself.
 macro_rules! machine {
     ($(#[$doc:meta])* $memory:ident, $words:literal, $state:ty, $started:literal) => {
         $(#[$doc])*
@@ -80,7 +80,7 @@ machine! {
     AdsCncHost, 71, Services, 0x0AD5_C001_4057_0001
 }
 
-/// A host, the services it was started with, and the text that it has read last as a request's.
+/// A host, its services, and the text of the last request that it has read.
 struct Services {
     host: Host<'static>,
     ids: &'static [ServiceId],
@@ -116,17 +116,17 @@ const _: () = assert!(size_of::<AdsCncServiceId>() == 36 && align_of::<AdsCncSer
 pub struct AdsCncProgress {
     /// `ADS_CNC_SENDER_READY` and so on.
     pub state: u32,
-    /// Packets that were accepted.
+    /// The number of accepted packets.
     pub packets: u32,
-    /// Lines that were accepted.
+    /// The number of accepted lines.
     pub lines: u32,
-    /// Bytes that were accepted, with CR LF after each line.
+    /// The number of accepted bytes, including CR LF after each line.
     pub bytes: u32,
-    /// Lines that were not accepted yet.
+    /// The number of lines that are not accepted yet.
     pub left_lines: u32,
-    /// Bytes that were not accepted yet, with CR LF after each line.
+    /// The number of bytes that are not accepted yet, including CR LF after each line.
     pub left_bytes: u32,
-    /// How often the CNC was busy for the current packet.
+    /// The number of busy results for the current packet.
     pub busy_count: u32,
 }
 
@@ -135,13 +135,13 @@ pub struct AdsCncProgress {
 pub struct AdsCncHostStep {
     /// `ADS_CNC_STEP_WAIT` and so on.
     pub kind: u32,
-    /// Of a request to serve: which of the services, from 0.
+    /// For a request to serve: the index of the service, from 0.
     pub service: u32,
-    /// Of a request to serve: its state.
+    /// For a request to serve: its state.
     pub request_state: u32,
-    /// Of a read or write: the name of the variable.
+    /// For a read or write: the name of the variable.
     pub variable: AdsCncBytes,
-    /// Of a write: the value. Of a request to serve: its text, CP1252.
+    /// For a write: the value. For a request to serve: its text, in CP1252.
     pub data: AdsCncBytes,
 }
 
@@ -154,8 +154,8 @@ fn line_fault(kind: LineErrorKind) -> (u32, &'static str) {
     }
 }
 
-/// Begins to send an NC program. Its text must stay in place as long as the sender is used. If a line
-/// cannot be sent, the error has its line in `expected` and its column in `offset`.
+/// Starts sending an NC program. The text must stay in place while the sender is used. If a line
+/// cannot be sent, the error has the line in `expected` and the column in `offset`.
 ///
 /// # Safety
 /// `sender` points to room for one; `text` to `length` bytes, as long as the sender is used; `error` is null
@@ -180,7 +180,8 @@ pub unsafe extern "C" fn ads_cnc_sender_start(
     unsafe { told(start(), error) }
 }
 
-/// The packet to write now; false if all were accepted, one was rejected, or the sender was never started.
+/// The packet to write now; false if all packets were accepted, one was rejected, or the sender was
+/// never started.
 ///
 /// # Safety
 /// `sender` points to one that was started, its text still there; `packet` is null or points to room for
@@ -217,7 +218,7 @@ pub unsafe extern "C" fn ads_cnc_sender_acknowledge(
     unsafe { AdsCncSender::get_mut(sender) }.is_ok_and(|it| it.acknowledge(ack).is_ok())
 }
 
-/// The acknowledgement for the result of a write.
+/// The acknowledgement for the ADS result of a write.
 #[unsafe(no_mangle)]
 pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
     match Ack::from_result(AdsError(ads_error)) {
@@ -259,7 +260,7 @@ pub unsafe extern "C" fn ads_cnc_sender_progress(
     true
 }
 
-/// The UUID of a service from its text.
+/// Parses the UUID of a service.
 ///
 /// # Safety
 /// `text` points to `length` bytes; `id` and `error` are null or point to room for one.
@@ -281,7 +282,7 @@ pub unsafe extern "C" fn ads_cnc_service_id(
     unsafe { told(parse(), error) }
 }
 
-/// Begins to host services of one channel.
+/// Starts a host of services on one channel.
 ///
 /// # Safety
 /// `host` points to room for one; `ids` to as many as `count`, as long as the host is used; `error` is null
@@ -303,7 +304,8 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     unsafe { told(start(), error) }
 }
 
-/// The next step, unchanged until it is reported. False if the host was never started.
+/// The next step, which stays the same until its completion is reported. False if the host was never
+/// started.
 ///
 /// # Safety
 /// `host` points to one that was started, its IDs still there; `step` is null or points to room for one.
@@ -335,7 +337,7 @@ pub unsafe extern "C" fn ads_cnc_host_step(
             kind: 3,
             service: it.ids.iter().position(|id| core::ptr::eq(id, uuid)).map_or(0, to_u32),
             request_state,
-            // The request that was read last: a host hands one out when two reads are equal.
+            // The last request that was read: a host hands out a request when two reads are equal.
             data: it.request.get(..it.length).map_or(AdsCncBytes::NONE, AdsCncBytes::of),
             ..none
         },
@@ -345,7 +347,7 @@ pub unsafe extern "C" fn ads_cnc_host_step(
     true
 }
 
-/// The value that was read.
+/// Reports the value that was read.
 ///
 /// # Safety
 /// `host` points to one that was started, its IDs still there; `value` to `length` bytes; `error` is null
@@ -366,7 +368,8 @@ pub unsafe extern "C" fn ads_cnc_host_read(
     unsafe { told(read(), error) }
 }
 
-/// The answer to the request that the host has handed out: CP1252 without a NUL, and a state that is not 0.
+/// Answers the request that the host has handed out, with CP1252 without a NUL and a state that is not
+/// 0.
 ///
 /// # Safety
 /// `host` points to one that was started, its IDs still there; `response` to `length` bytes; `error` is

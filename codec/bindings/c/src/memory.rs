@@ -1,15 +1,16 @@
-//! The caller's memory: the only module that makes references of pointers, or writes through them.
+//! The memory of the caller: the only module that converts pointers to references or writes through
+//! pointers.
 
 use crate::error::Fault;
 
-/// Bytes of the caller; null if there are none.
+/// Bytes of the caller; null for no bytes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[cfg_attr(test, derive(Debug))]
 pub struct AdsCncBytes {
     /// The first byte.
     pub data: *const u8,
-    /// How many there are.
+    /// The number of bytes.
     pub length: u32,
 }
 
@@ -36,7 +37,7 @@ pub(crate) fn to_usize(length: u32) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }
 
-/// Checks the number of items of an array: a slice can have that many, and the pointer to them is not null.
+/// Checks that a slice can have this number of items, and that the pointer to them is not null.
 fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
     let count = to_usize(count);
     let size = count.checked_mul(size_of::<T>()).and_then(|size| isize::try_from(size).ok());
@@ -81,7 +82,7 @@ pub(crate) unsafe fn get<'a, T>(it: *const T) -> Result<&'a T, Fault> {
     unsafe { it.as_ref() }.ok_or(Fault::Pointer)
 }
 
-/// Writes a value to the caller's memory; does nothing if the pointer is null.
+/// Writes a value to memory of the caller; does nothing if the pointer is null.
 ///
 /// # Safety
 /// `out` is null, or points to aligned memory for a `T`.
@@ -92,7 +93,7 @@ pub(crate) unsafe fn put<T>(out: *mut T, value: T) {
     }
 }
 
-/// Lets `write` fill the caller's buffer, and writes the number of bytes to `length`.
+/// Fills a buffer of the caller with `write`, and writes the number of bytes to `length`.
 ///
 /// # Safety
 /// As for [`room`] and [`put`].
@@ -115,7 +116,7 @@ pub(crate) unsafe fn fill(
 /// `array` is null, or points to aligned memory for `room` items.
 pub(crate) unsafe fn put_item<T>(array: *mut T, room: u32, at: u32, value: T) {
     if at < room && items(array.cast_const(), room).is_ok() {
-        // SAFETY: there is room for more than `at` items, as many as a slice could have.
+        // SAFETY: there is room for more than `at` items, and a slice can have that many.
         unsafe { array.wrapping_add(to_usize(at)).write(value) }
     }
 }

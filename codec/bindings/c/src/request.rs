@@ -14,24 +14,24 @@ use crate::memory::{AdsCncBytes, bytes, get, put, put_item, room, slice, to_u32}
 use crate::stream::{AdsCncField, walk};
 use crate::tables::{argument, function, service};
 
-/// The arguments of any function. Those count that the function takes; the others are zero.
+/// The arguments of any function. Arguments that the function does not have are zero.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[cfg_attr(test, derive(Debug))]
 pub struct AdsCncRequest {
     /// The number of the function.
     pub function: u32,
-    /// The channel, from 1; 0 is the platform, where a function has it.
+    /// The channel, from 1; 0 is the platform, for functions that support it.
     pub channel: u32,
-    /// 1 if the channel, or what else is counted, is meant by its index among the active ones.
+    /// 1 if the channel or spindle is counted among the active ones.
     pub by_index: u32,
-    /// An axis of the channel, from 1; of a list of objects without a channel, a platform axis.
+    /// An axis of the channel, from 1; for a list of objects with channel 0, a platform axis.
     pub axis: u32,
     /// Index of a variable, from 0; of a parameter or an object, from 1.
     pub index: u32,
-    /// How many descriptors to read.
+    /// The number of descriptors to read.
     pub count: u32,
-    /// The most bytes of a content to read.
+    /// The maximum number of bytes of content to read.
     pub size: u32,
     /// Handle of a variable.
     pub handle: u32,
@@ -47,11 +47,11 @@ pub struct AdsCncRequest {
     pub value: AdsCncBytes,
     /// Index in each dimension, from 0.
     pub indices: *const u32,
-    /// How many there are.
+    /// The number of indices.
     pub indices_count: u32,
 }
 
-/// A call as ADS carries it.
+/// An ADS call.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncCall {
@@ -63,7 +63,7 @@ pub struct AdsCncCall {
     pub index_group: u32,
     /// The index offset.
     pub index_offset: u32,
-    /// The most bytes of the reply.
+    /// The maximum length of the reply in bytes.
     pub read_length: u32,
     /// The data of the request.
     pub data: AdsCncBytes,
@@ -96,12 +96,12 @@ impl AdsCncCall {
     }
 }
 
-/// Names that the codec displays but does not return; a test compares them with what it displays.
+/// Names that the codec displays but does not return as `&str`; a test compares them.
 pub(crate) const KINDS: [&str; 4] = ["P", "V.L", "V.P", "V.S"];
 pub(crate) const CLASSES: [&str; 6] =
     ["position controller", "interpolator", "decoder", "HLD", "path preparation", "spindle"];
 
-/// A request whose pointers were read.
+/// The arguments of a request, with its pointers converted to slices.
 struct Arguments<'a> {
     it: &'a AdsCncRequest,
     kind: &'a [u8],
@@ -144,7 +144,7 @@ impl<'a> Arguments<'a> {
         Ok(Kind::from_field(CncStr::from_bytes(self.kind)?.into()))
     }
 
-    /// One of these, by its name in `kind`.
+    /// The item of `all` whose name is in `kind`.
     fn one_of<T>(&self, all: impl IntoIterator<Item = T>, names: &[&str]) -> Result<T, Fault> {
         let named = all.into_iter().zip(names).find(|(_, name)| name.as_bytes() == self.kind);
         named.map(|(one, _)| one).ok_or(Fault::Argument("kind"))
@@ -184,7 +184,7 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// How each operation is made of the arguments. What a function takes is in the codec's tables.
+/// Builds each operation from the arguments. The tables of the codec define the arguments of a function.
 macro_rules! operations {
     ($all:ident: $( $how:ident $function:ident($( $argument:expr ),+); )+) => {
         fn made<'a>(function: Function, $all: &Arguments<'a>) -> Result<Request<'a>, Fault> {
@@ -195,7 +195,7 @@ macro_rules! operations {
             })
         }
 
-        /// The name of the operation's type.
+        /// The name of the type of the operation.
         pub(crate) fn operation_name(function: Function) -> &'static str {
             match function {
                 $( Function::$function => stringify!($function), )+
@@ -258,7 +258,7 @@ unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
     made(function(it.function).ok_or(Fault::NoFunction)?, &all)
 }
 
-/// Writes the data of a request to `buffer`; `call` has where to send it.
+/// Encodes the data of a request to `buffer`, and writes the call to send to `call`.
 ///
 /// # Safety
 /// The pointers of the request point to what they count, `buffer` to `room` bytes; `call` and `error` are
@@ -283,7 +283,7 @@ pub unsafe extern "C" fn ads_cnc_encode(
     unsafe { told(encode(), error) }
 }
 
-/// Checks the data received in reply to a request and gives the place of each field.
+/// Checks the data of the reply to a request, and returns its fields.
 ///
 /// # Safety
 /// The pointers of the request point to what they count, `data` to `length` bytes, `fields` to room for as
@@ -324,7 +324,7 @@ fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
     };
     let text = |text: &str| AdsCncBytes::of(text.as_bytes());
     match (spec.group, group) {
-        // An element is where its content is.
+        // The address of an element is that of its content.
         (GroupRule::Elements(_), Group::Class(parts)) => {
             let content = ClassGroup { attribute: Attribute::Content, ..parts };
             (it.index_group, it.index_offset) =
@@ -401,8 +401,8 @@ unsafe fn data(
     }
 }
 
-/// The function that a received call is to, with its arguments. Names and values are where the call's data
-/// is; `indices` has room for the indices, at most 510.
+/// Decodes a received call to its function and arguments. Names and values point into the data of the
+/// call; `indices` needs room for up to 510 indices.
 ///
 /// # Safety
 /// `call` points to a call and that to its data, `indices` to room for as many numbers as `room`; `request`,
@@ -439,7 +439,7 @@ pub unsafe extern "C" fn ads_cnc_dispatch(
     let number = match result {
         Ok(()) => 0,
         Err(Fault::Dispatch(error)) => error.ads_error().0,
-        // The call has no command of these, or cannot be read.
+        // The command is not Read, Write or ReadWrite, or the call cannot be read.
         Err(_) => codec::ads::AdsError::SERVICE_NOT_SUPPORTED.0,
     };
     // SAFETY: the caller's contract.

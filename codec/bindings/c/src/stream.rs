@@ -1,4 +1,4 @@
-//! Streams: their fields by the table, both ways, and texts.
+//! Decoding and building streams by their tables, and converting texts.
 
 use codec::CncStr;
 use codec::layout::{Field, Size, Stream, Type};
@@ -13,19 +13,19 @@ use crate::tables::{field, field_number};
 pub struct AdsCncField {
     /// The number of the field.
     pub field: u32,
-    /// Which record, from 0.
+    /// The index of the record, from 0.
     pub record: u32,
-    /// Which item of a list, from 0.
+    /// The index of the item in a list, from 0.
     pub item: u32,
-    /// Where its bytes are in the stream.
+    /// The offset of its bytes in the stream.
     pub offset: u32,
-    /// How many bytes it has.
+    /// The number of its bytes.
     pub length: u32,
-    /// The number, if the field is one of at most four bytes; else 0.
+    /// The value of a number of at most four bytes; otherwise 0.
     pub number: u32,
 }
 
-/// A field of a stream to write, or one item of a field that is a list.
+/// A field of a stream to build, or one item of a field that is a list.
 #[repr(C)]
 pub struct AdsCncPart {
     /// The number of the field.
@@ -76,7 +76,7 @@ pub(crate) unsafe fn walk(
     }
 }
 
-/// Checks a stream and gives the place of each field.
+/// Checks a stream and returns its fields.
 ///
 /// # Safety
 /// `data` points to `length` bytes, `fields` to room for as many as `room`; `count` and `error` are null or
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn ads_cnc_decode(
     unsafe { told(decode(), error) }
 }
 
-/// A part whose pointer and number were read: the number as little-endian bytes.
+/// The bytes of a part: a slice of its data, or its number in little-endian order.
 #[derive(Clone, Copy)]
 enum Bytes<'a> {
     Data(&'a [u8]),
@@ -139,7 +139,7 @@ unsafe fn part<'a>(stream: Stream, part: &AdsCncPart) -> Result<(Field, Bytes<'a
     }
 }
 
-/// Writes a stream from its fields.
+/// Builds a stream from its fields.
 ///
 /// # Safety
 /// `parts` points to as many as `count` and each to its data, `buffer` to `room` bytes; `length` and `error`
@@ -162,7 +162,7 @@ pub unsafe extern "C" fn ads_cnc_build(
             // SAFETY: the caller's contract.
             unsafe { self::part(stream, part)? };
         }
-        // Again, now that none of them is an error.
+        // The second pass: the first one has checked all parts.
         // SAFETY: the caller's contract.
         let parts = parts.iter().filter_map(|part| unsafe { self::part(stream, part).ok() });
         // SAFETY: the caller's contract.
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn ads_cnc_build(
     unsafe { told(build(), error) }
 }
 
-/// Writes bytes, and counts those that have no room too.
+/// Writes bytes, and also counts the bytes that do not fit.
 struct Out<'b> {
     buffer: &'b mut [u8],
     length: usize,
@@ -191,7 +191,7 @@ impl Out<'_> {
     }
 }
 
-/// Converts a text, and writes the length that the result needs to `length`.
+/// Converts a text, and writes the length of the result to `length`.
 ///
 /// # Safety
 /// `data` points to as many bytes as its number, `buffer` to room for as many; `length` is null or points to
@@ -211,7 +211,8 @@ unsafe fn convert(
     out.finish().map(drop)
 }
 
-/// CP1252 up to its first NUL, or all, as UTF-8 without a NUL. `length` is what it needs, even without room.
+/// Converts CP1252, up to the first NUL or the end, to UTF-8 without a NUL. `length` is the length of
+/// the result, even if it does not fit.
 ///
 /// # Safety
 /// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to room
@@ -235,7 +236,8 @@ pub unsafe extern "C" fn ads_cnc_text_to_utf8(
     unsafe { told(convert((data, size), (buffer, room), length, to_utf8), error) }
 }
 
-/// UTF-8 as CP1252, without a NUL. `length` is what it needs, even without room.
+/// Converts UTF-8 to CP1252 without a NUL. `length` is the length of the result, even if it does not
+/// fit.
 ///
 /// # Safety
 /// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to room

@@ -13,7 +13,7 @@ use crate::request::operation_name;
 pub struct AdsCncFunctionInfo {
     /// The name in reports, such as "read variable value by name".
     pub name: AdsCncBytes,
-    /// The name for programs, such as "ReadByName".
+    /// The name in programs, such as "ReadByName".
     pub operation: AdsCncBytes,
     /// The AMS port of its task.
     pub port: u32,
@@ -25,9 +25,9 @@ pub struct AdsCncFunctionInfo {
     pub request: u32,
     /// The stream of the reply; `ADS_CNC_NONE` if it has no data.
     pub reply: u32,
-    /// How many arguments it takes.
+    /// The number of arguments.
     pub argument_count: u32,
-    /// The fields of a request that are its arguments: `ADS_CNC_CHANNEL` and so on.
+    /// The arguments: `ADS_CNC_CHANNEL` and so on.
     pub arguments: [u32; 8],
 }
 
@@ -36,13 +36,13 @@ pub struct AdsCncFunctionInfo {
 pub struct AdsCncStreamInfo {
     /// The name, such as "variable-description".
     pub name: AdsCncBytes,
-    /// A few words.
+    /// A short description.
     pub title: AdsCncBytes,
-    /// The most bytes.
+    /// The maximum length in bytes.
     pub max: u32,
-    /// How many fields it has.
+    /// The number of fields.
     pub field_count: u32,
-    /// 1 if the stream is one or more records of these fields.
+    /// 1 if the stream consists of one or more records with these fields.
     pub repeats: u32,
 }
 
@@ -51,17 +51,18 @@ pub struct AdsCncStreamInfo {
 pub struct AdsCncFieldInfo {
     /// The name.
     pub name: AdsCncBytes,
-    /// The meaning in a few words.
+    /// A short description.
     pub meaning: AdsCncBytes,
-    /// The requirement that defines it.
+    /// The ID of the requirement that defines the field.
     pub clause: AdsCncBytes,
     /// `ADS_CNC_NUMBER` and so on.
     pub kind: u32,
-    /// Bytes of a number, of an item of a list, or of a text of fixed length; 0 if they vary.
+    /// The size of a number, of an item of a list, or of a text of fixed length in bytes; 0 if it
+    /// varies.
     pub size: u32,
     /// 1 if the field counts the items or bytes of the next one.
     pub is_count: u32,
-    /// 1 if the field is a list: one item for each of its numbers.
+    /// 1 if the field is a list, with one item for each number.
     pub is_list: u32,
 }
 
@@ -72,15 +73,15 @@ pub struct AdsCncType {
     pub name: AdsCncBytes,
     /// The name for objects, such as "DINT".
     pub object_name: AdsCncBytes,
-    /// The number in a variable's description; 0 if no variable has the type.
+    /// The code in a description; 0 if variables do not use the type.
     pub code: u32,
     /// `ADS_CNC_TYPE_BOOLEAN` and so on.
     pub kind: u32,
-    /// Bytes of an element; 0 for text.
+    /// The size of an element in bytes; 0 for text.
     pub size: u32,
 }
 
-/// Names of the fields of a request, from `ADS_CNC_CHANNEL` on.
+/// The names of arguments, from `ADS_CNC_CHANNEL` on.
 const ARGUMENTS: [&str; 12] = [
     "channel",
     "axis",
@@ -124,7 +125,7 @@ fn text(text: &str) -> AdsCncBytes {
     AdsCncBytes::of(text.as_bytes())
 }
 
-/// The argument that a field of a request's stream is; 0 for a count, which is none.
+/// The argument for a field of the stream of a request; 0 for a count, which is not an argument.
 pub(crate) fn argument(field: Field) -> u32 {
     let name = match field.name() {
         "content" | "data" => "value",
@@ -133,7 +134,7 @@ pub(crate) fn argument(field: Field) -> u32 {
     (1..).zip(ARGUMENTS).find(|(_, it)| *it == name).map_or(0, |(number, _)| number)
 }
 
-/// The arguments of a function: those of its address, those in its data, the length of its reply.
+/// The arguments of a function: those in its address, those in its data, and the length of its reply.
 fn arguments(function: Function) -> ([u32; 8], u32) {
     let spec = function.spec();
     let group: &[u32] = match spec.group {
@@ -195,7 +196,7 @@ fn field_info(row: &FieldSpec, next: Option<&FieldSpec>) -> AdsCncFieldInfo {
     }
 }
 
-/// Puts information where the caller wants it; whether there is any.
+/// Writes information to memory of the caller; returns whether there is any.
 ///
 /// # Safety
 /// Unless it is null, `out` points to room for a `T`.
@@ -208,7 +209,7 @@ unsafe fn give<T>(info: Option<T>, out: *mut T) -> bool {
     is_there
 }
 
-/// The number of the function of this name, of either form.
+/// The number of the function with this name, in either form.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -221,7 +222,7 @@ pub unsafe extern "C" fn ads_cnc_function(name: *const u8, length: u32) -> u32 {
     position(Function::ALL.iter().copied(), is)
 }
 
-/// The number of the stream of this name.
+/// The number of the stream with this name.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -232,7 +233,7 @@ pub unsafe extern "C" fn ads_cnc_stream(name: *const u8, length: u32) -> u32 {
     position(Stream::all(), |it| it.layout().name.as_bytes() == name)
 }
 
-/// The number of the field of this name.
+/// The number of the field with this name.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -244,7 +245,7 @@ pub unsafe extern "C" fn ads_cnc_field(stream: u32, name: *const u8, length: u32
     position(stream.fields(), |it| it.name().as_bytes() == name)
 }
 
-/// What a function is; false if none has this number.
+/// The information about a function; false if no function has this number.
 ///
 /// # Safety
 /// `info` is null or points to room for the information.
@@ -273,7 +274,7 @@ pub unsafe extern "C" fn ads_cnc_function_info(number: u32, info: *mut AdsCncFun
     unsafe { give(found, info) }
 }
 
-/// The name of a field of a request; false if none has this number.
+/// The name of an argument; false if no argument has this number.
 ///
 /// # Safety
 /// `name` is null or points to room for it.
@@ -284,7 +285,7 @@ pub unsafe extern "C" fn ads_cnc_argument_name(number: u32, name: *mut AdsCncByt
     unsafe { give(at.and_then(|at| ARGUMENTS.get(at)).map(|it| text(it)), name) }
 }
 
-/// What a stream is; false if none has this number.
+/// The information about a stream; false if no stream has this number.
 ///
 /// # Safety
 /// `info` is null or points to room for the information.
@@ -304,7 +305,7 @@ pub unsafe extern "C" fn ads_cnc_stream_info(number: u32, info: *mut AdsCncStrea
     unsafe { give(found, info) }
 }
 
-/// What a field is; false if the stream has none of this number.
+/// The information about a field; false if the stream has no field with this number.
 ///
 /// # Safety
 /// `info` is null or points to room for the information.
@@ -322,7 +323,7 @@ pub unsafe extern "C" fn ads_cnc_field_info(
     unsafe { give(found, info) }
 }
 
-/// What a type is; false if none has this number.
+/// The information about a type; false if no type has this number.
 ///
 /// # Safety
 /// `info` is null or points to room for the information.

@@ -1,4 +1,4 @@
-//! The functions as C calls them, and what C must not be able to do to them.
+//! The functions as C calls them, with valid and with invalid arguments.
 
 #![allow(clippy::as_conversions, clippy::indexing_slicing, clippy::unwrap_used, clippy::panic)]
 #![allow(clippy::arithmetic_side_effects, reason = "tests may fail")]
@@ -27,11 +27,11 @@ mod machines;
 const ROOM: u32 = 4096;
 
 fn zero<T>() -> T {
-    // SAFETY: every struct of the ABI is numbers and pointers, of which all may be zero.
+    // SAFETY: every struct of the ABI consists of numbers and pointers, which may be zero.
     unsafe { zeroed() }
 }
 
-/// What was told, in words.
+/// The error as text.
 fn text(error: &AdsCncError) -> String {
     let [subject, name, text] = [error.subject, error.name, error.text].map(string);
     format!(
@@ -41,7 +41,7 @@ fn text(error: &AdsCncError) -> String {
 }
 
 fn string(it: AdsCncBytes) -> String {
-    // SAFETY: what the library gives points to bytes.
+    // SAFETY: the library returns pointers to valid bytes.
     String::from_utf8(unsafe { it.get() }.unwrap_or_default().to_vec()).unwrap()
 }
 
@@ -54,7 +54,7 @@ fn number(name: &str) -> u32 {
     unsafe { ads_cnc_function(name.as_ptr(), name.len() as u32) }
 }
 
-/// Encodes into a buffer of its own.
+/// Encodes to a new buffer.
 fn encode(request: &AdsCncRequest, room: u32) -> Result<(AdsCncCall, Vec<u8>), String> {
     let (mut buffer, mut call, mut error) = (vec![0; to_usize(room)], zero::<AdsCncCall>(), zero());
     // SAFETY: all of it is there.
@@ -80,7 +80,7 @@ fn dispatch(call: &AdsCncCall, indices: &mut [u32]) -> Result<AdsCncRequest, (u3
 fn decode(stream: u32, data: &[u8]) -> Result<Vec<AdsCncField>, String> {
     let (mut count, mut error) = (0, zero());
     let (at, length) = (data.as_ptr(), data.len() as u32);
-    // SAFETY: all of it is there; without room for fields they are counted.
+    // SAFETY: all pointers are valid; without room, fields are only counted.
     unsafe { ads_cnc_decode(stream, at, length, null_mut(), 0, &mut count, null_mut()) };
     let mut fields: Vec<MaybeUninit<AdsCncField>> = Vec::new();
     fields.resize_with(to_usize(count), MaybeUninit::uninit);
@@ -149,7 +149,7 @@ layouts! {
 
 /// The header is compiled against the same rows: `codec/bindings/run` compiles tests/layout.c.
 #[test]
-fn structs_are_laid_out_as_the_header_has_them() {
+fn layouts_of_structs_equal_those_of_the_header() {
     let rows: Vec<&str> = include_str!("../tests/layout.h").lines().collect();
     let rows: Vec<&str> = rows.into_iter().filter(|row| row.ends_with(')')).collect();
     let column = if size_of::<usize>() == 8 { 0 } else { 1 };
@@ -162,7 +162,7 @@ fn structs_are_laid_out_as_the_header_has_them() {
 }
 
 #[test]
-fn names_are_those_that_the_codec_shows() {
+fn names_equal_those_that_the_codec_displays() {
     assert_eq!(Class::ALL.map(|it| it.to_string()), CLASSES);
     assert_eq!(Attribute::ALL.map(|it| it.to_string()), ATTRIBUTES);
     assert_eq!(DynamicKind::ALL.map(|it| it.to_string()), KINDS);
@@ -175,7 +175,7 @@ fn names_are_those_that_the_codec_shows() {
     assert_eq!(ads_cnc_abi(), 1);
 }
 
-/// What a function takes is in its row: with these arguments alone it is encoded.
+/// A function encodes with exactly the arguments in its row.
 #[test]
 fn functions_take_the_arguments_that_they_list() {
     let mut seen = Vec::new();
@@ -246,7 +246,6 @@ fn functions_take_the_arguments_that_they_list() {
     }
 }
 
-/// A call that is dispatched encodes to the call.
 #[test]
 fn calls_are_dispatched_and_encoded_again() {
     let mut indices = [0; 510];
@@ -257,10 +256,10 @@ fn calls_are_dispatched_and_encoded_again() {
         assert_eq!(request.function, number(sample.function.spec().name), "{}", sample.slug);
         let (again, data) =
             encode(&request, ROOM).unwrap_or_else(|error| panic!("{}: {error}", sample.slug));
-        // GEO serves what SDA does, so the port may be another.
+        // GEO serves the same functions as SDA, so the port may differ.
         let address = |it: &AdsCncCall| (it.command, it.index_group, it.index_offset);
         assert_eq!(address(&again), address(&call), "{}", sample.slug);
-        // A text is written with one NUL, however many there were.
+        // A text is encoded with one NUL, whatever the number of NULs in the input.
         let text = |data: &[u8]| {
             data.iter().rposition(|byte| *byte != 0).map_or(0, |at| at.saturating_add(1))
         };
@@ -270,7 +269,7 @@ fn calls_are_dispatched_and_encoded_again() {
 }
 
 #[test]
-fn calls_without_a_function_are_refused() {
+fn calls_without_a_function_are_rejected() {
     let call = AdsCncCall {
         port: 552,
         command: 9,
@@ -279,38 +278,38 @@ fn calls_without_a_function_are_refused() {
         read_length: 4,
         data: bytes("V.E.a\0"),
     };
-    let refusal = |call: AdsCncCall| dispatch(&call, &mut []).unwrap_err();
-    assert_eq!(refusal(AdsCncCall { port: 851, ..call }).0, 6);
+    let rejected = |call: AdsCncCall| dispatch(&call, &mut []).unwrap_err();
+    assert_eq!(rejected(AdsCncCall { port: 851, ..call }).0, 6);
     assert_eq!(
-        refusal(AdsCncCall { port: 0x1_0228, ..call }).1,
-        "call: port at offset 0: an argument the function does not take, expected 0, found 0"
+        rejected(AdsCncCall { port: 0x1_0228, ..call }).1,
+        "call: port at offset 0: argument not accepted by the function, expected 0, found 0"
     );
-    assert_eq!(refusal(AdsCncCall { index_group: 1, ..call }).0, 0x702);
-    let (number, told) = refusal(AdsCncCall { index_offset: 0x4E, ..call });
+    assert_eq!(rejected(AdsCncCall { index_group: 1, ..call }).0, 0x702);
+    let (number, told) = rejected(AdsCncCall { index_offset: 0x4E, ..call });
     assert_eq!(number, 0x703);
     let offset = "call: index_offset at offset 0: no function has this index offset";
     assert_eq!(told, format!("{offset}, expected 0, found 78"));
     assert_eq!(
-        refusal(AdsCncCall { command: 2, ..call }).1,
-        "call: command at offset 0: the function takes another command, expected 9, found 2"
+        rejected(AdsCncCall { command: 2, ..call }).1,
+        "call: command at offset 0: the function requires another command, expected 9, found 2"
     );
-    assert_eq!(refusal(AdsCncCall { command: 77, ..call }).0, 0x701);
+    assert_eq!(rejected(AdsCncCall { command: 77, ..call }).0, 0x701);
     assert_eq!(
-        refusal(AdsCncCall { data: bytes("V.E.a"), ..call }),
+        rejected(AdsCncCall { data: bytes("V.E.a"), ..call }),
         (0x705, "variable-name: name at offset 0: no NUL, expected 256, found 5".to_string())
     );
     let indices = AdsCncBytes::of(b"\x01\0\0\0\x02\0\0\0\x05\0\0\0\x06\0\0\0");
     let read = AdsCncCall { index_offset: 0x47, data: indices, ..call };
-    assert_eq!(refusal(read).1, "call:  at offset 0: room for too few items, expected 2, found 0");
+    assert_eq!(rejected(read).1, "call:  at offset 0: too little room, expected 2, found 0");
     let mut room = [0; 2];
     let request = dispatch(&read, &mut room).unwrap();
     assert_eq!((request.handle, request.indices_count), (1, 2));
     assert_eq!(room, [5, 6]);
 }
 
-/// The fields of a stream are those of a walk, and a stream is built from them.
+/// Decoding returns the fields of a walk, and building returns the stream.
 #[test]
-fn streams_are_taken_apart_and_built() {
+fn streams_are_decoded_and_built() {
     for (stream, samples) in SAMPLES {
         let number = stream_number(*stream);
         let name = stream.layout().name;
@@ -339,7 +338,7 @@ fn streams_are_taken_apart_and_built() {
                         let is_number = by_number && [1, 2].contains(&info.kind) && info.size > 0;
                         let data =
                             if is_number { AdsCncBytes::NONE } else { AdsCncBytes::of(part(it).2) };
-                        // A count is that of its items, unless a reply ends before it.
+                        // A count is computed from its items, unless a reply ends before it.
                         let is_left_out = info.is_count == 1 && it.number > 0 && by_number;
                         (!is_left_out).then_some(AdsCncPart {
                             field: it.field,
@@ -366,7 +365,7 @@ fn a_number_fits_its_field() {
     let part = AdsCncPart { field: 0, number: 256, data: AdsCncBytes::NONE };
     assert_eq!(
         build(flag, &[part], 1).unwrap_err(),
-        "call: flag at offset 0: an argument the function does not take, expected 0, found 0"
+        "call: flag at offset 0: argument not accepted by the function, expected 0, found 0"
     );
     let part = AdsCncPart { field: 1, number: 0, data: AdsCncBytes::NONE };
     assert_eq!(
@@ -403,7 +402,7 @@ fn replies_are_compared_with_their_request() {
 }
 
 #[test]
-fn addresses_are_taken_apart() {
+fn addresses_are_parsed() {
     let words = |group| {
         let mut it = zero::<AdsCncGroup>();
         // SAFETY: there is room for it.
@@ -432,7 +431,7 @@ fn addresses_are_taken_apart() {
 }
 
 #[test]
-fn names_are_taken_apart() {
+fn names_are_parsed() {
     let parts = |name: &[u8]| {
         let (mut parts, mut count, mut error) = ([0; 9].map(|_| zero::<AdsCncField>()), 0, zero());
         let (at, length) = (name.as_ptr(), name.len() as u32);
@@ -471,7 +470,7 @@ fn names_are_taken_apart() {
     assert!(
         parts(b"V.G.a.b.c.d.e.f.g.h.i")
             .unwrap_err()
-            .contains("too few items, expected 10, found 9")
+            .contains("too little room, expected 10, found 9")
     );
 }
 
@@ -500,13 +499,13 @@ fn texts_are_converted_both_ways() {
     );
     let (is_done, .., error) = convert(ads_cnc_text_from_utf8, b"\xFF", 7);
     assert_eq!((is_done, error.kind), (false, 36));
-    // All bytes but NUL come back.
+    // All bytes except NUL are converted and back.
     let all: Vec<u8> = (1..=255).collect();
     let utf8 = convert(ads_cnc_text_to_utf8, &all, 1000).2;
     assert_eq!(convert(ads_cnc_text_from_utf8, &utf8, 1000).2, all);
 }
 
-/// Null for whatever may be null, and lengths that no memory has.
+/// Null for every pointer, and lengths beyond the address space.
 #[test]
 fn null_and_impossible_lengths_are_errors() {
     let (most, mut error) = (u32::MAX, zero::<AdsCncError>());
@@ -567,9 +566,9 @@ fn null_and_impossible_lengths_are_errors() {
     }
 }
 
-/// Whatever the numbers are, there is an answer.
+/// Random numbers in every struct cause a result or an error, never undefined behaviour.
 #[test]
-fn any_numbers_have_an_answer() {
+fn random_numbers_are_answered() {
     let mut seed = 0x9E37_79B9_u32;
     let mut next = || {
         seed ^= seed << 13;

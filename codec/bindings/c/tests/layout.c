@@ -1,4 +1,4 @@
-/* The layout of each struct, as the library has it: the same rows are checked by its own tests. */
+/* Checks the layout of each struct. The tests of the library check the same rows. */
 #include "../include/ads_cnc.h"
 
 #include <stddef.h>

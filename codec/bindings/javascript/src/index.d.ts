@@ -1,6 +1,6 @@
-// Types of what is the same for all functions and streams; theirs are generated at the build.
+// Types that do not depend on the tables of functions and streams; the build generates the others.
 
-/** A call as ADS carries it: what a client sends, what a server receives. */
+/** An ADS call, as a client sends it and a server receives it. */
 export interface Call {
   /** AMS port: 551 GEO, 552 SDA, 553 COM */
   port: number;
@@ -8,30 +8,30 @@ export interface Call {
   command: number;
   indexGroup: number;
   indexOffset: number;
-  /** the most bytes of the reply */
+  /** the maximum length of the reply in bytes */
   readLength: number;
   data: Uint8Array;
 }
 
-/** What to send; `decode` reads what comes back. */
+/** A request to send. Pass the reply to `decode`. */
 export interface Request<T> extends Call {
   function: FunctionInfo;
-  /** The value of a reply: of all bytes that were received, not of as many as were asked for. */
+  /** Decodes a reply. Pass the received bytes only, not a buffer of `readLength` bytes. */
   decode(reply: Uint8Array): T;
 }
 
-/** Bytes, or a value, that cannot be. */
+/** The error for invalid bytes or values. */
 export class AdsCncError extends Error {
-  /** the stream, or what else is at fault */
+  /** the stream or other subject at fault */
   stream: string;
-  /** the field, or the argument */
+  /** the field or argument at fault */
   field: string;
-  /** where the field begins in the stream */
+  /** the offset of the field in the stream */
   offset: number;
   kind: string;
   expected: number;
   found: number;
-  /** the number that a server answers with; 0 for an error of a client */
+  /** the ADS error number for the response of a server; 0 for a client */
   adsError: number;
 }
 
@@ -41,7 +41,7 @@ export interface FieldInfo {
   clause: string;
   /** 1 unsigned, 2 BOOLEAN, 3 REAL64, 4 text, 5 NetId, 6 bytes */
   kind: number;
-  /** bytes of the field or of one item; 0 if they vary */
+  /** size of the field or of one item in bytes; 0 if it varies */
   size: number;
   isCount: boolean;
   isList: boolean;
@@ -68,11 +68,11 @@ export interface FunctionInfo {
 }
 
 export interface TypeInfo {
-  /** of variables and elements */
+  /** name for variables and elements */
   name: string;
-  /** of objects */
+  /** name for objects */
   objectName: string;
-  /** in a description; 0 if no variable has the type */
+  /** code in a description; 0 if variables do not use the type */
   code: number;
   /** 0 BOOLEAN, 1 unsigned, 2 signed, 3 float, 4 text */
   kind: number;
@@ -92,38 +92,38 @@ export interface Field {
   data: Uint8Array;
 }
 
-/** The value of a stream: its only field, or a record; a list of records of a stream of such. */
+/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats. */
 export function decode(stream: string, data: Uint8Array): unknown;
-/** The bytes of a stream, the reverse of `decode`; bytes are written as they are. */
+/** Encodes a stream, the inverse of `decode`. Bytes are written unchanged. */
 export function encode(stream: string, value: unknown): Uint8Array;
-/** The fields of a stream, with their bytes. */
+/** Splits a stream into its fields, with their bytes. */
 export function fields(stream: string, data: Uint8Array): Field[];
-/** A stream from the bytes of its fields, the reverse of `fields`. Counts may be left out. */
+/** Builds a stream from the bytes of its fields, the inverse of `fields`. Counts may be omitted. */
 export function join(stream: string, parts: [name: string, data: Uint8Array][]): Uint8Array;
 
-/** CP1252 before the first NUL, or all, as text. */
+/** Converts CP1252 to text, up to the first NUL or the end. */
 export function textFromCp1252(data: Uint8Array): string;
-/** A text as CP1252, without a NUL. */
+/** Converts a text to CP1252, without a NUL. */
 export function textToCp1252(text: string): Uint8Array;
 
 export type Scalar = number | bigint | boolean | string;
 export type Value = Scalar | Value[];
-/** A value by its type, which is a name or the code of a description; of arrays, nested arrays. */
+/** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. */
 export function unpack(type: string | number, data: Uint8Array, dimensions?: number[]): Value;
-/** The bytes of a value, the reverse of `unpack`. A text is ended by a NUL; texts in an array need bytes. */
+/** Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes. */
 export function pack(type: string | number, value: Value | Uint8Array | Uint8Array[]): Uint8Array;
 
-/** What a call received asks for. */
+/** A dispatched call: its function and arguments. */
 export interface Dispatched {
   function: FunctionInfo;
   arguments: Record<string, number | boolean | string | number[] | Uint8Array>;
-  /** The data to answer with. A server checks that it is not longer than the call's `readLength`. */
+  /** Encodes the reply. The server must check that it is not longer than the `readLength` of the call. */
   reply(value?: unknown): Uint8Array;
 }
-/** The function that a call received is to; the `adsError` of the exception is the number to answer with. */
+/** Dispatches a received call. If it throws, answer with the `adsError` of the exception. */
 export function dispatch(received: Call): Dispatched;
 
-/** An index group in words; those that it has not are empty. */
+/** The parts of an index group, as words; parts that a group does not have are empty. */
 export interface Group {
   task: string;
   access: string;
@@ -133,19 +133,19 @@ export interface Group {
   attribute: string;
   instance: number;
 }
-/** The parts of an index group; null for one that is not documented. */
+/** Parses an index group; null if it is not documented. */
 export function groupParts(indexGroup: number): Group | null;
 /** The index offset of an element of an axis; axis 0 is the channel itself. */
 export function axisOffset(axis: number, element: number, stride?: number): number;
 /** The axis and the element of an index offset. */
 export function axisAndElement(offset: number, stride?: number): [axis: number, element: number];
 
-/** The name of a variable, by its parts. */
+/** The parts of the name of a variable. */
 export interface Path {
   kind: string;
   parts: { name: string; indices: number[] }[];
 }
-/** Takes the name of a variable apart. */
+/** Parses the name of a variable. */
 export function path(name: string): Path;
 
 /** A NetId and a port: ['192.0.2.7.1.1', 552] */
@@ -161,26 +161,26 @@ export interface Frame {
   invokeId: number;
   data: Uint8Array;
 }
-/** The frame of a request. */
+/** Creates the frame of a request. */
 export function frameOfCall(call: Call, targetNetId: string, source: Address, invokeId: number): Frame;
-/** The call of a request's frame. */
+/** Decodes the call in the frame of a request. */
 export function callOfFrame(frame: Frame): Call;
-/** The bytes of a frame, with both lengths. */
+/** Encodes a frame, including both lengths. */
 export function encodeFrame(frame: Frame): Uint8Array;
-/** The frame at the front of what was received, and its length; null if bytes are missing. */
+/** Decodes the first received frame, and returns its length; null if the frame is not complete yet. */
 export function readFrame(received: Uint8Array, maxData?: number): { frame: Frame; length: number } | null;
 
 export const BUSY: 1;
 export const REJECTED: 2;
 
-/** Sends an NC program: hands out packets to write by `writeProgramStream`, and takes what became of them. */
+/** Sends an NC program: returns packets to write by `writeProgramStream`, and accepts the results. */
 export class Sender {
   constructor(program: Uint8Array);
-  /** The packet to write now; null if none is left. */
+  /** The packet to write now; null if no packet is left. */
   packet(): Uint8Array | null;
   /**
-   * What the CNC answered: an ADS result, or null if the answer was lost.
-   * Gives 0, BUSY (then wait about half a second) or REJECTED.
+   * Reports the ADS result of the write, or null if the reply was lost.
+   * Returns 0, BUSY (wait about half a second, then repeat) or REJECTED.
    */
   acknowledge(adsError: number | null): 0 | typeof BUSY | typeof REJECTED;
   get progress(): {
@@ -201,23 +201,23 @@ export type Step =
   | { kind: 'write'; variable: string; data: Uint8Array }
   | { kind: 'serve'; service: number; request: string; requestState: number };
 
-/** Hosts services of one channel: gives the variable to read or write next. */
+/** Hosts the services of a channel: returns the variable to read or write next. */
 export class Host {
   constructor(services: string[]);
-  /** What to do next; the same until it is done. */
+  /** The next step. Returns the same step until its completion is reported. */
   step(): Step;
-  /** The value that was read. */
+  /** Reports the value that was read. */
   read(value: Uint8Array): void;
-  /** The response to the request, and its state, not 0. */
+  /** Answers the request. The state must not be 0. */
   answer(response: string, state: number): void;
-  /** The write was done. */
+  /** Reports that the write was done. */
   written(): void;
-  /** The step failed: a write may have been done. */
+  /** Reports that the step failed; a write may have taken effect. */
   failed(): void;
-  /** The wait is over. */
+  /** Ends a wait. */
   poll(): void;
-  /** The CNC was reset, or the connection is new. */
+  /** Starts again, after a reset of the CNC or on a new connection. */
   restart(): void;
-  /** What became of the last answer. */
+  /** The outcome of the last answer. */
   get outcome(): 'answered' | 'abandoned' | null;
 }

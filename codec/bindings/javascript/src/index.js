@@ -1,4 +1,4 @@
-// The byte streams with which an ISG/TwinCAT CNC is read and written over ADS. The codec is WebAssembly;
+// A codec for the byte streams that read and write an ISG/TwinCAT CNC over ADS. The codec is WebAssembly;
 // ads_cnc.h documents its functions. The build appends generated code to this file.
 
 const ABI = 1,
@@ -7,7 +7,7 @@ const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0)
 const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});
 if (codec.ads_cnc_abi() !== ABI) throw new Error(`ABI ${codec.ads_cnc_abi()}, ${ABI} needed`);
 
-// Memory after that of the codec. Each call starts at its beginning, so nothing has to be freed.
+// Scratch memory after that of the codec. Each call reuses it from its start, so nothing has to be freed.
 const BASE = codec.memory.buffer.byteLength;
 let top = BASE;
 
@@ -25,7 +25,7 @@ const bytes = (at, size) => new Uint8Array(codec.memory.buffer, at, size);
 const taken = (at, size) => bytes(at, size).slice();
 const numbers = (at, count) => Array.from({ length: count }, (_, n) => u32(at + 4 * n));
 
-/** The address of a copy; not null, even of nothing. */
+/** The address of a copy; not null, even for an empty one. */
 function put(data) {
   const at = room(data.length + 1);
   bytes(at, data.length).set(data);
@@ -38,11 +38,11 @@ function putNumbers(...all) {
   return at;
 }
 
-/** What an AdsCncBytes points to. */
+/** The bytes that an AdsCncBytes points to. */
 const lent = (at) => taken(u32(at), u32(at + 4));
 const word = (at) => new TextDecoder().decode(lent(at));
 
-/** Bytes, or a value, that cannot be. */
+/** The error for invalid bytes or values. */
 export class AdsCncError extends Error {
   constructor(at) {
     const [, , , offset, expected, found] = numbers(at, 6);
@@ -64,7 +64,7 @@ function call(name, ...given) {
   if (!codec[`ads_cnc_${name}`](...given, error)) throw new AdsCncError(error);
 }
 
-/** As `call`, for a function that fills a buffer, which gets the room it asks for if this is too little. */
+/** Like `call`, for a function that fills a buffer. Repeats the call with a larger buffer if necessary. */
 function sized(size, name, ...given) {
   const length = room(4);
   for (;;) {
@@ -79,7 +79,7 @@ function sized(size, name, ...given) {
   }
 }
 
-/** Does something with all of the memory. */
+/** Runs a function with all of the scratch memory. */
 function begin(work) {
   top = BASE;
   return work();
@@ -144,7 +144,7 @@ export const FUNCTIONS = begin(() =>
   }),
 );
 
-/** CP1252 before the first NUL, or all, as text. */
+/** Converts CP1252 to text, up to the first NUL or the end. */
 export const textFromCp1252 = (data) =>
   begin(() =>
     new TextDecoder('utf-8', { ignoreBOM: true }).decode(
@@ -152,7 +152,7 @@ export const textFromCp1252 = (data) =>
     ),
   );
 
-/** A text as CP1252, without a NUL. */
+/** Converts a text to CP1252, without a NUL. */
 export const textToCp1252 = (text) =>
   begin(() => {
     const utf8 = new TextEncoder().encode(text);
@@ -185,15 +185,15 @@ function found(stream, data, name, before) {
 
 function named(stream) {
   const it = STREAMS[stream];
-  if (!it) throw new TypeError(`${stream} is no stream`);
+  if (!it) throw new TypeError(`no such stream: ${stream}`);
   return it;
 }
 
-/** The fields of a stream, with their bytes. */
+/** Splits a stream into its fields, with their bytes. */
 export const fields = (stream, data) =>
   begin(() => found(named(stream), data, 'decode', named(stream).number));
 
-/** A stream from the bytes of its fields, [name, bytes] each: the reverse of `fields`, without counts. */
+/** Builds a stream from its fields, [name, bytes] each: the inverse of `fields`. Counts may be omitted. */
 export const join = (stream, parts) =>
   begin(() => {
     const it = named(stream);
@@ -223,7 +223,7 @@ function write(row, value) {
   if (row.kind <= 2) {
     const [number, size] = [Number(value), row.size || 4];
     if (!Number.isInteger(number) || number < 0 || number >= 256 ** size) {
-      throw new RangeError(`${row.name}: ${value} is no number of ${size} bytes`);
+      throw new RangeError(`${row.name}: ${value} does not fit a number of ${size} bytes`);
     }
     return Uint8Array.from({ length: size }, (_, at) => Math.floor(number / 256 ** at) % 256);
   }
@@ -249,10 +249,10 @@ function valueOf(stream, parts) {
   return rows.length === 1 ? records[0][camel(rows[0].name)] : records[0];
 }
 
-/** The value of a stream: its only field, or a record; a list of records of a stream of such. */
+/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats. */
 export const decode = (stream, data) => valueOf(named(stream), fields(stream, data));
 
-/** The bytes of a stream, the reverse of `decode`; bytes are written as they are. */
+/** Encodes a stream, the inverse of `decode`. Bytes are written unchanged. */
 export function encode(stream, value) {
   const it = named(stream),
     rows = shown(it);
@@ -274,12 +274,12 @@ const NUMBERS = 'function channel by_index axis index count size handle index_gr
 );
 const TEXTS = ['kind', 'name', 'value'];
 
-/** The address of an AdsCncRequest; texts were converted before, as that uses the memory too. */
+/** The address of an AdsCncRequest. Texts must be converted before, because that uses the same memory. */
 function putRequest(number, given) {
   const plain = NUMBERS.map((name) => {
     const value = name === 'function' ? number : Number(given[name] ?? 0);
     if (!Number.isInteger(value) || value < 0 || value > NONE) {
-      throw new RangeError(`${camel(name)}: ${given[name]} is no unsigned number of 32 bits`);
+      throw new RangeError(`${camel(name)}: ${given[name]} is not an unsigned number of 32 bits`);
     }
     return value;
   });
@@ -326,17 +326,17 @@ function operation(number) {
   };
 }
 
-/** The function that a call received is to; the `adsError` of the exception is the number to answer with. */
+/** Dispatches a received call. If it throws, answer with the `adsError` of the exception. */
 export function dispatch(received) {
   const [it, indices, number, texts] = begin(() => {
     const at = putCall(received),
       list = room(4 * 512),
       out = room(72),
-      refusal = room(4);
+      adsErrorAt = room(4);
     try {
-      call('dispatch', at, list, 512, out, refusal);
+      call('dispatch', at, list, 512, out, adsErrorAt);
     } catch (error) {
-      throw Object.assign(error, { adsError: u32(refusal) });
+      throw Object.assign(error, { adsError: u32(adsErrorAt) });
     }
     const given = Object.fromEntries(numbers(out, 10).map((value, n) => [NUMBERS[n], value]));
     return [
@@ -365,7 +365,7 @@ export function dispatch(received) {
 
 const GROUP = ['task', 'access', 'addressing', 'table', 'objectClass', 'attribute'];
 
-/** The parts of an index group in words; null for one that is not documented. */
+/** Parses an index group; null if it is not documented. */
 export const groupParts = (indexGroup) =>
   begin(() => {
     const at = room(52);
@@ -392,7 +392,7 @@ export const axisAndElement = (offset, stride = 0x10000) =>
     return numbers(out, 2);
   });
 
-/** Takes the name of a variable apart. */
+/** Parses the name of a variable. */
 export function path(name) {
   const data = textToCp1252(name);
   const all = begin(() => {
@@ -423,7 +423,7 @@ function putFrame(it) {
   return at;
 }
 
-/** The frame of a request. An end is a NetId and a port: ['192.0.2.7.1.1', 552]. */
+/** Creates the frame of a request. An address is a NetId and a port: ['192.0.2.7.1.1', 552]. */
 export const frameOfCall = (it, targetNetId, source, invokeId) => ({
   target: [targetNetId, it.port],
   source,
@@ -434,7 +434,7 @@ export const frameOfCall = (it, targetNetId, source, invokeId) => ({
   data: begin(() => sized(64 + it.data.length, 'call_write', putCall(it))),
 });
 
-/** The call of a request's frame. */
+/** Decodes the call in the frame of a request. */
 export const callOfFrame = (frame) =>
   begin(() => {
     const at = putFrame(frame),
@@ -443,11 +443,11 @@ export const callOfFrame = (frame) =>
     return callAt(out);
   });
 
-/** The bytes of a frame, with both lengths. */
+/** Encodes a frame, including both lengths. */
 export const encodeFrame = (frame) =>
   begin(() => sized(38 + frame.data.length, 'frame_write', putFrame(frame)));
 
-/** The frame at the front of what was received, and its length; null if bytes are missing. */
+/** Decodes the first received frame, and returns its length; null if the frame is not complete yet. */
 export const readFrame = (received, maxData = 0x400000) =>
   begin(() => {
     const at = put(received),
@@ -490,7 +490,7 @@ function typeOf(type) {
   const it = TYPES.find(
     (one) => [one.name, one.objectName].includes(type) || (one.code && one.code === type),
   );
-  if (!it) throw new TypeError(`${type} is no type`);
+  if (!it) throw new TypeError(`no such type: ${type}`);
   return it;
 }
 
@@ -503,14 +503,14 @@ function nested(items, dimensions) {
   );
 }
 
-/** A value by its type, which is a name or the code of a description; of arrays, nested arrays. */
+/** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. */
 export function unpack(type, data, dimensions = []) {
   const it = typeOf(type),
     count = dimensions.reduce((product, one) => product * one, 1);
   const size = it.size || (dimensions.length ? Math.floor(data.length / Math.max(count, 1)) : data.length);
   if (size * count !== data.length || (count && !size && dimensions.length)) {
     throw new RangeError(
-      `${it.name}: ${count} elements of ${size} bytes expected, ${data.length} bytes found`,
+      `${it.name}: expected ${count} elements of ${size} bytes, found ${data.length} bytes`,
     );
   }
   const get = `get${GETTERS[it.kind](size)}`;
@@ -525,7 +525,7 @@ export function unpack(type, data, dimensions = []) {
   );
 }
 
-/** The bytes of a value, the reverse of `unpack`. A text is ended by a NUL; texts in an array need bytes. */
+/** Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes. */
 export function pack(type, value) {
   const it = typeOf(type);
   if (value instanceof Uint8Array) return value;
@@ -535,14 +535,14 @@ export function pack(type, value) {
     name = GETTERS[it.kind](it.size);
   dataView(data)[`set${name}`](0, it.size > 4 && it.kind < 3 ? BigInt(value) : Number(value), true);
   const back = dataView(data)[`get${name}`](0, true);
-  // A float is rounded; whatever else does not come back does not fit.
+  // A float may be rounded; any other value must be unchanged when it is read back.
   if (it.kind < 3 && String(back) !== String(it.kind ? value : Number(value))) {
     throw new RangeError(`${it.name}: ${value} does not fit`);
   }
   return data;
 }
 
-// The state machines, whose memory is put at the same place for every call.
+// The state machines. Every call copies their memory to the same address.
 
 class Machine {
   #memory;
@@ -552,7 +552,7 @@ class Machine {
     [this.#kept, this.#memory] = [kept, new Uint8Array(size)];
   }
 
-  /** Gives the addresses of what is kept and of the machine. */
+  /** Returns the addresses of the kept data and of the machine. */
   use(work) {
     return begin(() => {
       const kept = put(this.#kept),
@@ -569,7 +569,7 @@ class Machine {
 export const BUSY = 1,
   REJECTED = 2;
 
-/** Sends an NC program: hands out packets to write by `writeProgramStream`, and takes what became of them. */
+/** Sends an NC program: returns packets to write by `writeProgramStream`, and accepts the results. */
 export class Sender {
   #it;
 
@@ -578,7 +578,7 @@ export class Sender {
     this.#it.use((at, kept) => call('sender_start', at, kept, program.length));
   }
 
-  /** The packet to write now; null if none is left. */
+  /** The packet to write now; null if no packet is left. */
   packet() {
     return this.#it.use((at) => {
       const out = room(8);
@@ -586,7 +586,7 @@ export class Sender {
     });
   }
 
-  /** What the CNC answered: an ADS result, or null if the answer was lost. Gives 0, BUSY or REJECTED. */
+  /** Reports the ADS result of the write, or null if the reply was lost. Returns 0, BUSY or REJECTED. */
   acknowledge(adsError) {
     const number = adsError === null ? REJECTED : codec.ads_cnc_acknowledgement(adsError);
     if (!this.#it.use((at) => codec.ads_cnc_sender_acknowledge(at, number)))
@@ -604,7 +604,7 @@ export class Sender {
   }
 }
 
-/** Hosts services of one channel: gives the variable to read or write next. */
+/** Hosts the services of a channel: returns the variable to read or write next. */
 export class Host {
   #it;
 
@@ -621,7 +621,7 @@ export class Host {
     this.#it.use((at, kept) => call('host_start', at, kept, services.length));
   }
 
-  /** What to do next; the same until it is done. */
+  /** The next step. Returns the same step until its completion is reported. */
   step() {
     const [kind, service, requestState, variable, data] = this.#it.use((at) => {
       const out = room(28);
@@ -634,12 +634,12 @@ export class Host {
     return { kind: 'serve', service, request: textFromCp1252(data), requestState };
   }
 
-  /** The value that was read. */
+  /** Reports the value that was read. */
   read(value) {
     this.#it.use((at) => call('host_read', at, put(value), value.length));
   }
 
-  /** The response to the request, and its state, not 0. */
+  /** Answers the request. The state must not be 0. */
   answer(response, state) {
     const data = textToCp1252(response);
     this.#it.use((at) => call('host_answer', at, put(data), data.length, state));
@@ -662,7 +662,7 @@ export class Host {
     this.#event(3);
   }
 
-  /** What became of the last answer: 'answered' or 'abandoned'. */
+  /** The outcome of the last answer: 'answered' or 'abandoned'. */
   get outcome() {
     return [null, 'answered', 'abandoned'][this.#it.use((at) => codec.ads_cnc_host_outcome(at))];
   }

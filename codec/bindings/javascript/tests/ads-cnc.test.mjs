@@ -1,4 +1,4 @@
-// What the package makes of the codec: requests, values, errors, and the side of a server.
+// The package: requests, values, errors, and dispatch for servers.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -88,9 +88,9 @@ test('wrong arguments are named', () => {
   assert.throws(() => cnc.readByName(1, 'V.E.Ω'), /text: text at offset 4: not in CP1252/);
   assert.throws(
     () => cnc.countDynamic(1, 'Q'),
-    /call: kind at offset 0: an argument the function does not take/,
+    /call: kind at offset 0: argument not accepted by the function/,
   );
-  assert.throws(() => cnc.readByName(-1, 'a'), /channel: -1 is no unsigned number of 32 bits/);
+  assert.throws(() => cnc.readByName(-1, 'a'), /channel: -1 is not an unsigned number of 32 bits/);
   assert.throws(() => cnc.writeByName(1, 'a', 1), /value: bytes expected/);
 });
 
@@ -104,7 +104,7 @@ test('an error has stream, field and offset', () => {
     kind: 'truncated',
   });
   assert.throws(cut, cnc.AdsCncError);
-  assert.throws(() => cnc.decode('nothing', bytes()), /nothing is no stream/);
+  assert.throws(() => cnc.decode('nothing', bytes()), /no such stream: nothing/);
 });
 
 test('values are encoded as they were decoded', () => {
@@ -120,10 +120,10 @@ test('values are encoded as they were decoded', () => {
   ]) {
     assert.deepEqual(cnc.encode(stream, cnc.decode(stream, data)), data, stream);
   }
-  assert.throws(() => cnc.encode('element-write-flag', 256), /flag: 256 is no number of 1 bytes/);
+  assert.throws(() => cnc.encode('element-write-flag', 256), /flag: 256 does not fit a number of 1 bytes/);
 });
 
-test('long lists and contents are whole', () => {
+test('long lists and contents are not truncated', () => {
   const indices = Array.from({ length: 510 }, (_, n) => n);
   const data = cnc.encode('variable-handle-read', { handle: 4, indices });
   assert.deepEqual(cnc.decode('variable-handle-read', data).indices, indices);
@@ -155,7 +155,7 @@ test('values are read by their types', () => {
   assert.throws(() => cnc.unpack(77, bytes(0)), TypeError);
 });
 
-test('addresses and names are taken apart', () => {
+test('addresses and names are parsed', () => {
   const { objectClass, attribute, table, instance } = cnc.groupParts(0x122301);
   assert.deepEqual([objectClass, attribute, table, instance], ['decoder', 'content', '', 1]);
   assert.equal(cnc.groupParts(0x133301), null);
@@ -169,7 +169,7 @@ test('addresses and names are taken apart', () => {
   assert.throws(() => cnc.path('V.G..a'), /variable-path: part/);
 });
 
-test('a server answers a call, or with a number', () => {
+test('a server answers a call with data or an ADS error', () => {
   const call = {
     port: 552,
     command: 9,
@@ -230,7 +230,7 @@ test('a request is served', () => {
   assert.throws(() => new cnc.Host(['no UUID']), cnc.AdsCncError);
 });
 
-test('the document is true', async () => {
+test('the example of the README prints its comments', async () => {
   const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8'),
     shown = [];
   const [, code] = readme.match(/```js\n([^]*?)```/);

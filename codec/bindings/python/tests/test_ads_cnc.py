@@ -1,4 +1,4 @@
-"""What the package makes of the library: requests, values, errors, and the side of a server."""
+"""The package: requests, values, errors, and dispatch for servers."""
 
 import doctest
 import pathlib
@@ -72,9 +72,9 @@ class Requests(unittest.TestCase):
             (lambda: ads_cnc.read_by_name(1, "V.E.Ω"), "text: text at offset 4: not in CP1252"),
             (
                 lambda: ads_cnc.count_dynamic(1, "Q"),
-                "call: kind at offset 0: an argument the function does not take",
+                "call: kind at offset 0: argument not accepted by the function",
             ),
-            (lambda: ads_cnc.read_by_name(-1, "a"), "channel: -1 is no unsigned number of 32 bits"),
+            (lambda: ads_cnc.read_by_name(-1, "a"), "channel: -1 is not an unsigned number of 32 bits"),
         ):
             with self.assertRaisesRegex(ValueError, error):
                 call()
@@ -106,10 +106,10 @@ class Streams(unittest.TestCase):
             self.assertEqual(ads_cnc.encode(stream, ads_cnc.decode(stream, data)), data, stream)
         record = {"handle": 4, "indices": [1, 2]}
         self.assertEqual(ads_cnc.encode("variable-handle-read", record)[4:8], b"\2\0\0\0")
-        with self.assertRaisesRegex(ValueError, "flag: 256 is no number of 1 bytes"):
+        with self.assertRaisesRegex(ValueError, "flag: 256 does not fit a number of 1 bytes"):
             ads_cnc.encode("element-write-flag", 256)
 
-    def test_long_lists_are_whole(self):
+    def test_long_lists_are_not_truncated(self):
         data = ads_cnc.encode("variable-handle-read", {"handle": 4, "indices": list(range(510))})
         self.assertEqual(ads_cnc.decode("variable-handle-read", data).indices, list(range(510)))
         content = bytes(100_000)
@@ -136,7 +136,7 @@ class Streams(unittest.TestCase):
 
 
 class Addresses(unittest.TestCase):
-    def test_they_are_taken_apart(self):
+    def test_names_and_addresses_are_parsed(self):
         self.assertEqual(
             ads_cnc.group_parts(0x122301),
             ads_cnc.Group("SDA/GEO", "element", "logical", "", "decoder", "content", 1),
@@ -158,7 +158,7 @@ class Servers(unittest.TestCase):
         )
         self.assertEqual(received.reply(33554436), b"\4\0\0\2")
 
-    def test_a_refusal_has_the_number_to_answer_with(self):
+    def test_a_dispatch_error_has_an_ads_error_number(self):
         with self.assertRaises(ads_cnc.AdsCncError) as raised:
             ads_cnc.dispatch(ads_cnc.Call(552, 9, 0x122301, 0x4E, 4, b""))
         self.assertEqual(raised.exception.ads_error, 0x703)
@@ -173,21 +173,21 @@ class Servers(unittest.TestCase):
 
 
 class Limits(unittest.TestCase):
-    """What the README says of those who try."""
+    """The limits that the README lists."""
 
-    def test_sum_commands_are_refused(self):
+    def test_sum_commands_are_rejected(self):
         with self.assertRaises(ads_cnc.AdsCncError) as raised:
             ads_cnc.dispatch(ads_cnc.Call(552, 9, 0xF080, 2, 16, bytes(24)))
         self.assertEqual(raised.exception.ads_error, 0x702)
 
-    def test_notifications_are_no_calls(self):
+    def test_notifications_are_not_calls(self):
         for command in (6, 7, 8):
             ends = ("192.0.2.7.1.1", 552), ("192.0.2.1.1.1", 0x8001)
             frame = ads_cnc.Frame(*ends, command, 4, 0, 1, bytes(40))
             with self.assertRaisesRegex(ads_cnc.AdsCncError, "call: command"):
                 frame.call()
 
-    def test_tls_is_no_frame(self):
+    def test_tls_is_not_a_frame(self):
         with self.assertRaisesRegex(ads_cnc.AdsCncError, "ams-tcp-header: reserved at offset 0: mismatch"):
             ads_cnc.read_frame(b"\x16\x03\x01\x02\x00\x01")
 
@@ -226,7 +226,7 @@ class Machines(unittest.TestCase):
 
 
 class Documents(unittest.TestCase):
-    def test_what_is_shown_is_true(self):
+    def test_examples_print_their_comments(self):
         self.assertEqual(doctest.testmod(ads_cnc).failed, 0)
         readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
         shown = []

@@ -1,4 +1,4 @@
-//! An allocator that gives out a block from front to back and takes nothing back.
+//! A bump allocator: allocates from the front of a block and never frees.
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::cell::UnsafeCell;
@@ -11,10 +11,10 @@ struct Bump {
     used: AtomicUsize,
 }
 
-// SAFETY: `used` gives every byte of the block out once.
+// SAFETY: `used` ensures that every byte of the block is allocated only once.
 unsafe impl Sync for Bump {}
 
-// SAFETY: what is given out lies in the block, aligned, and in nothing given out before.
+// SAFETY: every allocation is aligned, within the block, and disjoint from earlier ones.
 unsafe impl GlobalAlloc for Bump {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let reach = layout.size() + layout.align();

@@ -1,4 +1,4 @@
-//! A program without std that decodes, dispatches and encodes. It exits with 0 if all went well.
+//! A program without std that decodes, dispatches and encodes. It exits with 0 on success.
 
 #![no_std]
 #![no_main]
@@ -17,7 +17,7 @@ mod bump;
 mod everything;
 mod memory;
 
-// The kernel enters with a stack that calls have to find aligned.
+// The kernel does not align the stack as calls require.
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
 
 extern "C" fn main() -> ! {
@@ -63,7 +63,7 @@ fn prove() -> Result<bool, Error> {
     Ok(good)
 }
 
-/// Keeps the compiler from reading the bytes itself.
+/// Prevents the compiler from evaluating the bytes.
 fn opaque(bytes: &[u8]) -> &[u8] {
     core::hint::black_box(bytes)
 }
@@ -81,7 +81,7 @@ unsafe extern "C" {
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
     #[cfg(feature = "no_panic")]
-    // SAFETY: never runs, as a program that could run it does not link.
+    // SAFETY: never runs, because a program that could run it does not link.
     unsafe {
         a_panic_is_left_in_the_codec()
     }

@@ -1,4 +1,4 @@
-//! What is generic, with the types it is used with, and iterators that have no name, to their end.
+//! Generic functions with the types that they are used with, and unnamed iterators, run to their end.
 
 pub(crate) mod views {
     use ads_cnc::{CncStr, DescriptorRef, DescriptorsRef, U32List};

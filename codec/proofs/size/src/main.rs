@@ -1,5 +1,5 @@
-//! Keeps functions of the codec in a program, each as if somebody called it, and does nothing else:
-//! what it weighs is theirs. Which ones, the script beside this crate writes.
+//! Keeps functions of the codec in a program as if they were called, and does nothing else, so that the size of
+//! the program is theirs. The script `run` generates the list of functions.
 
 #![no_std]
 #![no_main]
@@ -18,10 +18,10 @@ mod memory;
 /// The address of a function.
 struct Kept(#[allow(dead_code, reason = "the linker follows it")] *const ());
 
-// SAFETY: nobody goes to the address.
+// SAFETY: the address is never dereferenced.
 unsafe impl Sync for Kept {}
 
-/// Keeps functions, their addresses apart from what is weighed.
+/// Keeps functions. Their addresses are in a section that is not measured.
 macro_rules! keep {
     ($( $function:expr ),* $(,)?) => {
         #[unsafe(link_section = ".kept")]
@@ -32,7 +32,7 @@ macro_rules! keep {
 
 use keep;
 
-/// What is kept by its path.
+/// The functions that are kept by their paths.
 mod kept {
     #![allow(unused_imports, reason = "not every program keeps all of it")]
     use ads_cnc::operation::Operation;

@@ -1,4 +1,4 @@
-//! Building names.
+//! Building names of variables.
 
 use super::super::{Kind, U32List};
 use super::{PathPart, VariablePath, scan};
@@ -8,8 +8,8 @@ use crate::layout::Subject;
 use crate::layout::variable_path::{INDEX, KIND, PART};
 use crate::text::CncStr;
 
-/// Each writes a name that [`VariablePath::from_text`] parses into the same parts.
-/// [`NAME_MAX`](crate::limits::NAME_MAX) bytes of buffer are always enough.
+/// Building names. [`VariablePath::from_text`] parses each result into the same parts. A buffer of
+/// [`NAME_MAX`](crate::limits::NAME_MAX) bytes is always large enough.
 impl<'a> VariablePath<'a> {
     /// Builds a name from its parts.
     ///
@@ -25,8 +25,8 @@ impl<'a> VariablePath<'a> {
     /// ```
     ///
     /// # Errors
-    /// A kind, a part's name, an index or a length that [`new`](Self::new) would reject, no part,
-    /// or a buffer that is too small; nothing is written.
+    /// A kind, name of a part, index or length that [`new`](Self::new) would reject, a name without
+    /// parts, or a buffer that is too small. Nothing is written then.
     pub fn write<'p, P>(kind: Kind<'_>, parts: P, buf: &'a mut [u8]) -> Result<Self, Error>
     where
         P: IntoIterator<Item = PathPart<'p>, IntoIter: Clone>,
@@ -49,7 +49,7 @@ impl<'a> VariablePath<'a> {
         Ok(Self { text: CncStr::without_nul(bytes), kind_end, variable_end })
     }
 
-    /// The name of an element of this array: the name with indices at its end.
+    /// Builds the name of an element of this array: the name with indices at its end.
     ///
     /// ```
     /// use ads_cnc::{U32List, VariablePath};
@@ -61,8 +61,8 @@ impl<'a> VariablePath<'a> {
     /// ```
     ///
     /// # Errors
-    /// As [`write`](Self::write); [`ErrorKind::Unexpected`] for a name that has indices at its end
-    /// already: see [`variable`](Self::variable).
+    /// Those of [`write`](Self::write); [`ErrorKind::Unexpected`] for a name that already ends in
+    /// indices: see [`variable`](Self::variable).
     pub fn write_element<'b>(
         &self,
         indices: U32List<'_>,
@@ -80,10 +80,10 @@ impl<'a> VariablePath<'a> {
         VariablePath::write(self.kind(), parts, buf)
     }
 
-    /// Converts a name of the axis interface to the name on the channel interface, by appending the
-    /// axis's instance identifier.
+    /// Converts a name for the axis interface to the name for the channel interface, by appending the
+    /// instance identifier of the axis.
     ///
-    /// Indices at the end stay there, after the axis: their position is not documented.
+    /// Indices at the end stay at the end, after the axis. Their position is not documented.
     ///
     /// ```
     /// use ads_cnc::{CncStr, VariablePath};
@@ -96,7 +96,7 @@ impl<'a> VariablePath<'a> {
     /// ```
     ///
     /// # Errors
-    /// As [`write`](Self::write); [`ErrorKind::Unexpected`] for another kind than V.A.
+    /// Those of [`write`](Self::write); [`ErrorKind::Unexpected`] for a kind other than V.A.
     pub fn write_axis<'b>(
         &self,
         axis: CncStr<'_>,
@@ -108,8 +108,9 @@ impl<'a> VariablePath<'a> {
         VariablePath::write(self.kind(), parts.parts().chain([axis]), buf)
     }
 
-    /// The name on the axis interface of a variable of the channel interface: without the part
-    /// that [`axis`](Self::axis) gives. Undoes [`write_axis`](Self::write_axis).
+    /// Converts a name for the channel interface to the name for the axis interface, by removing the
+    /// part that [`axis`](Self::axis) returns. This is the inverse of
+    /// [`write_axis`](Self::write_axis).
     ///
     /// ```
     /// use ads_cnc::VariablePath;
@@ -121,8 +122,8 @@ impl<'a> VariablePath<'a> {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Unexpected`] for another kind than V.A, [`ErrorKind::Missing`] for a name
-    /// without an axis, or a buffer that is too small.
+    /// [`ErrorKind::Unexpected`] for a kind other than V.A, [`ErrorKind::Missing`] for a name without
+    /// an axis, or a buffer that is too small.
     pub fn write_without_axis<'b>(&self, buf: &'b mut [u8]) -> Result<VariablePath<'b>, Error> {
         self.check_axis()?;
         let axis = self.variable().text.raw();
@@ -147,7 +148,7 @@ impl<'a> VariablePath<'a> {
         if kind == Kind::V_A.text() {
             return Ok(());
         }
-        // The first character that differs; every kind has at least three.
+        // Find the first character that differs; every kind has at least three.
         let mut wanted = Kind::V_A.text().chars();
         let other = (0_u32..).zip(kind.chars()).find(|&(_, there)| wanted.next() != Some(there));
         let (at, there) = other.map_or((0, 0), |(at, there)| (at, u32::from(there)));
@@ -155,7 +156,7 @@ impl<'a> VariablePath<'a> {
     }
 }
 
-/// Checks a part that begins after `before` characters; returns where its indices begin and end.
+/// Checks a part that begins after `before` characters; returns the start and the end of its indices.
 fn check_part(part: PathPart<'_>, before: usize) -> Result<(usize, usize), Error> {
     let start = before.saturating_add(1);
     scan::part(part.name, start)?;
@@ -200,9 +201,9 @@ mod owned {
     use crate::limits::NAME_MAX;
     use crate::text::CncString;
 
-    /// Names in a string of their own.
+    /// Building names as owned strings.
     impl VariablePath<'_> {
-        /// As [`write_element`](Self::write_element).
+        /// Like [`write_element`](Self::write_element), as an owned string.
         ///
         /// ```
         /// use ads_cnc::{U32List, VariablePath};
@@ -218,7 +219,7 @@ mod owned {
             Ok(self.write_element(indices, &mut [0; NAME_MAX])?.text().into())
         }
 
-        /// As [`write_axis`](Self::write_axis).
+        /// Like [`write_axis`](Self::write_axis), as an owned string.
         ///
         /// ```
         /// use ads_cnc::{CncStr, VariablePath};
@@ -234,7 +235,7 @@ mod owned {
             Ok(self.write_axis(axis, &mut [0; NAME_MAX])?.text().into())
         }
 
-        /// As [`write_without_axis`](Self::write_without_axis).
+        /// Like [`write_without_axis`](Self::write_without_axis), as an owned string.
         ///
         /// ```
         /// use ads_cnc::VariablePath;

@@ -1,4 +1,4 @@
-//! Names of variables, by their parts (VAR-20).
+//! Names of variables and their parts (VAR-20).
 
 mod build;
 mod part;
@@ -13,31 +13,31 @@ use super::{Kind, U32List};
 use crate::error::Error;
 use crate::text::CncStr;
 
-/// The largest index: one less than the most elements that an UNS32 can count (VAR-2).
+/// The largest index: one less than the maximum number of elements in an UNS32 (VAR-2).
 const INDEX_MAX: u32 = u32::MAX - 1;
 
-// A name cannot have more indices than the header of a handle.
+// A name cannot have more indices than a request by handle.
 const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICES_MAX);
 
-/// A variable's name: its kind, the parts with their indices, the element it selects.
+/// The name of a variable: its kind, its parts with their indices, and the indices of an element.
 ///
-/// | in `V.G.NP[0].V[1]` | | |
+/// | part of `V.G.NP[0].V[1]` | meaning | method |
 /// |---|---|---|
 /// | `V.G` | kind | [`kind`](Self::kind) |
-/// | `NP[0]` | structure with its index, part of the path | [`parts`](Self::parts) |
-/// | `V` | the variable in it, an array | [`parts`](Self::parts) |
+/// | `NP[0]` | structure with its index; belongs to the path | [`parts`](Self::parts) |
+/// | `V` | the variable in the structure, an array | [`parts`](Self::parts) |
 /// | `[1]` | element of the array | [`elements`](Self::elements) |
-/// | `V.G.NP[0].V` | name of the whole array, which its description has too | [`variable`](Self::variable) |
+/// | `V.G.NP[0].V` | name of the whole array, as in its description | [`variable`](Self::variable) |
 ///
-/// Indices before a dot belong to the path, those at the end select an element: derived from the
-/// examples. Assumed is
-/// - that more dimensions are written `[i][j]`,
-/// - that a kind is `V.` and one part, which need not be documented,
-/// - that a part is any CP1252 text without `.`, `[`, `]` and NUL, and has a character at least,
-/// - that an index is one or more decimal digits and nothing else.
+/// Indices before a dot belong to the path; indices at the end select an element. This is derived from
+/// the examples. The following is assumed:
+/// - Several dimensions are written `[i][j]`.
+/// - A kind is `V.` and one part, which need not be documented.
+/// - A part is any CP1252 text of at least one character, without `.`, `[`, `]` and NUL.
+/// - An index consists of one or more decimal digits.
 ///
-/// Two names are equal if their characters are. A name does not tell whether the variable exists, nor
-/// whether it is an array: its description does.
+/// Two names are equal if their characters are equal. A name does not show whether the variable exists
+/// or is an array; its description does.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20); the axis: 4.1 and 4.2.2.
 ///
@@ -49,17 +49,17 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 /// assert_eq!(path.variable().text(), "V.G.NP[0].V");
 /// assert_eq!(path.elements(), U32List::from(&[1]));
 ///
-/// // The same element by the array's handle.
+/// // Read the same element by the handle of the array.
 /// let by_handle = HandleReadRef { handle: Handle(0x2001234), indices: path.elements() };
 ///
-/// // And a name made of another.
+/// // Build a name from another one.
 /// let mut buf = [0; 32];
 /// let other = path.variable().write_element(U32List::from(&[4]), &mut buf)?;
 /// assert_eq!(other.text(), "V.G.NP[0].V[4]");
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 ///
-/// A range is not a name:
+/// A range is not a valid name:
 ///
 /// ```
 /// # use ads_cnc::VariablePath;
@@ -83,18 +83,18 @@ impl<'a> VariablePath<'a> {
     /// # Errors
     /// Offsets count characters.
     /// - Those of [`CncStr::new`].
-    /// - [`Unexpected`](crate::ErrorKind::Unexpected): an empty part, a double dot, a bracket or
-    ///   a character that a part must not have, text after a bracket, no kind.
+    /// - [`Unexpected`](crate::ErrorKind::Unexpected): an empty part, a double dot, a bracket or another
+    ///   character that a part must not contain, text after a bracket, or no kind.
     /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, after a dot or in
     ///   a bracket.
-    /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index over 4 294 967 294; one over 32
-    ///   bits is shown as the largest of these.
+    /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index greater than 4 294 967 294; one
+    ///   that exceeds 32 bits is reported as 4 294 967 295.
     /// - [`TooLong`](crate::ErrorKind::TooLong): more than 255 characters (VAR-9).
     pub fn new(text: &'a str) -> Result<Self, Error> {
         Self::from_text(CncStr::new(text)?)
     }
 
-    /// As [`new`](Self::new), from CP1252.
+    /// Like [`new`](Self::new), but from CP1252 text.
     ///
     /// ```
     /// use ads_cnc::{Decode, VariableNameRef, VariablePath};
@@ -106,7 +106,7 @@ impl<'a> VariablePath<'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`new`](Self::new) but for CP1252.
+    /// Those of [`new`](Self::new), except those of [`CncStr::new`].
     pub fn from_text(text: CncStr<'a>) -> Result<Self, Error> {
         let scan::Ends { kind, variable } = scan::name(text)?;
         Ok(Self { text, kind_end: kind, variable_end: variable })
@@ -123,7 +123,7 @@ impl<'a> VariablePath<'a> {
         Kind::from_field(self.text.split_at(self.kind_end).0.into())
     }
 
-    /// The parts after the kind: structures, and last the variable in them. At least one.
+    /// The parts after the kind: any structures, then the variable. There is at least one part.
     ///
     /// ```
     /// use ads_cnc::{U32List, VariablePath};
@@ -143,16 +143,16 @@ impl<'a> VariablePath<'a> {
         U32List::from_name(self.text.split_at(self.variable_end).1.raw())
     }
 
-    /// The name without the indices at its end: that of the whole array, if it is one.
+    /// The name without the indices at its end: the name of the whole array, if the variable is one.
     pub fn variable(&self) -> Self {
         Self { text: self.text.split_at(self.variable_end).0, ..*self }
     }
 
-    /// The axis of a V.A name on the channel interface, by its instance identifier: the last part if the
-    /// name has two or more.
+    /// The instance identifier of the axis in a V.A name for the channel interface: the last part, if
+    /// the name has two or more parts.
     ///
-    /// Names on the axis interface have no axis: there the last part is the variable. The name itself does
-    /// not show for which interface it is.
+    /// A name for the axis interface does not contain the axis: its last part is the variable. A name
+    /// does not show which interface it is for.
     ///
     /// ```
     /// use ads_cnc::VariablePath;

@@ -5,7 +5,7 @@ use core::fmt;
 use super::super::U32List;
 use crate::text::CncStr;
 
-/// One part of a name: a structure or the variable, with its indices.
+/// A part of a name: a structure or the variable, with its indices.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20).
 ///
@@ -18,9 +18,9 @@ use crate::text::CncStr;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathPart<'a> {
-    /// The part's name.
+    /// The name of the part.
     pub name: CncStr<'a>,
-    /// Index in each dimension, from 0; of the last part they select the element.
+    /// Index in each dimension, from 0. The indices of the last part select an element.
     pub indices: U32List<'a>,
 }
 
@@ -31,7 +31,8 @@ impl fmt::Display for PathPart<'_> {
     }
 }
 
-/// The parts of a name after its kind: see [`VariablePath::parts`](super::VariablePath::parts).
+/// An iterator over the parts of a name after its kind: see
+/// [`VariablePath::parts`](super::VariablePath::parts).
 ///
 /// ```
 /// use ads_cnc::VariablePath;
@@ -46,7 +47,7 @@ impl fmt::Display for PathPart<'_> {
 pub struct PathParts<'a>(CncStr<'a>);
 
 impl<'a> PathParts<'a> {
-    /// The text after the kind of a name that was checked.
+    /// The text after the kind, in a checked name.
     pub(super) const fn new(rest: CncStr<'a>) -> Self {
         Self(rest)
     }
@@ -60,7 +61,7 @@ impl<'a> Iterator for PathParts<'a> {
             let raw = text.raw();
             raw.iter().position(|&byte| byte == wanted).unwrap_or(raw.len())
         };
-        // Skips the dot, which only the last part lacks.
+        // Skip the dot, which follows every part but the last.
         let (dot, rest) = self.0.split_at(1);
         if dot.is_empty() {
             return None;

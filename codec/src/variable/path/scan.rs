@@ -39,14 +39,14 @@ pub(super) fn kind(text: CncStr<'_>) -> Result<(), Error> {
     scan.end(KIND)
 }
 
-/// Checks the name of a part, which follows `before` characters.
+/// Checks the name of a part that begins after `before` characters.
 pub(super) fn part(text: CncStr<'_>, before: usize) -> Result<(), Error> {
     let mut scan = Scan { text, before, at: 0 };
     scan.part(PART)?;
     scan.end(PART)
 }
 
-/// Checks an index whose digits follow `before` characters.
+/// Checks an index whose digits begin after `before` characters.
 pub(super) fn index(index: u32, before: usize) -> Result<(), Error> {
     if index <= INDEX_MAX {
         return Ok(());
@@ -63,14 +63,15 @@ pub(super) fn check_len(len: usize) -> Result<(), Error> {
     Err(Error::new(ErrorKind::TooLong, whole, max, max, to_u32(len)))
 }
 
-/// The characters that end a part's name. ASCII, so that it is one byte in CP1252 and in UTF-8 alike.
+/// Whether the character ends the name of a part. These are ASCII, so they have one byte in CP1252 and
+/// UTF-8.
 const fn is_syntax(byte: u8) -> bool {
     matches!(byte, b'.' | b'[' | b']')
 }
 
 struct Scan<'a> {
     text: CncStr<'a>,
-    /// Characters before the text.
+    /// The number of characters before the text.
     before: usize,
     /// Offset in [`CncStr::raw`].
     at: usize,
@@ -112,14 +113,14 @@ impl Scan<'_> {
         if self.next().is_some() { Err(self.fault(field)) } else { Ok(()) }
     }
 
-    /// `V.` and a part without index.
+    /// `V.` and a part without indices.
     fn kind(&mut self) -> Result<(), Error> {
         self.expect(b'V', KIND)?;
         self.expect(b'.', KIND)?;
         self.part(KIND)
     }
 
-    /// One character or more.
+    /// One or more characters.
     fn part(&mut self, field: Field) -> Result<(), Error> {
         if self.next().is_none_or(is_syntax) {
             return Err(self.fault(field));

@@ -1,5 +1,5 @@
-//! Every public function by its path, with arguments that the compiler does not know. reached.py
-//! holds the paths against the list of the public API.
+//! Calls every public function by its path, with arguments that the compiler does not know. reached.py
+//! compares the paths with the list of the public API.
 
 mod address;
 mod machines;
@@ -15,17 +15,17 @@ use ads_cnc::CncStr;
 /// Room for any variable.
 const ROOM: usize = 2200;
 
-/// What the compiler does not know to be this.
+/// A value that the compiler cannot predict.
 fn any<T>(value: T) -> T {
     black_box(value)
 }
 
-/// What the compiler has to work out.
+/// A value that the compiler must compute.
 fn seen<T>(value: T) {
     black_box(&value);
 }
 
-/// Text of the bytes, if they are some; else what the compiler does not know to be this.
+/// The text of the bytes, if they are valid; otherwise a text that the compiler cannot predict.
 fn text<'a>(bytes: &'a [u8], other: &'a str) -> &'a str {
     core::str::from_utf8(bytes).ok().filter(|text| !text.starts_with('\0')).unwrap_or(any(other))
 }
@@ -34,7 +34,7 @@ fn cnc(bytes: &[u8]) -> CncStr<'_> {
     CncStr::from_bytes(bytes).unwrap_or(CncStr::EMPTY)
 }
 
-/// Runs all of it; what comes of it does not matter.
+/// Runs everything and ignores the results.
 pub(crate) fn runs(bytes: &[u8]) {
     seen(streams::runs(bytes));
     seen(streams::tables(bytes));

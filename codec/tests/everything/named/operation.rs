@@ -1,4 +1,4 @@
-//! Operations as a client makes them, and what the table says of functions.
+//! Operations of a client, and the table of functions.
 
 use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::operation::{Request, Service, Task};
@@ -6,7 +6,7 @@ use ads_cnc::*;
 
 use super::{ROOM, any, seen, text};
 
-/// What a client asks, what a server makes of it, and of any answer.
+/// The request of a client, its dispatch by a server, and any reply.
 fn ask<'a, T: operation::Operation + Into<Request<'a>>>(
     op: Result<T, Error>,
     bytes: &[u8],

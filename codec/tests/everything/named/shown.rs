@@ -1,5 +1,5 @@
-//! What is written for people, into nothing. Not what shows while debugging: core writes that, and
-//! keeps a panic in it for text.
+//! Formats all types with `Display`, and discards the text. `Debug` is excluded, because its code in
+//! core contains a panic for texts.
 
 use core::fmt::{self, Display, Write as _};
 

@@ -72,7 +72,7 @@ fn a_program_is_sent_in_packets() {
         assert!(ads_cnc_sender_start(&mut sender, program.as_ptr(), 17, null_mut()));
         assert!(!ads_cnc_sender_acknowledge(&mut sender, 0), "no packet is in flight");
         for acknowledgement in [1, 0] {
-            // Moving it moves nothing that it points to.
+            // A sender has no pointer into itself, so it may be moved.
             let mut moved = core::ptr::read(&sender);
             assert!(ads_cnc_sender_packet(&mut moved, &mut packet));
             assert_eq!(packet.get().unwrap_or_default(), b"N10 G0 X0\r\nN20 M30\r\n");

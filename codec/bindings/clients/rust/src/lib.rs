@@ -18,7 +18,7 @@ pub trait Transport {
     fn send(&self, call: Call<'_>) -> impl Future<Output = Result<Vec<u8>>>;
 }
 
-/// Sends an operation; `decode_reply` reads what comes back.
+/// Sends an operation and returns the data of its reply, for `decode_reply`.
 async fn send(cnc: &impl Transport, operation: &impl Operation) -> Result<Vec<u8>> {
     let mut data = vec![0; operation.encoded_len()];
     cnc.send(operation.call(&mut data)?).await
@@ -32,7 +32,7 @@ where
     Ok(operation.decode_reply(&reply)?.text.to_string())
 }
 
-/// A value as JSON: an array in as many levels as it has dimensions.
+/// Converts a value to JSON: one level of arrays for each dimension.
 fn to_json(elements: &Elements<'_>) -> Result<Value> {
     fn nested(values: &[Value], dimensions: &[u32]) -> Value {
         let Some((_, inner)) = dimensions.split_first() else { return values[0].clone() };
@@ -76,7 +76,7 @@ async fn write(cnc: &impl Transport, channel: Channel, name: &str, value: &Value
 pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let channel = Channel::new(1)?;
 
-    // The variables, by their index. Over tokio all requests are sent at once.
+    // The variables, by index. Over tokio, all requests are sent at once.
     let count = CountVariables::new(channel, Kind::V_E);
     let number = count.decode_reply(&send(cnc, &count).await?)?.0;
     let listed = try_join_all((0..number).map(async |index| -> Result<Value> {
@@ -99,7 +99,7 @@ pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
         shown(&format!("{name}, written"), &read(cnc, channel, name).await?, &value[1])?;
     }
 
-    // An element of SDA, by its name: the instance of the class, then the names of its elements.
+    // An element of SDA, by name: first the instance of the class, then the names of its elements.
     let find = FindInstance::new(Class::Hld, 1, 0);
     let found = find.decode_reply(&send(cnc, &find).await?)?;
     let first = found.first_element()?.ok_or("no HLD")?;
@@ -120,7 +120,7 @@ pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let number = error.downcast_ref::<AdsError>().map(|error| error.0);
     shown("V.E.nothing, ADS error", &json!(number), &json!(0x710))?;
 
-    // A reply is decoded in its received length: zeros up to the read length are an error.
+    // Decode only the received bytes: zeros up to the read length are an error.
     let describe = DescribeByIndex::new(channel, 0, Kind::V_E);
     let mut padded = send(cnc, &describe).await?;
     padded.resize(describe.read_length() as usize, 0);

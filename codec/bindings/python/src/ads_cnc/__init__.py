@@ -1,4 +1,4 @@
-"""The byte streams with which an ISG/TwinCAT CNC is read and written over ADS, over any transport.
+"""A codec for the byte streams that read and write an ISG/TwinCAT CNC over ADS, over any transport.
 
 >>> import ads_cnc
 >>> request = ads_cnc.read_by_name(1, "V.E.a")
@@ -7,7 +7,7 @@
 >>> ads_cnc.unpack("SGN32", request.decode(b"\\x7b\\0\\0\\0"))
 123
 
-The functions are those of the CNC, from `count_objects` to `write_object`; each returns a `Request`.
+Each function of the CNC, from `count_objects` to `write_object`, is a function that returns a `Request`.
 """
 
 from ._address import Frame, Group, Path, axis_and_element, axis_offset, group_parts, path, read_frame

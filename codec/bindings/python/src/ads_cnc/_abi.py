@@ -1,4 +1,4 @@
-"""The C library: its structs and calls, which ads_cnc.h documents."""
+"""The structs and calls of the C library. ads_cnc.h documents them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _FILES = {"win32": "ads_cnc.dll", "darwin": "libads_cnc.dylib"}
 _file = pathlib.Path(__file__).parent / _FILES.get(sys.platform, "libads_cnc.so")
 library = ctypes.CDLL(str(_file))
 if library.ads_cnc_abi() != ABI:
-    raise ImportError(f"{_file} has ABI {library.ads_cnc_abi()}, this package needs {ABI}")
+    raise ImportError(f"{_file} has ABI {library.ads_cnc_abi()}, but this package needs {ABI}")
 
 
 class Bytes(ctypes.Structure):

@@ -1,4 +1,4 @@
-"""Index groups, index offsets and names by their parts; AMS/TCP frames."""
+"""Index groups, index offsets and names, parsed into their parts; AMS/TCP frames."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ._codec import Call, call_of, invoke, sized, text_from_cp1252, text_to_cp12
 
 
 class Group(NamedTuple):
-    """An index group in words; those that it has not are empty."""
+    """The parts of an index group, as words; parts that a group does not have are empty."""
 
     task: str
     access: str
@@ -23,7 +23,7 @@ class Group(NamedTuple):
 
 
 def group_parts(index_group: int) -> Optional[Group]:
-    """The parts of an index group; None for one that is not documented."""
+    """Parses an index group; None if it is not documented."""
     it = _abi.Group()
     if not _abi.function("group")(UINT32(index_group), ctypes.byref(it)):
         return None
@@ -46,14 +46,14 @@ def axis_and_element(offset: int, stride: int = 0x10000) -> tuple[int, int]:
 
 
 class Path(NamedTuple):
-    """The name of a variable, by its parts: each a name and its indices."""
+    """The parts of the name of a variable: each has a name and indices."""
 
     kind: str
     parts: list[tuple[str, list[int]]]
 
 
 def path(name: str) -> Path:
-    """Takes the name of a variable apart."""
+    """Parses the name of a variable."""
     data, room, count = text_to_cp1252(name), 256, UINT32()
     array = (_abi.Field * room)()
     invoke("path", data, UINT32(len(data)), array, UINT32(room), ctypes.byref(count))
@@ -79,19 +79,19 @@ class Frame(NamedTuple):
 
     @classmethod
     def of_call(cls, call: Call, target: str, source: tuple[str, int], invoke_id: int) -> Frame:
-        """The frame of a request."""
+        """Creates the frame of a request."""
         it = call.c()
         data = sized("call_write", 64 + len(call.data), ctypes.byref(it))
         return cls((target, call.port), source, call.command, 4, 0, invoke_id, data)
 
     def call(self) -> Call:
-        """The call of a request's frame."""
+        """Decodes the call in the frame of a request."""
         it, call = self.c(), _abi.Call()
         invoke("call_read", ctypes.byref(it), ctypes.byref(call))
         return Call(*call_of(call))
 
     def encode(self) -> bytes:
-        """The bytes, with both lengths."""
+        """Encodes the frame, including both lengths."""
         it = self.c()
         return sized("frame_write", 38 + len(self.data), ctypes.byref(it))
 
@@ -103,7 +103,7 @@ class Frame(NamedTuple):
 
 
 def read_frame(received: bytes, max_data: int = 0x40_0000) -> Optional[tuple[Frame, int]]:
-    """The frame at the front of what was received and its length; None if bytes are missing."""
+    """Decodes the first received frame, and returns its length; None if the frame is not complete yet."""
     it, used = _abi.Frame(), UINT32()
     limits = (received, UINT32(len(received)), UINT32(max_data))
     invoke("frame_read", *limits, ctypes.byref(it), ctypes.byref(used))

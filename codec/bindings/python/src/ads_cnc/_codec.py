@@ -1,4 +1,4 @@
-"""What the functions and streams have in common; the tables are the library's."""
+"""Functions and streams in general; the library provides their tables."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from . import _abi
 from ._abi import UINT32
 
 T = TypeVar("T")
-# What a field may be written from.
+# The types that a field can be encoded from.
 Value = Union[int, float, str, bytes, Sequence[int]]
 
 
 class AdsCncError(ValueError):
-    """Bytes, or a value, that cannot be.
+    """The error for invalid bytes or values.
 
-    `stream` and `field` are names, `offset` is where the field begins in the stream; the meaning of
+    `stream` and `field` are names, `offset` is the offset of the field in the stream. The meaning of
     `expected` and `found` depends on `kind`.
     """
 
@@ -31,7 +31,7 @@ class AdsCncError(ValueError):
         self.offset: int = error.offset
         self.expected: int = error.expected
         self.found: int = error.found
-        # The number that a server returns; 0 for an error of a client.
+        # The ADS error number for the response of a server; 0 for a client.
         self.ads_error = 0
         numbers = f"expected {self.expected}, found {self.found}" if self.expected or self.found else ""
         place = ": ".join(part for part in (self.stream, self.field) if part)
@@ -47,7 +47,7 @@ def invoke(name: str, *arguments: Any) -> None:
 
 
 def sized(name: str, room: int, *arguments: Any) -> bytes:
-    """Calls a function that fills a buffer; gives it the room it asks for if this is too little."""
+    """Calls a function that fills a buffer. Repeats the call with a larger buffer if necessary."""
     while True:
         buffer, length, error = (ctypes.c_uint8 * room)(), UINT32(), _abi.Error()
         if _abi.function(name)(*arguments, buffer, UINT32(room), ctypes.byref(length), ctypes.byref(error)):
@@ -58,18 +58,18 @@ def sized(name: str, room: int, *arguments: Any) -> bytes:
 
 
 def text_from_cp1252(data: bytes) -> str:
-    """The text before the first NUL, or all."""
+    """Converts CP1252 to text, up to the first NUL or the end."""
     return sized("text_to_utf8", 3 * len(data), data, UINT32(len(data))).decode()
 
 
 def text_to_cp1252(text: str) -> bytes:
-    """The text without a NUL."""
+    """Converts a text to CP1252, without a NUL."""
     data = text.encode()
     return sized("text_from_utf8", len(data), data, UINT32(len(data)))
 
 
 class FieldInfo(NamedTuple):
-    """A row of a stream's table."""
+    """A row in the table of a stream."""
 
     name: str
     meaning: str
@@ -81,7 +81,7 @@ class FieldInfo(NamedTuple):
 
 
 class Stream(NamedTuple):
-    """A stream, by its table."""
+    """The table of a stream."""
 
     name: str
     title: str
@@ -184,13 +184,13 @@ def _fields(stream: Stream, data: bytes, name: str, *before: Any) -> list[Field]
 
 
 def fields(stream: str, data: bytes) -> list[Field]:
-    """The fields of a stream, with their bytes."""
+    """Splits a stream into its fields, with their bytes."""
     it = STREAMS[stream]
     return _fields(it, data, "decode", UINT32(it.number))
 
 
 def join(stream: str, parts: Sequence[tuple[str, bytes]]) -> bytes:
-    """A stream from the bytes of its fields, the reverse of `fields`. Counts may be left out."""
+    """Builds a stream from the bytes of its fields, the inverse of `fields`. Counts may be omitted."""
     it = STREAMS[stream]
     numbers = {row.name: at for at, row in enumerate(it.fields)}
     array = (_abi.Part * len(parts))(*(_abi.Part(numbers[name], 0, _some(data)) for name, data in parts))
@@ -202,7 +202,7 @@ _EMPTY = ctypes.create_string_buffer(1)
 
 
 def _some(data: bytes) -> _abi.Bytes:
-    """Not null, which would mean that the part is a number."""
+    """The bytes with a pointer that is not null; null would mean that the part is a number."""
     return _abi.lent(data) if data else _abi.Bytes(ctypes.cast(_EMPTY, ctypes.c_void_p), 0)
 
 
@@ -225,7 +225,7 @@ def _write(row: FieldInfo, value: Any) -> bytes:
         try:
             return int(value).to_bytes(row.size or 4, "little")
         except OverflowError:
-            raise ValueError(f"{row.name}: {value} is no number of {row.size or 4} bytes") from None
+            raise ValueError(f"{row.name}: {value} does not fit a number of {row.size or 4} bytes") from None
     if row.kind == 3:
         return struct.pack("<d", value)
     if row.kind == 4:
@@ -234,12 +234,12 @@ def _write(row: FieldInfo, value: Any) -> bytes:
     return bytes(map(int, value.split(".")))
 
 
-# The class of the records of a stream, filled in by the module that is generated.
+# The class of the records of each stream, filled in by the generated module.
 RECORDS: dict[str, Any] = {}
 
 
 def _value(stream: Stream, found: list[Field]) -> Any:
-    """The only field, or a record of them; None for a stream without bytes that could have some."""
+    """The only field, or a record of the fields; None for an empty stream that may also have bytes."""
     rows = [row for row in stream.fields if not row.is_count]
     kinds = {row.name: row for row in rows}
     records: list[dict[str, Any]] = []
@@ -260,12 +260,12 @@ def _value(stream: Stream, found: list[Field]) -> Any:
 
 
 def decode(stream: str, data: bytes) -> Any:
-    """The value of a stream: its only field, or a record; a list of records of a stream of such."""
+    """Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats."""
     return _value(STREAMS[stream], fields(stream, data))
 
 
 def encode(stream: str, value: Any) -> bytes:
-    """The bytes of a stream. A record is an object with its fields, or a dict; bytes stay as they are."""
+    """Encodes a stream. A record is an object with the fields, or a dict; bytes are written unchanged."""
     it = STREAMS[stream]
     rows = [row for row in it.fields if not row.is_count]
     parts: list[tuple[str, bytes]] = []
@@ -282,7 +282,7 @@ def encode(stream: str, value: Any) -> bytes:
 
 @dataclass(frozen=True)
 class Call:
-    """A call as ADS carries it: what a client sends, what a server receives."""
+    """An ADS call, as a client sends it and a server receives it."""
 
     port: int
     command: int
@@ -301,7 +301,7 @@ def call_of(it: _abi.Call) -> tuple[int, int, int, int, int, bytes]:
 
 
 class _Arguments:
-    """The struct of a request, and what it points to."""
+    """The struct of a request, and the memory that it points to."""
 
     def __init__(self, function: int, given: dict[str, Any]) -> None:
         self.it = _abi.Request(function=function)
@@ -318,19 +318,19 @@ class _Arguments:
                 value = (UINT32 * len(value))(*value)
                 self.kept.append(value)
             elif not 0 <= int(value) <= _abi.NONE:
-                raise ValueError(f"{name}: {value} is no unsigned number of 32 bits")
+                raise ValueError(f"{name}: {value} is not an unsigned number of 32 bits")
             setattr(self.it, name, value)
 
 
 @dataclass(frozen=True)
 class Request(Call, Generic[T]):
-    """What to send; `decode` reads what comes back."""
+    """A request to send. Pass the reply to `decode`."""
 
     function: Function
     arguments: dict[str, Any]
 
     def decode(self, reply: bytes) -> T:
-        """The value of a reply: of all bytes that were received, not of as many as were asked for."""
+        """Decodes a reply. Pass the received bytes only, not a buffer of `read_length` bytes."""
         given = _Arguments(self.function.number, self.arguments)
         stream = STREAMS.get(self.function.reply or "")
         found = _fields(stream or _STREAMS[0], bytes(reply), "decode_reply", ctypes.byref(given.it))
@@ -339,7 +339,7 @@ class Request(Call, Generic[T]):
 
 
 def request(number: int, **arguments: Any) -> Request[Any]:
-    """The request of a function with these arguments."""
+    """Creates the request of a function with these arguments."""
     given, call = _Arguments(number, arguments), _abi.Call()
     room = 4096 + len(arguments.get("value", b""))
     buffer = (ctypes.c_uint8 * room)()
@@ -349,26 +349,26 @@ def request(number: int, **arguments: Any) -> Request[Any]:
 
 @dataclass(frozen=True)
 class Dispatched:
-    """What a call received asks for."""
+    """A dispatched call: its function and arguments."""
 
     function: Function
     arguments: dict[str, Any]
 
     def reply(self, value: Any = None) -> bytes:
-        """The data to answer with. A server checks that it is not longer than the call's `read_length`."""
+        """Encodes the reply. The server must check that it is not longer than the `read_length` of the call."""
         return encode(self.function.reply, value) if self.function.reply else b""
 
 
 def dispatch(call: Call) -> Dispatched:
-    """The function that a call is to. The `ads_error` of the exception is the number to answer with."""
+    """Dispatches a received call. If it raises, answer with the `ads_error` of the exception."""
     it, indices, number, error = _abi.Request(), (UINT32 * 512)(), UINT32(), _abi.Error()
     call = Call(*(getattr(call, name) for name in Call.__dataclass_fields__))
     out = (ctypes.byref(it), ctypes.byref(number), ctypes.byref(error))
     received = call.c()
     if not _abi.function("dispatch")(ctypes.byref(received), indices, UINT32(512), *out):
-        refusal = AdsCncError(error)
-        refusal.ads_error = number.value
-        raise refusal
+        exception = AdsCncError(error)
+        exception.ads_error = number.value
+        raise exception
     function = FUNCTIONS[it.function]
     arguments: dict[str, Any] = {}
     for name in function.arguments:
@@ -376,7 +376,7 @@ def dispatch(call: Call) -> Dispatched:
         if isinstance(found, _abi.Bytes):
             found = found.get() if name == "value" else text_from_cp1252(found.get())
         arguments[name] = found
-    # A list of objects may be that of a platform axis; what is counted may be counted by index.
+    # Lists of objects of a platform axis have `axis`; addressing by index has `by_index`.
     optional = {name: getattr(it, name) for name in ("axis", "by_index") if name not in arguments}
     arguments.update({name: value for name, value in optional.items() if value})
     return Dispatched(function, arguments)

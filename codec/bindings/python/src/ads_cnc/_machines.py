@@ -15,11 +15,11 @@ BUSY, REJECTED = 1, 2
 
 
 class Sender:
-    """Sends an NC program: hands out packets to write, and takes what became of them.
+    """Sends an NC program: returns packets to write, and accepts the results.
 
     >>> sender = Sender(b"N10 G0 X0\\nN20 M30")
     >>> for packet in sender:
-    ...     sender.acknowledge(0)  # the ADS result; after BUSY the same packet comes again
+    ...     sender.acknowledge(0)  # the ADS result; after BUSY, the same packet is returned again
     """
 
     def __init__(self, program: bytes) -> None:
@@ -34,9 +34,9 @@ class Sender:
                 raise RuntimeError("the packet in flight was not acknowledged")
 
     def acknowledge(self, ads_error: Optional[int]) -> int:
-        """What the CNC answered: an ADS result, or None if the answer was lost.
+        """Reports the ADS result of the write, or None if the reply was lost.
 
-        Returns 0, BUSY (then wait about half a second) or REJECTED.
+        Returns 0, BUSY (wait about half a second, then repeat) or REJECTED.
         """
         number = REJECTED
         if ads_error is not None:
@@ -47,14 +47,14 @@ class Sender:
 
     @property
     def progress(self) -> dict[str, int]:
-        """Packets, lines and bytes that were accepted, what is left, the state."""
+        """The state, the accepted packets, lines and bytes, and the remaining lines and bytes."""
         it = _abi.Progress()
         _abi.function("sender_progress")(ctypes.byref(self._it), ctypes.byref(it))
         return {name: getattr(it, name) for name, _ in it._fields_}
 
 
 class Step(NamedTuple):
-    """What a host wants done: "wait", "read", "write" or "serve"."""
+    """The next step of a host: "wait", "read", "write" or "serve"."""
 
     kind: str
     variable: str
@@ -65,7 +65,7 @@ class Step(NamedTuple):
 
 
 class Host:
-    """Hosts services of one channel: returns the variable to read or write next."""
+    """Hosts the services of a channel: returns the variable to read or write next."""
 
     def __init__(self, services: Sequence[str]) -> None:
         self._it, self._ids = _abi.Host(), (ctypes.c_uint8 * (36 * len(services)))()
@@ -75,7 +75,7 @@ class Host:
         invoke("host_start", ctypes.byref(self._it), self._ids, UINT32(len(services)))
 
     def step(self) -> Step:
-        """What to do next; the same until it is done."""
+        """The next step. Returns the same step until its completion is reported."""
         it = _abi.HostStep()
         _abi.function("host_step")(ctypes.byref(self._it), ctypes.byref(it))
         kind, data = ("wait", "read", "write", "serve")[it.kind], it.data.get()
@@ -83,11 +83,11 @@ class Host:
         return Step(kind, it.variable.text(), data, it.service, request, it.request_state)
 
     def read(self, value: bytes) -> None:
-        """The value that was read."""
+        """Reports the value that was read."""
         invoke("host_read", ctypes.byref(self._it), value, UINT32(len(value)))
 
     def answer(self, response: str, state: int) -> None:
-        """The response to the request, and its state, not 0."""
+        """Answers the request. The state must not be 0."""
         data = text_to_cp1252(response)
         invoke("host_answer", ctypes.byref(self._it), data, UINT32(len(data)), UINT32(state))
 
@@ -95,22 +95,22 @@ class Host:
         _abi.function("host_event")(ctypes.byref(self._it), UINT32(number))
 
     def written(self) -> None:
-        """The write was done."""
+        """Reports that the write was done."""
         self._event(0)
 
     def failed(self) -> None:
-        """The step failed: a write may have been done."""
+        """Reports that the step failed; a write may have taken effect."""
         self._event(1)
 
     def poll(self) -> None:
-        """The wait is over."""
+        """Ends a wait."""
         self._event(2)
 
     def restart(self) -> None:
-        """The CNC was reset, or the connection is new."""
+        """Starts again, after a reset of the CNC or on a new connection."""
         self._event(3)
 
     @property
     def outcome(self) -> Optional[str]:
-        """What became of the last answer: "answered" or "abandoned"."""
+        """The outcome of the last answer: "answered" or "abandoned"."""
         return (None, "answered", "abandoned")[_abi.function("host_outcome", UINT32)(ctypes.byref(self._it))]

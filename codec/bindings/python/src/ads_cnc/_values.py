@@ -1,4 +1,4 @@
-"""Values by their types."""
+"""Decodes and encodes values by their types."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def _type_of(type: Union[str, int]) -> Type:
     for it in TYPES:
         if type in (it.name, it.object_name) or type == it.code > 0:
             return it
-    raise ValueError(f"{type} is no type")
+    raise ValueError(f"no such type: {type}")
 
 
 def _nested(items: list[Any], dimensions: Sequence[int]) -> Any:
@@ -47,11 +47,11 @@ def _nested(items: list[Any], dimensions: Sequence[int]) -> Any:
 
 
 def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -> Any:
-    """A value by its type, which is a name or the code of a description; of arrays, nested lists."""
+    """Decodes a value by its type (a name, or a code from a description); an array to nested lists."""
     it, count = _type_of(type), math.prod(dimensions)
     size = it.size or (len(data) if not dimensions else len(data) // max(count, 1))
     if size * count != len(data) or (count and not size and dimensions):
-        raise ValueError(f"{it.name}: {count} elements of {size} bytes expected, {len(data)} bytes found")
+        raise ValueError(f"{it.name}: expected {count} elements of {size} bytes, found {len(data)} bytes")
     parts = [data[at * size :][:size] for at in range(count)]
     if it.format == "s":
         return _nested([text_from_cp1252(part) for part in parts], dimensions)
@@ -59,7 +59,7 @@ def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -
 
 
 def pack(type: Union[str, int], value: Any) -> bytes:
-    """The bytes of a value, the reverse of `unpack`. A text gets a NUL; texts in an array need bytes."""
+    """Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes."""
     it = _type_of(type)
     if isinstance(value, (list, tuple)):
         return b"".join(pack(type, one) for one in value)

@@ -25,7 +25,7 @@ impl Transport for OverAds {
             Service::Write => device.write(group, offset, call.data).map(|()| 0),
         };
         match received {
-            // Only what was received: zeros would follow.
+            // Keep only the received bytes; zeros follow them.
             Ok(len) => reply.truncate(len),
             Err(ads::Error::Ads(_, _, number)) => return Err(AdsError(number).into()),
             Err(error) => return Err(error.into()),
@@ -37,7 +37,7 @@ impl Transport for OverAds {
 #[tokio::main(flavor = "current_thread")]
 async fn main() -> Result<()> {
     let (address, expected) = arguments()?;
-    // The client takes the address of its socket as its own, to which a CNC needs a route.
+    // The client uses the address of its socket as its NetId, to which the CNC needs a route.
     let timeouts = Timeouts::new(Duration::from_secs(5));
     let client = Client::new(&*address, timeouts, Source::Auto)?;
     let net_id = AmsNetId::new(127, 0, 0, 1, 1, 1);

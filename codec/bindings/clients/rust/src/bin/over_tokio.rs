@@ -1,5 +1,5 @@
-//! Over a socket of tokio: many requests are under way on one connection, and each reply is brought to its
-//! request by the invoke ID.
+//! Over a socket of tokio: several requests are in flight on one connection, and the invoke ID matches
+//! each reply to its request.
 //!
 //!     over_tokio HOST:PORT EXPECTED.json
 
@@ -42,7 +42,7 @@ impl Connection {
         let stream = timeout(TIMEOUT, TcpStream::connect(address)).await??;
         stream.set_nodelay(true)?;
         let (read, write) = stream.into_split();
-        // The sender waits while this many frames are not yet written.
+        // A sender waits while this number of frames is not written yet.
         let (frames, to_write) = mpsc::channel(32);
         let pending = Pending::default();
         tokio::spawn(write_frames(write, to_write));
@@ -51,7 +51,8 @@ impl Connection {
     }
 }
 
-/// A future may be dropped at any `await`, but half a frame must not be sent: a task of its own writes.
+/// Writes frames in a separate task: a future may be dropped at any `await`, but a partial frame must
+/// not be sent.
 async fn write_frames(mut write: OwnedWriteHalf, mut frames: mpsc::Receiver<Vec<u8>>) {
     while let Some(frame) = frames.recv().await {
         if write.write_all(&frame).await.is_err() {
@@ -62,23 +63,23 @@ async fn write_frames(mut write: OwnedWriteHalf, mut frames: mpsc::Receiver<Vec<
 
 async fn read_frames(mut read: OwnedReadHalf, pending: Pending) {
     let mut received = Vec::new();
-    // After a wrong length nothing can be read from the stream any more.
+    // After a wrong length, no further frame can be found in the stream.
     while let Ok(1..) = read.read_buf(&mut received).await
         && let Ok(len) = take_frames(&received, &pending)
     {
         received.drain(..len);
     }
-    // No reply comes any more: each request that waits for one fails.
+    // No more replies will arrive: all waiting requests fail.
     lock(&pending).clear();
 }
 
-/// Gives each complete frame to its request; returns the length of these frames.
+/// Passes each complete frame to its request; returns the length of these frames.
 fn take_frames(received: &[u8], pending: &Pending) -> std::result::Result<usize, ads_cnc::Error> {
     let mut end = 0;
     // `split` rejects a frame that is longer than a service can have.
     while let Some((frame, len)) = FrameRef::split(&received[end..], u32::MAX)? {
         end += len;
-        // Other frames are skipped: requests, and replies that came too late.
+        // Skip other frames: requests, and replies that arrived too late.
         let is_reply = frame.header().state_flags == StateFlags::RESPONSE;
         if let Some(waiting) = lock(pending).remove(&frame.header().invoke_id).filter(|_| is_reply)
         {
@@ -92,7 +93,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes a request when its future ends, also if it was dropped.
+/// Removes a request when its future ends or is dropped.
 struct Remove<'a>(&'a Pending, u32);
 
 impl Drop for Remove<'_> {
