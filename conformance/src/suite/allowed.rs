@@ -1,5 +1,5 @@
-//! Looks up the names in the file of `--allow-write` on the target after the cases have run: the cases
-//! skip a name that the target does not have, so a misspelt name would go unnoticed.
+//! Looks up the names in the file of `--allow-write` on the target after the cases have run: the
+//! cases skip a name that the target does not have, so a misspelt name would go unnoticed.
 
 use ads_cnc::address::{Addressing, Attribute, Channel, ClassGroup, ElementAddress, Group};
 use ads_cnc::operation::ReadElementWriteFlag;

@@ -217,8 +217,8 @@ fn claim_channels(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Whether a channel exists. If any channel has objects, a channel must have objects, or both a decoder
-/// and variables; otherwise a decoder or variables are sufficient.
+/// Whether a channel exists. If any channel has objects, a channel must have objects, or both a
+/// decoder and variables; otherwise a decoder or variables are sufficient.
 fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: bool) -> Step<bool> {
     if has_objects && walker.count_objects(channel)?.is_some() {
         return Ok(true);

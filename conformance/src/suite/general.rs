@@ -85,8 +85,8 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
             // Another case judges whether the value can be read.
             let Some(value) = probe.try_ask(read)? else { continue };
-            // If only one of the two sizes differs, the description or the value is wrong, not the size of
-            // the type.
+            // If only one of the two sizes differs, the description or the value is wrong, not the
+            // size of the type.
             let read = u32::try_from(value.len()).unwrap_or(u32::MAX);
             let sized = [variable.size, read].contains(&whole);
             let expected = || format!("{whole} bytes for {}", variable.var_type);

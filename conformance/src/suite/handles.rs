@@ -86,7 +86,8 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let name = name_of(variable);
             probe.set_subject(name.text());
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
-            // The manuals do not state that a variable has only one handle, so the values are compared.
+            // The manuals do not state that a variable has only one handle, so the values are
+            // compared.
             let expected =
                 || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);

@@ -77,7 +77,11 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
     }
     // Cases about frames judge the frames so far, even if the target is gone.
     if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
-        return CaseOutcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
+        return CaseOutcome::untried(
+            case,
+            Verdict::Inconclusive,
+            format!("the target no longer answers: {why}"),
+        );
     }
     let late = target.deadline.filter(|_| case.needs != Needs::Frames);
     if let Some(deadline) = late.filter(Deadline::is_over) {
