@@ -72,13 +72,13 @@ pub enum WaiverState {
     /// No case or requirement that ran has this ID. Stale.
     Unmatched,
     /// The verdict is another one. Stale.
-    StepError,
+    Otherwise,
 }
 
 impl WaiverState {
     /// Whether the file must be corrected.
     pub const fn is_stale(self) -> bool {
-        matches!(self, Self::Expired | Self::Unmatched | Self::StepError)
+        matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
     }
 
     pub const fn name(self) -> &'static str {
@@ -87,7 +87,7 @@ impl WaiverState {
             Self::NotRun => "not run",
             Self::Expired => "stale: expired",
             Self::Unmatched => "stale: nothing that ran is called that",
-            Self::StepError => "stale: the verdict is another one",
+            Self::Otherwise => "stale: the verdict is another one",
         }
     }
 }
@@ -184,7 +184,7 @@ impl Waiver {
             _ if over => WaiverState::Expired,
             Some(found) if found == *verdict => WaiverState::Used,
             Some(Verdict::NotRun | Verdict::Interrupted) => WaiverState::NotRun,
-            Some(_) => WaiverState::StepError,
+            Some(_) => WaiverState::Otherwise,
             None if left => WaiverState::NotRun,
             None => WaiverState::Unmatched,
         };
