@@ -1,4 +1,4 @@
-//! Compares a value with the expected one by the fields that are significant.
+//! Compares the significant fields of a value with the expected ones.
 
 use std::str::FromStr as _;
 
@@ -9,11 +9,11 @@ use serde_json::Value as Json;
 use crate::text::hex::compact;
 use crate::values::until_nul;
 
-/// A difference between values.
+/// A difference between two values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
     Other(String),
-    /// A text has the expected characters, and ends otherwise.
+    /// A text has the expected characters, but another end.
     End(String),
     /// The testee omits the bytes after a text.
     Omitted(String),
@@ -55,7 +55,7 @@ fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
     slight
 }
 
-/// The difference that weighs more; of two that weigh the same, the first.
+/// The more severe of two differences; the first if they are equal.
 fn worse(one: Option<Difference>, other: Option<Difference>) -> Option<Difference> {
     let weight = |difference: &Option<Difference>| match difference {
         None => 0,
@@ -101,7 +101,7 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     let mut given =
         ["value", "hex", "bits"].iter().filter_map(|name| Some((name, found.get(name)?)));
     if let Some((name, value)) = given.find(|(_, value)| !value.is_string()) {
-        return other(place, format_args!("{name} is the JSON {value}, not a string"));
+        return other(place, format_args!("{name} must be a string, not the JSON {value}"));
     }
     match meant.kind {
         Type::String => {
@@ -126,7 +126,7 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             if same {
                 None
             } else {
-                other(place, format_args!("bits {found} where {expected} is expected"))
+                other(place, format_args!("bits {expected} is expected, not {found}"))
             }
         }
         Type::NetId | Type::Name => {
@@ -135,7 +135,7 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             if expected == given {
                 None
             } else {
-                other(place, format_args!("{given} where {expected} is expected"))
+                other(place, format_args!("{expected} is expected, not {given}"))
             }
         }
         _ => {
@@ -147,7 +147,7 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             } else {
                 other(
                     place,
-                    format_args!("{} where {expected} is expected", given.unwrap_or("nothing")),
+                    format_args!("{expected} is expected, not {}", given.unwrap_or("nothing")),
                 )
             }
         }
@@ -157,7 +157,7 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
 fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     let expected = compact::show(meant);
     let Some(given) = given else {
-        return other(place, format_args!("hex {expected}, and none is given"));
+        return other(place, format_args!("hex {expected} is expected, but hex is missing"));
     };
     match compact::parse(given) {
         Ok(bytes) if bytes == meant => None,
@@ -174,7 +174,8 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     }
 }
 
-/// Whether a text has the characters up to its first NUL, or all but the last of a text that no NUL ends.
+/// Whether a text has the expected characters, but another end: characters up to its first NUL, or
+/// all but the last one of a text without NUL.
 fn has_other_end(meant: &Tagged, given: Option<&str>) -> bool {
     let meant_text = meant.hex.as_deref().unwrap_or_default();
     let Some(Ok(given)) = given.map(compact::parse) else { return false };
@@ -182,7 +183,7 @@ fn has_other_end(meant: &Tagged, given: Option<&str>) -> bool {
         || meant.open && meant_text.split_last().is_some_and(|(_, most)| most == given)
 }
 
-/// Compares the bytes after a text. A testee may omit them.
+/// Compares the bytes after a text, which a testee may omit.
 fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);
@@ -204,7 +205,7 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     if is_told {
         Some(Difference::End(format!("{place}: {expected} is expected")))
     } else {
-        Some(Difference::Omitted(format!("{place}: {expected}, which is not told")))
+        Some(Difference::Omitted(format!("{place}: {expected} is omitted")))
     }
 }
 
@@ -224,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_likely_mistake_is_named() {
+    fn likely_mistakes_are_named() {
         assert_eq!(of_text("e4", r#"{"name":{"type":"STRING","hex":"e4"}}"#), "");
         assert_eq!(
             of_text("e4", r#"{"name":{"type":"STRING","hex":"c3a4"}}"#),
@@ -236,7 +237,7 @@ mod tests {
         );
         assert_eq!(
             of_text("e4", r#"{"name":{"type":"STRING","hex":7}}"#),
-            "name: hex is the JSON 7, not a string"
+            "name: hex must be a string, not the JSON 7"
         );
     }
 }
