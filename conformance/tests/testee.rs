@@ -277,7 +277,7 @@ mod shell {
             assert!(matches!(answer, TesteeReaction::Answer(_)), "{answer:?}");
             let bye = testee.bye();
             assert_eq!(bye.is_ok(), is_right, "{bye:?}");
-            assert!(is_right || bye.unwrap_err().contains("no request asked for"));
+            assert!(is_right || bye.unwrap_err().contains("is not a reply to a request"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Actions that a client is told to do. The meaning of a word never changes.
+//! The actions that a client is told to execute. The meaning of a word never changes.
 
 use std::fmt;
 
@@ -7,9 +7,9 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionWord {
     pub name: &'static str,
-    /// Names of its arguments. The last argument may contain blanks.
+    /// Names of the arguments. The last argument may contain blanks.
     pub arguments: &'static [&'static str],
-    /// What the client does, and its result.
+    /// The result, and what the client does.
     pub gives: &'static str,
 }
 
@@ -54,11 +54,11 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
 };
 
-/// A word of the vocabulary with arguments.
+/// An action of the vocabulary with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Action {
     pub action: String,
-    /// Its arguments.
+    /// The arguments.
     pub args: Vec<String>,
 }
 

@@ -11,12 +11,12 @@ use crate::clients::scenario::ExpectedAnswer;
 use crate::clients::tamper::{LengthField, Tamper, WrongLength};
 use crate::judge::{Rule, assumed};
 
-/// An action while its replies are changed.
+/// An action whose replies are changed.
 struct ReactionScenario {
     id: &'static str,
     action: &'static str,
     function: Function,
-    /// The requirements of the service, of the data, and of its result.
+    /// The requirements of the service, of the data, and of the result.
     service: ClauseId,
     data: ClauseId,
     result: fn() -> Value,
@@ -56,7 +56,7 @@ impl ReactionScenario {
             .with(self.function, tamper)
     }
 
-    /// The reply is valid, but unusual.
+    /// A scenario with a valid, but unusual reply.
     fn valid_reply(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
         let scenario = self.scenario(id, what, tamper).by(ADS_5);
         match (self.result)() {
@@ -97,7 +97,7 @@ fn ways(told: &ReactionScenario) -> Vec<Scenario> {
         told.valid_reply("bytewise", "one byte at a time", Tamper::Bytewise),
         told.valid_reply("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
         told.valid_reply("pieces-data", "in two pieces, cut after the headers", Tamper::Pieces(39)),
-        // A client must not accept a reply without a request; whether it continues is not
+        // A client must not accept a reply to another request; whether it continues after one is not
         // specified.
         Scenario {
             expect: match (told.result)() {
@@ -159,8 +159,8 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
 
 fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        // That an AMS error has no payload is known from online help; how a client reports it is
-        // not specified.
+        // That an AMS error has no payload is documented online; how a client reports it is not
+        // specified.
         told.invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, ADS_5)
             .by(ADS_6),
         told.invalid_reply(
@@ -213,7 +213,7 @@ fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
     ]
 }
 
-/// Streams that are too short, too long, or have values of a later version.
+/// Streams that are too short or too long, or have values of a later version.
 fn streams() -> Vec<Scenario> {
     let describe = |id: &str, what: &str, tamper| {
         let title = format!("describe 1 2 V.E: {what}");
