@@ -255,10 +255,10 @@ fn a_device_where_everything_is_there() {
         let ended = run(&against(&addr, tool));
         assert_eq!(ended.code, Some(3), "{tool:?}: {}", ended.stderr);
         let (why, least) = match tool.contains(&"--variables") {
-            true => ("their names have more than 8 MiB", 30_000),
-            false => ("100000 objects were found", 100_000),
+            true => ("the limit is 8 MiB of names", 30_000),
+            false => ("the limit is 100000 objects", 100_000),
         };
-        let why = format!("not all is listed: {why}");
+        let why = format!("the list is incomplete: {why}");
         assert!(ended.stderr.contains(&why), "{tool:?}: {}", ended.stderr);
         assert!(ended.stdout.lines().count() > least, "{tool:?}");
     }
