@@ -14,7 +14,7 @@ use crate::simulator::program::{
 
 const RIGHT: Policy = Policy::DEFAULT;
 
-/// Bytes of the streaming interface that is too small.
+/// Size in bytes of the streaming interface that is too small.
 const SMALL_BUFFER_LEN: usize = 2048;
 
 /// A streaming interface of half the size.
@@ -88,7 +88,7 @@ impl PacketBuffer {
 
 impl Buffer for PacketBuffer {
     fn write(&mut self, data: &[u8]) -> Ack {
-        // Writes of an invalid length are rejected as by the right CNC.
+        // Writes of an invalid length are rejected, as by the correct CNC.
         if StreamingInterface::new().write(data) == Ack::Rejected {
             return Ack::Rejected;
         }
@@ -113,7 +113,7 @@ impl Buffer for PacketBuffer {
     }
 }
 
-/// The lines, checked without the overlooked findings.
+/// The lines, checked without the findings that the defect overlooks.
 fn overlooking(
     checker: &mut Checker,
     read: &[u8],
@@ -183,7 +183,7 @@ fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ProgramSegment::with_findings(read, number, found)
 }
 
-/// Ends the program at these lines too.
+/// Also ends the program at these lines.
 fn ended_by(
     checker: &mut Checker,
     read: &[u8],

@@ -36,7 +36,7 @@ fn ids_differ_and_sentences_say_something() {
     }
 }
 
-/// A defect that changes no answer is not a defect.
+/// A defect that changes no reply is not a defect.
 #[test]
 fn every_defect_of_a_cnc_shows() {
     let seeds: Vec<&Seed> = of_kind(&[SeedKind::Cnc, SeedKind::Different]).collect();
@@ -49,7 +49,7 @@ fn every_defect_of_a_cnc_shows() {
     assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
 }
 
-/// The IDs of those that change no answer of the transcript.
+/// The IDs of the defects that change no reply of the transcript.
 fn hidden(seeds: &[&'static Seed]) -> Vec<&'static str> {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
@@ -93,7 +93,7 @@ fn every_defect_of_a_codec_shows() {
     assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
 }
 
-/// A must without a defect has a reason, and no must has both.
+/// A requirement of level must has either a defect or a reason to have none.
 #[test]
 fn every_must_can_be_broken() {
     let clients = clients::defects().iter().map(|defect| defect.requirement);
