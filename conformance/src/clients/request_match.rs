@@ -77,10 +77,10 @@ pub(super) fn judge(
     }
     for exchange in exchanges {
         let Some(clause) = writes(exchange) else { continue };
-        let told = RawRequest::of(exchange).is_some_and(|sent| {
+        let is_expected = RawRequest::of(exchange).is_some_and(|sent| {
             asks.iter().any(|ask| (ask.group, ask.offset) == (sent.group, sent.offset))
         });
-        findings.check(clause, told, Some(exchange), "no other write", "a write");
+        findings.check(clause, is_expected, Some(exchange), "no other write", "a write");
     }
 }
 

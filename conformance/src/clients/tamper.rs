@@ -119,7 +119,7 @@ impl Tamper {
             Self::Twice => send([all(), all()].concat()),
             Self::Late => send([before.unwrap_or_default().to_vec(), all()].concat()),
             Self::OtherInvokeId => then_close(foreign(reply)),
-            Self::Length(place, lie) => then_close(lying(reply, place, lie)),
+            Self::Length(place, wrong) => then_close(with_length(reply, place, wrong)),
             Self::OtherCommand => then_close(with_header(reply, |header| {
                 header.command = match header.command {
                     Command::READ => Command::READ_WRITE,
@@ -235,7 +235,7 @@ fn foreign(reply: &[u8]) -> Vec<u8> {
 }
 
 /// The reply with one length field overwritten, and all other bytes unchanged.
-fn lying(reply: &[u8], place: LengthField, lie: WrongLength) -> Vec<u8> {
+fn with_length(reply: &[u8], place: LengthField, wrong: WrongLength) -> Vec<u8> {
     // Offsets in the frame: 6 bytes of AMS/TCP header, 32 of AMS header, 4 of result.
     let at = match place {
         LengthField::AmsTcp => 2,
@@ -248,7 +248,7 @@ fn lying(reply: &[u8], place: LengthField, lie: WrongLength) -> Vec<u8> {
         field
     }) {
         let number = u32::from_le_bytes(*field);
-        let other = match lie {
+        let other = match wrong {
             WrongLength::Longer => number.wrapping_add(1),
             WrongLength::Shorter => number.wrapping_sub(1),
             WrongLength::Zero => 0,
@@ -287,12 +287,13 @@ mod tests {
         assert_eq!(at(Tamper::Length(LengthField::AmsTcp, WrongLength::Longer), 2), [45, 0, 0, 0]);
         assert_eq!(at(Tamper::Length(LengthField::Ams, WrongLength::Shorter), 26), [11, 0, 0, 0]);
         assert_eq!(at(Tamper::Length(LengthField::Data, WrongLength::Huge), 42), [0xFF; 4]);
-        for lie in [WrongLength::Longer, WrongLength::Shorter, WrongLength::Zero, WrongLength::Huge]
+        for wrong in
+            [WrongLength::Longer, WrongLength::Shorter, WrongLength::Zero, WrongLength::Huge]
         {
             for place in [LengthField::AmsTcp, LengthField::Ams, LengthField::Data] {
-                let lying = sent(Tamper::Length(place, lie));
-                let differing = lying.iter().zip(reply()).filter(|(new, old)| **new != *old);
-                assert!(lying.len() == 50 && differing.count() >= 1);
+                let sent = sent(Tamper::Length(place, wrong));
+                let differing = sent.iter().zip(reply()).filter(|(new, old)| **new != *old);
+                assert!(sent.len() == 50 && differing.count() >= 1);
             }
         }
     }

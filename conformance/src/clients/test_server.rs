@@ -110,11 +110,18 @@ impl std::fmt::Display for Overflow {
         let mebibytes = RECORDED_BYTES_MAX >> 20;
         match (requests, connections) {
             (0, _) => {}
-            (_, 0) => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged")?,
-            _ => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged; ")?,
+            (_, 0) => {
+                write!(f, "{requests} requests after the first {mebibytes} MiB were not judged")?
+            }
+            _ => {
+                write!(f, "{requests} requests after the first {mebibytes} MiB were not judged; ")?
+            }
         }
         if *connections > 0 {
-            write!(f, "{connections} connections beyond {CONNECTIONS_MAX} were closed at once")?;
+            write!(
+                f,
+                "{connections} connections after the first {CONNECTIONS_MAX} were closed immediately"
+            )?;
         }
         Ok(())
     }

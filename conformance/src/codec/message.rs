@@ -153,8 +153,8 @@ impl Capabilities {
         };
         let is_unknown = |name: &&String| !streams().any(|stream| stream == name.as_str());
         if let Some(name) = self.streams.iter().find(is_unknown) {
-            let meant = did_you_mean(name, streams());
-            return Some(format!("{name:?} is not a stream of the vectors{meant}"));
+            let hint = did_you_mean(name, streams());
+            return Some(format!("{name:?} is not a stream of the vectors{hint}"));
         }
         self.editions.iter().find_map(|name| Edition::by_name(name).err())
     }

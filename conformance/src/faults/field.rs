@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn just_the_field_changes() {
+    fn only_the_field_changes() {
         for one in FieldDefect::of_stream(Stream::VariableDescription) {
             let changed = one.apply(DESCRIPTION);
             assert_eq!(changed.len(), DESCRIPTION.len());
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn changes_do_what_they_say() {
+    fn every_change_has_its_effect() {
         let size = |id: &str| defect(id).apply(DESCRIPTION)[12..16].to_vec();
         assert_eq!(size("variable-description.size.flip"), [3, 0, 0, 0]);
         assert_eq!(size("variable-description.size.invert"), [0xFD, 0xFF, 0xFF, 0xFF]);
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_walk_does_not_reach_stays() {
+    fn bytes_after_a_fault_stay() {
         let name = defect("variable-description.name.invert");
         assert_eq!(name.apply(&DESCRIPTION[..22]), &DESCRIPTION[..22]);
         assert_eq!(name.apply(&[]), [0; 0]);

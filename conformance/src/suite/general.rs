@@ -142,11 +142,11 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Whether a name has characters that a wrong code page or 7-bit text would change.
-fn is_telling(name: &[u8]) -> bool {
+fn depends_on_code_page(name: &[u8]) -> bool {
     name.iter().any(|byte| !byte.is_ascii() || *byte == b'?')
 }
 
-/// Whether the text is UTF-8 with characters beyond ASCII.
+/// Whether the text is UTF-8 with non-ASCII characters.
 fn is_utf_8(text: &[u8]) -> bool {
     !text.is_ascii() && std::str::from_utf8(text).is_ok()
 }
@@ -154,7 +154,7 @@ fn is_utf_8(text: &[u8]) -> bool {
 /// Whether a name with only ASCII characters has a handle in the channel. Otherwise, no name shows
 /// anything about the code page.
 fn finds_plain_names(probe: &mut Probe<'_>, channel: Channel, all: &[Description]) -> Step<bool> {
-    let plain = all.iter().find(|one| !is_telling(one.name.text.as_bytes()));
+    let plain = all.iter().find(|one| !depends_on_code_page(one.name.text.as_bytes()));
     let Some(plain) = plain else { return Ok(true) };
     Ok(probe.try_ask(HandleByName { channel, name: name_of(plain) })?.is_some())
 }
@@ -167,7 +167,7 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
         }
         for variable in variables {
             let name = variable.name.text.as_bytes();
-            if !is_telling(name) {
+            if !depends_on_code_page(name) {
                 continue;
             }
             let by_name = HandleByName { channel, name: name_of(&variable) };
@@ -190,6 +190,10 @@ mod tests {
     fn characters_of_several_bytes_are_seen() {
         assert!(is_utf_8("Länge".as_bytes()));
         assert!(!is_utf_8(b"L\xE4nge") && !is_utf_8(b"Lange") && !is_utf_8(b"\xB0C"));
-        assert!(is_telling(b"L?nge") && is_telling(b"L\xE4nge") && !is_telling(b"Lange"));
+        assert!(
+            depends_on_code_page(b"L?nge")
+                && depends_on_code_page(b"L\xE4nge")
+                && !depends_on_code_page(b"Lange")
+        );
     }
 }

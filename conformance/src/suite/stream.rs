@@ -24,7 +24,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A packet of 992 bytes with a line of 990 characters is accepted"),
     case("stream-lengths", &[STM_2, STM_4], Needs::Writes, lengths,
         "Packets of any length up to 992 bytes are accepted"),
-    case("stream-refused-for-now", &[STM_6], Needs::Writes, refused_for_now,
+    case("stream-refused-for-now", &[STM_6], Needs::Writes, rejected_as_busy,
         "A packet that is rejected as busy is accepted when it is sent again"),
     case("stream-too-long", &[STM_2], Needs::Malformed, too_long,
         "A packet of 993 bytes is rejected"),
@@ -157,7 +157,7 @@ fn lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-fn refused_for_now(probe: &mut Probe<'_>) -> Step {
+fn rejected_as_busy(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let packet = comment(STREAM_PACKET_MAX);
     for _ in 0..8 {

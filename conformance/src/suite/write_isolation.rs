@@ -50,7 +50,7 @@ impl WatchedVariable {
     }
 }
 
-/// All variables with a steady value: a write does not cause other changes.
+/// All variables whose value does not change by itself, so that a change is the effect of a write.
 fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
@@ -64,16 +64,16 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
         }
     }
     // Read again after all others were read.
-    let mut still = Vec::new();
+    let mut steady = Vec::new();
     for one in all {
         if probe.value_at(&one.by_handle())?.as_ref() == Some(&one.start) {
-            still.push(one);
+            steady.push(one);
         }
     }
-    if still.is_empty() {
+    if steady.is_empty() {
         return Err(Stop::inconclusive("every variable changes by itself"));
     }
-    Ok(still)
+    Ok(steady)
 }
 
 /// A value that differs in every byte, if the type permits that.

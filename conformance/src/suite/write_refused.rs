@@ -235,7 +235,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
         let named = by_name(0)?;
         let good_by_name = ValueAddress::Name { channel, name: named };
         for beyond in probe.beyond(count) {
-            let what = format!("a write to {}[{beyond}] of {count}", name.text);
+            let what = format!("a write to {}[{beyond}] of {count} elements", name.text);
             let bad = ValueAddress::Handle { channel, handle: *handle, indices: vec![beyond] };
             let bad = bad.write(&other)?;
             refused(probe, &[VAR_12], &what, (bad, good), &whole)?;

@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_has_a_unit() {
+    fn a_duration_needs_a_unit() {
         for (text, millis) in
             [("500ms", 500), ("2s", 2000), ("1.5s", 1500), ("1min", 60_000), ("0s", 0)]
         {

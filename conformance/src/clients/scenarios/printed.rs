@@ -150,15 +150,15 @@ mod tests {
 
     #[test]
     fn every_printed_example_has_a_scenario_or_is_listed() {
-        let told: Vec<&str> = examples().into_iter().map(|(.., id)| id).collect();
-        assert_eq!(scenarios().len(), told.len());
+        let covered: Vec<&str> = examples().into_iter().map(|(.., id)| id).collect();
+        assert_eq!(scenarios().len(), covered.len());
         for one in vectors() {
             let printed = one.provenance.kind == ProvenanceKind::Manual
                 && one.context.service.is_some()
                 && (one.direction == Direction::Reply
                     || one.context.service == Some(Service::Write));
             let id = one.id.as_str();
-            assert!(!printed || told.contains(&id) || NOT_COVERED.contains(&id), "{id}");
+            assert!(!printed || covered.contains(&id) || NOT_COVERED.contains(&id), "{id}");
         }
     }
 }

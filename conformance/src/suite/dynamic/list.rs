@@ -292,7 +292,7 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             Ok([name.into(), value.into()])
         };
         for beyond in beyond(probe, count) {
-            let what = format!("index {beyond} of {count} of {}", prefix(kind));
+            let what = format!("index {beyond} of {count} {}", prefix(kind));
             for (bad, good) in requests(beyond)?.into_iter().zip(requests(count)?) {
                 let guards = [CountDynamic::new(channel, kind).into(), good];
                 steadily(probe, &guards, |probe, answers| {

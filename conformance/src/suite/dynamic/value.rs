@@ -69,8 +69,8 @@ fn value(
     real(probe, DYN_4, &indexed);
     // A value that changes by itself is not compared.
     let named_again = probe.try_ask(by_name)?;
-    let still = named.success().filter(|named| named_again.as_deref() == Some(named));
-    if let (Some(named), Some(indexed)) = (still, indexed.success()) {
+    let steady = named.success().filter(|named| named_again.as_deref() == Some(named));
+    if let (Some(named), Some(indexed)) = (steady, indexed.success()) {
         let expected = || format!("{} of {name}, also at index {index}", spaced(named));
         let found = || spaced(indexed);
         checks.push(PendingCheck::new(probe, [DYN_3, DYN_4], named == indexed, expected, found));
