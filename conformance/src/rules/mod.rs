@@ -1,8 +1,7 @@
 //! Checks of a request and its reply, alone and together with earlier ones, by the manuals' clauses.
 //!
 //! `ads-cnc check` applies them to captured traffic, `ads-cnc run` to every exchange with a target,
-//! and
-//! `ads-cnc run --client` and `--listen` to every request of a client. A `RuleBook` records the
+//! and `ads-cnc run --client` and `--listen` to every request of a client. A `RuleBook` records the
 //! checks by `Topic`.
 
 mod book;

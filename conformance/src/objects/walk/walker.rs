@@ -118,9 +118,8 @@ pub(crate) trait Walker: Sized {
     }
 
     /// Visits every instance of a class by channel and axis; `is_there` checks whether the target
-    /// has it. With
-    /// `aliases`, the axes of the platform are also visited in the HLD of every channel; otherwise,
-    /// in that of the first channel if the platform has none (E-30).
+    /// has it. With `aliases`, the axes of the platform are also visited in the HLD of every
+    /// channel; otherwise, in that of the first channel if the platform has none (E-30).
     fn instances_of(
         &mut self,
         class: Class,

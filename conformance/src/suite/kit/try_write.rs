@@ -126,8 +126,7 @@ impl Probe<'_> {
     }
 
     /// Writes another value, reads it back and restores the original one in any case. Before
-    /// restoring,
-    /// `then` is called with the original and the written value.
+    /// restoring, `then` is called with the original and the written value.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
