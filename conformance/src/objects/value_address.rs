@@ -117,13 +117,13 @@ impl ValueAddress {
     fn no_request(&self, error: Error) -> ToolError {
         match (self, error.kind()) {
             // Of the functions of COM, only the program stream is in the groups of contents.
-            (Self::Object { .. }, ErrorKind::Function) => ToolError::Unable(
-                "this is the program stream; it is written with ads-cnc stream".to_owned(),
-            ),
+            (Self::Object { .. }, ErrorKind::Function) => {
+                ToolError::Unable("use ads-cnc stream for the program stream".to_owned())
+            }
             // The offset of a function has no content (SDA-12).
-            (_, ErrorKind::Function) => ToolError::Unable(
-                "the address is that of a function, which has no content".to_owned(),
-            ),
+            (_, ErrorKind::Function) => {
+                ToolError::Unable("it is a function and has no content".to_owned())
+            }
             _ => ToolError::Unsendable(error),
         }
     }
