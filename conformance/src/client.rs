@@ -1,5 +1,4 @@
-//! An AMS/TCP client that records every byte it sends and receives and checks the headers of each
-//! frame.
+//! An AMS/TCP client that records all bytes sent and received, and checks the headers of each frame.
 
 mod inquiry;
 mod judge;
@@ -28,7 +27,7 @@ pub use tap::Tap;
 pub use target::Target;
 pub(crate) use target::net_id_of;
 
-/// The AMS port requests are sent from; no program has to be registered on it.
+/// The AMS port from which requests are sent; no program needs to be registered on it.
 pub(crate) const SOURCE_PORT: AmsPort = AmsPort(0x8000);
 
 /// A connection to a target, through the gate.
@@ -46,41 +45,41 @@ pub struct Client {
     piece: Option<usize>,
 }
 
-/// How a connection is opened, the first one and those after a lost one.
+/// How to open a connection, both the first one and those after a lost connection.
 #[derive(Clone, Debug)]
 enum Dial {
     /// Over TCP, to the target's address.
     Tcp,
-    /// To a CNC of this process, without a socket.
+    /// To a CNC in this process, without a socket.
     InProcess(Arc<dyn LocalPeers>),
 }
 
 /// The time between two pieces of a frame that is sent in pieces.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// The most replies with an unexpected invoke ID, before the expected reply, that become violations
-/// of their own; the others are counted.
+/// Maximum number of replies with an unexpected invoke ID, before the expected reply, that are
+/// reported as separate violations; further ones are counted.
 const STRAYS_MAX: u64 = 3;
 
-/// The longest time to wait for the reply after a second frame that is not the reply.
+/// Maximum time to wait for the reply after a second frame that is not the reply.
 const AFTER_STRAY: Duration = Duration::from_millis(250);
 
 /// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte
-/// in a response's ID is noticed.
+/// in the ID of a response is detected.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
 
 impl Client {
-    /// Connects. A gate that allows malformed requests is accepted only for a target on this
-    /// machine.
+    /// Connects to a target. A gate that allows malformed requests is accepted only for a target on
+    /// this machine.
     ///
     /// # Errors
-    /// If no server listens there, or the gate allows malformed requests to another machine.
+    /// If no server listens at the address, or the gate allows malformed requests to another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
         Self::dialled(target, gate, Dial::Tcp)
     }
 
-    /// Connects to a CNC of this process without a socket. The CNC's clock must be stopped; it is
-    /// advanced while the client waits for an answer.
+    /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped; it
+    /// is advanced while the client waits for a reply.
     ///
     /// # Errors
     /// If the gate allows malformed requests to another machine.
@@ -96,7 +95,8 @@ impl Client {
         Ok(client)
     }
 
-    /// A dry run: no connection, no request sent, but every request is checked by the gate.
+    /// Creates a client for a dry run: it never connects, and sends no request, but the gate checks
+    /// each one.
     ///
     /// # Errors
     /// If the gate allows malformed requests to another machine.
@@ -114,11 +114,11 @@ impl Client {
     fn unconnected(target: Target, gate: Gate) -> io::Result<Self> {
         let gate = gate.to_address(target.addr.ip());
         if gate.lets_malformed_pass() && !target.addr.ip().to_canonical().is_loopback() {
-            let why = "malformed requests are sent to a CNC on this machine only";
+            let why = "malformed requests can be sent only to a CNC on this machine";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
         if gate.simulated().is_some_and(|only| only != target.addr) {
-            let why = "writes of all kinds are sent to the simulated CNC only";
+            let why = "writes of all kinds can be sent only to the simulated CNC";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
         Ok(Self {
@@ -146,24 +146,24 @@ impl Client {
         self
     }
 
-    /// Takes the capture, to continue it on another connection; this client captures no more.
+    /// Takes the capture, to continue it on another connection; this client stops capturing.
     pub(crate) fn take_capture(&mut self) -> Option<Box<dyn Tap>> {
         let mut capture = self.capture.take()?;
         capture.closed();
         Some(capture)
     }
 
-    /// Ends the capture, if there is one.
+    /// Ends the capture, if any.
     pub fn end_capture(&mut self) -> io::Result<()> {
         self.capture.take().map_or(Ok(()), Tap::finish)
     }
 
-    /// Sends frames in pieces of this size from now on, or whole again.
+    /// From now on, sends frames in pieces of this size, or whole if `None`.
     pub(crate) const fn set_piece(&mut self, piece: Option<usize>) {
         self.piece = piece;
     }
 
-    /// Waits. The clock of a CNC in this process advances too.
+    /// Waits; the clock of a CNC in this process advances by the same time.
     pub(crate) fn wait(&self, time: Duration) {
         match &self.dial {
             Dial::Tcp => thread::sleep(time),
@@ -180,7 +180,7 @@ impl Client {
         &self.target
     }
 
-    /// The NetId requests are sent from.
+    /// The NetId from which requests are sent.
     pub const fn source(&self) -> AmsNetId {
         self.source
     }
@@ -190,17 +190,17 @@ impl Client {
         self.dry
     }
 
-    /// Whether the gate would allow a call now; nothing is sent.
+    /// Checks whether the gate would allow a call now. Nothing is sent.
     ///
     /// # Errors
-    /// [`ExchangeError::Refused`], [`ExchangeError::Unsendable`].
+    /// [`ExchangeError::Refused`] or [`ExchangeError::Unsendable`].
     pub fn check(&self, call: &Call<'_>) -> Result<(), ExchangeError> {
         let bytes = frame(self.header(call.port, call.service.command()), call)?;
         let permit = self.gate.check(&bytes, Moment::now());
         permit.map(drop).map_err(|refusal| ExchangeError::Refused(Box::new(refusal)))
     }
 
-    /// Sends a call and waits for its answer.
+    /// Sends a call and waits for its reply.
     pub fn call(&mut self, call: &Call<'_>) -> Exchange {
         let mut exchange = Exchange::new(call);
         exchange.outcome = match self.sent(call, &mut exchange) {
@@ -214,7 +214,7 @@ impl Client {
     }
 
     /// Sends a call if the gate allows it, and stores the result in `exchange`. Returns the header
-    /// it was sent with.
+    /// with which it was sent.
     fn sent(
         &mut self,
         call: &Call<'_>,
@@ -230,7 +230,7 @@ impl Client {
             answer(header, got, data).map(|answer| (answer, got))
         });
         exchange.sent = bytes;
-        // A handle or an address from a reply with another invoke ID permits nothing.
+        // A handle or an address from a reply with another invoke ID must not permit a write.
         let reply = exchange.outcome.as_ref().ok();
         let reply = reply.filter(|(_, got)| got.invoke_id == header.invoke_id);
         if let Some(data) = reply.and_then(|(reply, _)| reply.success()) {
@@ -239,8 +239,8 @@ impl Client {
         Ok(header)
     }
 
-    /// Sends a frame if the gate allows it and waits for its reply; afterwards `received` has the
-    /// reply's bytes only. The outer error says why nothing was sent.
+    /// Sends a frame if the gate allows it, and waits for its reply; afterwards `received` contains
+    /// only the bytes of the reply. The outer error is the reason why nothing was sent.
     fn deliver(
         &mut self,
         bytes: &[u8],
@@ -257,20 +257,20 @@ impl Client {
         let mut came = self.exchange(permit, header, received, violations, &mut strays);
         let lost = matches!(came, Err(ExchangeError::Closed | ExchangeError::Io(_)));
         if lost && permit.is_repeatable() {
-            // The CNC may have closed an idle connection. Whether it executed a write before that
-            // is unknown: a write is not sent twice.
+            // The CNC may have closed an idle connection. Whether it executed a write before that is
+            // unknown, so a write is not sent twice.
             received.clear();
             self.disconnect();
             came = self.exchange(permit, header, received, violations, &mut strays);
         }
         if let Some(more) = strays.checked_sub(STRAYS_MAX).filter(|more| *more > 0) {
-            let what = format!("{more} more answers to other invoke IDs; {STRAYS_MAX} are shown");
+            let what = format!("{more} more replies to other invoke IDs; {STRAYS_MAX} are shown");
             violations.push(Violation { requirement: ADS_5, what });
         }
         Ok(came)
     }
 
-    /// The header of the next request, with an invoke ID of its own.
+    /// The header of the next request, with a new invoke ID.
     fn next_header(&mut self, port: AmsPort, command: Command) -> AmsHeader {
         self.invoke_id = self.invoke_id.wrapping_add(1);
         self.header(port, command)
@@ -284,7 +284,8 @@ impl Client {
         AmsHeader::request(target, source, command, self.invoke_id)
     }
 
-    /// Ends the connection. On the next one another CNC may answer, or the same after a restart.
+    /// Closes the connection. On the next one, another CNC may answer, or the same one after a
+    /// restart.
     fn disconnect(&mut self) {
         self.wire = None;
         if let Some(capture) = &mut self.capture {
@@ -293,7 +294,7 @@ impl Client {
         self.gate.forget();
     }
 
-    /// Waits until the pace of the target allows the next request.
+    /// Waits until the minimum time between requests has passed.
     fn keep_pace(&mut self) {
         if let Some(last) = self.last {
             thread::sleep(self.target.pace.saturating_sub(last.elapsed()));
@@ -337,15 +338,14 @@ impl Client {
                 let header = frame.header();
                 let (id, asked_id) = (header.invoke_id, sent.invoke_id);
                 let is_other = id != asked_id;
-                // A reply to an earlier request would have another target port. So this is the reply to
-                // this request, with a wrong invoke ID.
+                // A reply to an earlier request would have another target port, so this is the
+                // reply to this request, with a wrong invoke ID.
                 if !is_other || is_reply(&sent, &header) {
                     if is_other {
                         violations.push(Violation::of_invoke_id(id, asked_id));
                     }
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
-                        let what =
-                            format!("{more} bytes after the answer that no request asked for");
+                        let what = format!("{more} unexpected bytes after the reply");
                         violations.push(Violation { requirement: ADS_5, what });
                         self.disconnect();
                     }
@@ -357,7 +357,8 @@ impl Client {
                     violations.push(Violation::of_invoke_id(id, asked_id));
                 }
                 received.drain(..len);
-                // The first one may be late; a device that sends more of them is not waited for.
+                // The first such frame may be late; if a device sends more of them, the client
+                // stops waiting.
                 if *strays > 1 {
                     timeout = timeout.min(asked.elapsed().saturating_add(AFTER_STRAY));
                 }
@@ -394,7 +395,7 @@ impl Client {
     }
 }
 
-/// Whether source, target and command of a header are those of the reply to a request.
+/// Whether source, target and command of a header are those of a reply to a request.
 fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
     let addresses = (got.target, got.source) == (sent.source, sent.target);
     addresses && got.command == sent.command
@@ -419,7 +420,7 @@ pub(crate) fn answer(
     if !header.error.is_ok() && payload.is_empty() {
         return Ok(AdsReply { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
-    // A reply to any other command starts with a result, like that of a Write, and may have more.
+    // A reply to any other command starts with a result, like that of a Write; more data may follow.
     let service = service_of(sent.command).unwrap_or(Service::Write);
     let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
     Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })

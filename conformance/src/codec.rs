@@ -1,4 +1,4 @@
-//! This project's codec with the names of the vectors: decodes bytes to fields, and encodes fields.
+//! This project's codec by the names of the vectors: decodes bytes to fields, and encodes fields.
 
 mod address;
 mod decoded;
@@ -39,7 +39,7 @@ pub fn class(error: &Error) -> &'static str {
 /// Decodes `bytes` as the stream of this name.
 ///
 /// # Errors
-/// If the codec rejects them.
+/// If the codec rejects the bytes, or the stream is unknown.
 pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
     match name {
         "ams-frame" => frame::decode(context, bytes),

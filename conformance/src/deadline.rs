@@ -1,4 +1,4 @@
-//! When a tool stops sending requests, however much remains to be read.
+//! The deadline after which a tool sends no more requests.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -13,25 +13,26 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// This much time from now on; a time beyond the range of the clock means no deadline.
+    /// A deadline after this time from now; if it is beyond the range of the clock, there is no
+    /// deadline.
     pub fn after(time: Duration) -> Self {
         Self { at: Instant::now().checked_add(time), after: time }
     }
 
-    /// `time`, or less if the deadline comes earlier.
+    /// Returns `time`, or the time until the deadline if that is shorter.
     #[must_use]
     pub fn limit(&self, time: Duration) -> Duration {
         let left = self.at.map(|at| at.saturating_duration_since(Instant::now()));
         left.map_or(time, |left| left.min(time))
     }
 
-    /// Whether it has passed.
+    /// Whether the deadline has passed.
     pub fn is_over(&self) -> bool {
         self.at.is_some_and(|at| Instant::now() >= at)
     }
 }
 
-/// The error text once it has passed.
+/// The error text after the deadline has passed.
 impl fmt::Display for Deadline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let limit = shown_time(self.after.as_secs());

@@ -1,4 +1,4 @@
-//! A request and its result, byte for byte.
+//! A request and its result, with all bytes.
 
 use std::fmt;
 use std::io;
@@ -19,24 +19,24 @@ use crate::text::plural;
 /// A request and its result.
 #[derive(Debug)]
 pub struct Exchange {
-    /// Port the request went to.
+    /// Port to which the request was sent.
     pub port: AmsPort,
     pub service: Service,
     pub index_group: IndexGroup,
     pub index_offset: IndexOffset,
     pub read_length: u32,
     pub data: Vec<u8>,
-    /// The whole frame sent; empty if none was.
+    /// The frame sent; empty if nothing was sent.
     pub sent: Vec<u8>,
-    /// The received frame, or the part of it that arrived.
+    /// The frame received, or the part of it that arrived.
     pub received: Vec<u8>,
     /// The reply and its AMS header, or why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
-    /// Rules of AMS/TCP that the received frame breaks.
+    /// Rules of AMS/TCP that the received frame violates.
     pub violations: Vec<Violation>,
 }
 
-/// What a target answered.
+/// The reply of a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdsReply {
     /// Error of the AMS header.
@@ -70,23 +70,23 @@ impl fmt::Display for AdsReply {
     }
 }
 
-/// Why there is no answer.
+/// Why there is no valid reply.
 #[derive(Debug)]
 pub enum ExchangeError {
     /// The gate rejected the request.
     Refused(Box<Refusal>),
-    /// A dry run.
+    /// The request was not sent in a dry run.
     NotSent,
-    /// The request has no form on the wire.
+    /// The request cannot be encoded.
     Unsendable(Error),
-    /// No reply arrived in this time.
+    /// No reply arrived within this time.
     Silence(Duration),
     Closed,
-    /// The reply is not looked at: the request alone is judged.
+    /// The reply is ignored, because only the request is judged.
     Unseen,
-    /// The bytes received are not an AMS/TCP frame, or not a reply of the service.
+    /// The received bytes are not an AMS/TCP frame, or not a reply of the service.
     Malformed(Error),
-    /// The network failed.
+    /// A network error.
     Io(String),
     /// The connection could not be opened.
     Disconnected(String),
@@ -108,17 +108,17 @@ impl fmt::Display for ExchangeError {
             Self::Refused(why) => write!(f, "not sent, rejected for safety: {why}"),
             Self::NotSent => f.write_str("not sent: a dry run"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
-            Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
-            Self::Closed => f.write_str("connection closed without an answer"),
-            Self::Unseen => f.write_str("whatever it was: the request alone is judged"),
-            Self::Malformed(error) => write!(f, "malformed answer: {error}"),
+            Self::Silence(time) => write!(f, "no reply within {} ms", time.as_millis()),
+            Self::Closed => f.write_str("connection closed without a reply"),
+            Self::Unseen => f.write_str("not judged: only the request is"),
+            Self::Malformed(error) => write!(f, "malformed reply: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
             Self::Disconnected(error) => write!(f, "no connection: {error}"),
         }
     }
 }
 
-/// A rule that a frame itself breaks.
+/// A rule that a frame violates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub requirement: ClauseId,
@@ -127,7 +127,7 @@ pub struct Violation {
 
 impl Violation {
     pub(crate) fn of_invoke_id(id: u32, asked: u32) -> Self {
-        let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
+        let what = format!("a reply to invoke ID {id:#x} instead of {asked:#x}");
         Self { requirement: ADS_5, what }
     }
 }
@@ -148,7 +148,7 @@ impl Exchange {
         }
     }
 
-    /// The answer, if one came.
+    /// The reply, if one arrived.
     pub fn answer(&self) -> Option<&AdsReply> {
         self.outcome.as_ref().ok().map(|(answer, _)| answer)
     }
@@ -163,7 +163,7 @@ impl Exchange {
         self.answer().is_some_and(|answer| answer.success().is_none())
     }
 
-    /// Whether the AMS header has an error and the data after it is a reply of success.
+    /// Whether the AMS header has an error, but the data after it is that of a success.
     pub(crate) fn contradicts_itself(&self) -> bool {
         let has_data = self.received.len() > FrameRef::HEADERS_LEN;
         let of_both = |answer: &AdsReply| !answer.ams_error.is_ok() && answer.result.is_ok();
@@ -183,7 +183,7 @@ impl Exchange {
         }
     }
 
-    /// As [`result`](Self::result), with the usual meaning of an error number.
+    /// Like [`result`](Self::result), with the usual meaning of an error number.
     pub(crate) fn result_in_words(&self) -> String {
         let error = self.answer().filter(|answer| answer.ams_error.is_ok());
         let meaning = error.and_then(|answer| meaning(answer.result));
@@ -221,7 +221,7 @@ impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
         let function = exchange.call().dispatch().ok().map(|request| request.function());
         let spec = function.map(Function::spec);
-        // An error comes without the stream that a success has.
+        // An error has no stream of reply data.
         let has_stream = |data: &&[u8]| exchange.success().is_some() || !data.is_empty();
         let data = exchange.answer().and_then(|answer| answer.data.as_deref()).filter(has_stream);
         let evidence = Self {
@@ -238,40 +238,40 @@ impl From<&Exchange> for Evidence {
     }
 }
 
-/// The usual meaning of an error number; the CNC's numbers are not documented (ADS-7).
+/// The usual meaning of an error number; the manuals do not document the CNC's numbers (ADS-7).
 pub(crate) const fn meaning(error: AdsError) -> Option<&'static str> {
     Some(match error {
-        AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",
+        AdsError::SERVICE_NOT_SUPPORTED => "service not supported",
         AdsError::INVALID_GROUP => "no such channel, axis or class",
         AdsError::INVALID_OFFSET => "no such object, element or function",
-        AdsError::INVALID_ACCESS => "this must not be read, or not be written",
-        AdsError::INVALID_SIZE => "the size does not fit",
-        AdsError::INVALID_DATA => "no such index or handle, or not now",
+        AdsError::INVALID_ACCESS => "reading or writing is not permitted",
+        AdsError::INVALID_SIZE => "wrong size",
+        AdsError::INVALID_DATA => "no such index or handle, or not at the moment",
         AdsError::SYMBOL_NOT_FOUND => "no such name",
         _ => return None,
     })
 }
 
-/// The AMS header of a frame, whatever its lengths.
+/// The AMS header of a frame, whatever its length fields.
 fn header(frame: &[u8]) -> Option<AmsHeader> {
     let header = frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?;
     AmsHeader::decode(header).ok()
 }
 
-/// Whether the received bytes begin with an AMS header from the target, or to the source, of the
-/// request sent.
+/// Whether the received bytes start with an AMS header that comes from the target of the request,
+/// or is addressed to its source.
 pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     let headers = header(sent).zip(header(received));
     headers.is_some_and(|(sent, got)| got.source == sent.target || got.target == sent.source)
 }
 
-/// Why the frame received is not the reply to the one sent: its invoke ID is another.
+/// The violation if the invoke ID of the received frame differs from that of the frame sent.
 pub(crate) fn other_invoke_id(sent: &[u8], received: &[u8]) -> Option<Violation> {
     let (id, asked) = (header(received)?.invoke_id, header(sent)?.invoke_id);
     (id != asked).then(|| Violation::of_invoke_id(id, asked))
 }
 
-/// The rules of ADS-5 that the response's header breaks.
+/// The rules of ADS-5 that the header of a reply violates.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let mut broken = Vec::new();
     let mut check = |kept: bool, what: fmt::Arguments<'_>| {
@@ -280,13 +280,13 @@ pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
         }
     };
     let (ask, reply) = (sent.command, got.command);
-    check(reply == ask, format_args!("command {} answered by {}", ask.0, reply.0));
+    check(reply == ask, format_args!("a reply to command {1} instead of {0}", ask.0, reply.0));
     let flags = got.state_flags;
     let is_response = flags == StateFlags::RESPONSE;
     check(is_response, format_args!("state flags {:#06x} instead of 0x0005", flags.0));
     let (to, from) = (got.target, sent.source);
-    check(to == from, format_args!("answered to {to}, asked by {from}"));
+    check(to == from, format_args!("a reply to {to} instead of {from}"));
     let (by, asked) = (got.source, sent.target);
-    check(by == asked, format_args!("answered by {by}, asked {asked}"));
+    check(by == asked, format_args!("a reply from {by} instead of {asked}"));
     broken
 }

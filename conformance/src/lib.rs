@@ -1,49 +1,49 @@
-//! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]: all that
-//! opens a socket or a file.
+//! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]. This crate
+//! contains all code that opens a socket or a file.
 //!
-//! A module imports only modules below it in this table; `tests/readme/floors.rs` checks that.
+//! A module imports only modules below it in this table, which `tests/readme/floors.rs` checks.
 //!
-//! | module | what it has |
+//! | module | contents |
 //! |---|---|
 //! | [`cli`] | the command line of `ads-cnc` |
 //! | [`selftest`] | tests of the suite with seeded defects |
 //! | [`matrix`] | what covers each requirement |
 //! | [`capture`] | captured traffic: judged, or written for Wireshark |
-//! | [`clients`] | clients under test, and the CNC they talk to |
+//! | [`clients`] | tests of clients, and the CNC to which they connect |
 //! | [`suite`] | the cases for a CNC |
-//! | [`testee`] | codecs under test, over stdin and stdout |
-//! | [`named`], [`objects`] | variables and objects of a CNC: one by its name, or all |
+//! | [`testee`] | tests of codecs, over stdin and stdout |
+//! | [`named`], [`objects`] | variables and objects of a CNC: one by its name, or all of them |
 //! | [`session`] | the typed connection of a tool to a CNC |
 //! | [`report`] | the report of a run, in all its formats |
-//! | [`client`] | an AMS/TCP client that records every byte |
+//! | [`client`] | an AMS/TCP client that records all bytes |
 //! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
 //! | [`simulator`] | the simulated CNC: data model, answers, AMS/TCP server |
 //! | [`net`] | the only module that opens sockets |
-//! | [`rules`] | the clauses as checks of requests, replies and what is known of a CNC |
+//! | [`rules`] | checks of requests and replies by the manuals' clauses, with the state of each CNC |
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
 //! | [`process`] | commands given by the user, and signals |
 //! | [`tables`] | the codec's tables as data, and a dissector made from them |
-//! | [`explain`] | bytes of any stream, field by field |
-//! | [`codec`], [`show`] | the codec with the names of the vectors, and their values as text |
+//! | [`tables`] | the codec's tables as data, and a dissector generated from them |
+//! | [`codec`], [`show`] | the codec by the names of the vectors, and their values as text |
 //! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
 //! | [`values`] | typed values: parsing and formatting |
 //! | [`profile`], [`edition`] | the claims of a target; features by edition and version |
 //! | [`wire_service`] | requirement, streams and reply of the three ADS services |
 //! | [`deadline`] | when a tool stops sending requests |
-//! | [`text`] | hex, escapes, times, JSON |
+//! | [`text`] | hex, escapes, durations, JSON |
 //!
-//! Every byte the simulated CNC sends is encoded by [`ads_cnc`]; there is no second encoder.
+//! All bytes that the simulated CNC sends are encoded by [`ads_cnc`]; there is no second encoder.
 //!
-//! What is stable is the command `ads-cnc`: its arguments, exit codes and JSON. This library is public
-//! for its tests and fuzz targets alone, and may change with any version.
+//! The stable interface is the command `ads-cnc`: its arguments, exit codes and JSON. This library
+//! is public only for its tests and fuzz targets, and may change with any version.
 
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods)]
-// Code must not panic on bytes from outside, nor between a write and its restoring. Modules without
-// such code allow these lints, below or in their parent: a panic there ends one case as a harness
-// error, or a tool before its first request. In the modules `cli` and `suite` the files that write
-// to a target or restore a value deny them again.
+// Code must not panic on bytes from outside, nor between a write and the restoring of its value.
+// Modules without such code allow these lints, here or in their parent: there, a panic ends one
+// case as a harness error, or a tool before its first request. In the modules `cli` and `suite`,
+// the files that write to a target or restore a value deny the lints again.
 #![cfg_attr(
     not(test),
     deny(

@@ -1,4 +1,4 @@
-//! The tool `ads-cnc`.
+//! The command `ads-cnc`.
 
 use std::process::ExitCode;
 

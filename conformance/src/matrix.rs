@@ -1,4 +1,4 @@
-//! The traceability matrix: from each requirement to its sources and to what judges it.
+//! The traceability matrix: the sources of each requirement, and the tests that verify it.
 //!
 //! ```
 //! use ads_cnc_conformance::matrix::matrix;
@@ -32,43 +32,43 @@ use crate::text::wrap;
 pub use sections::to_sections;
 pub use simulated::{SEQUENCES, SIMULATOR_CHECKS};
 
-/// A requirement with its sources and all that judges it.
+/// A requirement with its sources and everything that verifies it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct RequirementRow {
-    /// The requirement that decides it.
+    /// The ID of the requirement.
     pub id: String,
-    /// In a few words.
+    /// A short title.
     pub title: String,
-    /// What is required.
+    /// The text of the requirement.
     pub text: String,
-    /// What belongs to it on another basis.
+    /// Parts of the requirement that have another basis.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartRow>,
-    /// Stated, derived, …
+    /// The basis: stated, derived, assumed or online.
     pub basis: String,
-    /// Must, should or info.
+    /// The level: must, should or info.
     pub level: String,
-    /// Why no check covers it.
+    /// Why no check covers the requirement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,
     /// Document, edition and section.
     pub sources: Vec<String>,
     /// Errata (contradictions between the manuals) that concern it.
     pub errata: Vec<String>,
-    /// What was decided about each of them.
+    /// The rulings on these errata.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rulings: Vec<RulingRow>,
     /// Vectors and sequences that must decode.
     pub accepted: Vec<String>,
     /// Vectors and sequences that must be rejected.
     pub rejected: Vec<String>,
-    /// Cases of the suite against a target or captured traffic, and scenarios for a client. Cases that decode a vector
-    /// are listed with the vectors.
+    /// Cases of the suite for a target or captured traffic, and scenarios for a client. Cases that
+    /// decode a vector are listed as vectors.
     pub cases: Vec<String>,
-    /// Tests of the simulated CNC, for what no case can show.
+    /// Tests of the simulated CNC, for behaviour that no case can show.
     pub tests: Vec<&'static str>,
-    /// Fuzz targets that reach its bytes.
+    /// Fuzz targets that reach the bytes of the requirement.
     pub fuzz_targets: BTreeSet<&'static str>,
 }
 
@@ -80,7 +80,7 @@ pub struct PartRow {
     pub level: String,
 }
 
-/// What was decided about an erratum.
+/// The ruling on an erratum.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RulingRow {
     pub erratum: String,
@@ -88,7 +88,7 @@ pub struct RulingRow {
     pub ruling: String,
 }
 
-/// The cases of the suite, of clients' scenarios and of captured traffic.
+/// The cases of the suite, the scenarios for clients, and the cases of captured traffic.
 pub(crate) fn cases() -> Vec<Case> {
     let mut cases = suite::cases();
     cases.extend(clients::scenarios().iter().map(clients::Scenario::case));
@@ -96,7 +96,7 @@ pub(crate) fn cases() -> Vec<Case> {
     cases
 }
 
-/// All requirements in the catalogue's order.
+/// All requirements, in the order of the catalogue.
 pub fn matrix() -> Vec<RequirementRow> {
     let cases = cases();
     requirements().iter().map(|requirement| row(requirement, &cases)).collect()
@@ -174,14 +174,14 @@ fn ruling(id: &str) -> Option<RulingRow> {
     Some(RulingRow { erratum: id.to_owned(), title, ruling })
 }
 
-/// Width of the text of a requirement.
+/// Maximum width of the text of a requirement.
 const WIDTH: usize = 88;
 
 fn joined(names: &BTreeSet<&str>, between: &str) -> String {
     names.iter().copied().collect::<Vec<_>>().join(between)
 }
 
-/// As text: each requirement with its lists below it.
+/// Formats the matrix as text, with the lists of each requirement below it.
 pub fn to_text(rows: &[RequirementRow]) -> String {
     fn paragraph(out: &mut String, name: &str, words: &str) {
         for (place, line) in wrap(words, WIDTH).iter().enumerate() {
@@ -219,7 +219,7 @@ pub fn to_text(rows: &[RequirementRow]) -> String {
     text
 }
 
-/// One Markdown table, with the numbers of vectors and cases.
+/// Formats the matrix as a Markdown table with the numbers of vectors and cases.
 pub fn to_markdown(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| requirement | level | basis | sources | errata | accepted | rejected | cases | tests | fuzzed |\n\
@@ -251,9 +251,9 @@ pub fn to_markdown(rows: &[RequirementRow]) -> String {
 mod tests {
     use super::*;
 
-    /// Each requirement has a vector, a case or a reason why not.
+    /// Each requirement has a vector, a case, or a reason why it has none.
     #[test]
-    fn every_requirement_leads_somewhere() {
+    fn every_requirement_is_verified_or_excluded() {
         let rows = matrix();
         assert_eq!(rows.len(), requirements().len());
         let listed: usize = rows.iter().map(|row| row.accepted.len() + row.rejected.len()).sum();
@@ -270,9 +270,9 @@ mod tests {
         }
     }
 
-    /// All forms have all requirements, and the sections all functions and streams.
+    /// All formats have all requirements, and the sections have all functions and streams.
     #[test]
-    fn all_forms_have_all_rows() {
+    fn all_formats_have_all_rows() {
         let rows = matrix();
         let (text, table, sections) = (to_text(&rows), to_markdown(&rows), to_sections(&rows));
         let words: BTreeSet<&str> = sections.split([' ', '`']).collect();

@@ -12,15 +12,15 @@ use std::time::Duration;
 
 use crate::gate::Permit;
 
-/// Listens on an address; the system picks the port if it is 0.
+/// Listens on an address; for port 0 the system chooses the port.
 ///
 /// # Errors
-/// Those of the system: the port is taken, the address is not one of this machine.
+/// Those of the system, for example if the port is in use or the address is not one of this machine.
 pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
 
-/// Accepts the connections of a listener in a thread of its own, until dropped.
+/// Accepts the connections of a listener in its own thread, until dropped.
 #[derive(Debug)]
 pub struct Acceptor {
     addr: SocketAddr,
@@ -29,7 +29,7 @@ pub struct Acceptor {
 }
 
 impl Acceptor {
-    /// Calls `f` with each connection and the peer's address.
+    /// Calls `f` with each connection and the address of its peer.
     ///
     /// # Errors
     /// If the listener has no address, or the system cannot start a thread.
@@ -48,8 +48,8 @@ impl Acceptor {
             match accepted {
                 Ok((stream, peer)) => take(stream, peer),
                 Err(error) => {
-                    // Most likely no file descriptor is left: wait until other connections end.
-                    tracing::warn!("no connection: {error}");
+                    // Most likely no file descriptor is free: wait until other connections end.
+                    tracing::warn!("no connection accepted: {error}");
                     thread::sleep(Duration::from_millis(50));
                 }
             }
@@ -58,17 +58,17 @@ impl Acceptor {
         Ok(Self { addr, stopped, thread: Some(thread) })
     }
 
-    /// The address it listens on.
+    /// The address on which it listens.
     pub const fn addr(&self) -> SocketAddr {
         self.addr
     }
 
-    /// Accepts no more connections.
+    /// Stops accepting connections.
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);
-        // The thread blocks in `accept` until a connection arrives; if none can be made, do not
-        // join it.
+        // The thread blocks in `accept` until a connection arrives. If none can be made, it is not
+        // joined.
         if self.wake_listener().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }
@@ -92,14 +92,14 @@ impl Drop for Acceptor {
     }
 }
 
-/// Connects without a gate to a listener on this machine: for a client that is wrong on purpose and
-/// the simulated CNC it talks to.
+/// Connects to a listener on this machine without a gate, for a deliberately faulty client and the
+/// simulated CNC.
 ///
 /// # Errors
 /// Those of the system, and [`io::ErrorKind::PermissionDenied`] for any other machine.
 pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
     if !addr.ip().is_loopback() {
-        let why = "a client that is wrong on purpose goes to this machine only";
+        let why = "a deliberately faulty client connects only to this machine";
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
     }
     let stream = TcpStream::connect_timeout(&addr, timeout)?;
@@ -108,16 +108,16 @@ pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result
     Ok(stream)
 }
 
-/// The other end of a [`Wire`]: a socket, or a CNC of this process.
+/// The other end of a [`Wire`]: a socket, or a CNC in this process.
 pub trait Peer: fmt::Debug + Send {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
-    /// Receives bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end of the
+    /// Receives bytes that have arrived, waiting for at most `timeout`. Returns 0 at the end of the
     /// connection.
     ///
     /// # Errors
-    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
-    /// bytes arrived.
+    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no bytes
+    /// arrived.
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
 }
 
@@ -160,7 +160,7 @@ impl Wire {
         Ok(Self { peer: Box::new(stream), local })
     }
 
-    /// Connects to a peer of this process, without a socket.
+    /// Connects to a peer in this process, without a socket.
     pub fn over(peer: Box<dyn Peer>) -> Self {
         Self { peer, local: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)) }
     }
@@ -174,7 +174,7 @@ impl Wire {
         self.peer.send(permit.frame())
     }
 
-    /// Like [`send`](Self::send), but in pieces of this many bytes with a pause between two.
+    /// Like [`send`](Self::send), but in pieces of this many bytes, with a pause after each.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,
@@ -188,12 +188,12 @@ impl Wire {
         Ok(())
     }
 
-    /// Receives bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end of the
+    /// Receives bytes that have arrived, waiting for at most `timeout`. Returns 0 at the end of the
     /// connection.
     ///
     /// # Errors
-    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
-    /// bytes arrived.
+    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no bytes
+    /// arrived.
     pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
         self.peer.receive(buf, timeout)
     }

@@ -1,8 +1,8 @@
-//! Values of vectors as a person reads them.
+//! Formats values of vectors for a reader.
 
 use ads_cnc_vectors::{Fields, Hex, Tagged, Type, Value};
 
-/// Fields as a person reads them.
+/// Formats fields for a reader.
 pub fn show(fields: &Fields) -> String {
     let field = |(name, value): (&String, &Value)| format!("{name} {}", show_value(value));
     fields.iter().map(field).collect::<Vec<_>>().join(", ")

@@ -71,7 +71,7 @@ fn what_sda_has_not_is_found_at_geo() {
     let addr = cnc(Only::Geo);
     let found = call(addr, &["browse", "--content"]);
     assert_eq!(text(&found.stdout), text(&ads_cnc(&["browse", "--content"]).stdout));
-    assert_eq!(text(&found.stderr), "ads-cnc: position controller: of the GEO task\n");
+    assert_eq!(text(&found.stderr), "ads-cnc: position controller: served by the GEO task\n");
 
     let place = ["example.gain", "--of", "position controller axis 2"];
     let value = call(addr, &[&["get", "--json"], &place[..]].concat());
@@ -92,6 +92,6 @@ fn a_cnc_need_not_have_geo() {
     let found = call(cnc(Only::Nobody), &["browse", "--of", "*controller*"]);
     assert_eq!(found.status.code(), Some(3));
     let said = text(&found.stderr);
-    assert!(said.contains("position controller: none is there, as the SDA task says\n"), "{said}");
-    assert!(said.contains("the GEO task cannot be asked: AMS error 0x6. "), "{said}");
+    assert!(said.contains("position controller: the SDA task has no instance\n"), "{said}");
+    assert!(said.contains("the GEO task could not be queried: AMS error 0x6. "), "{said}");
 }

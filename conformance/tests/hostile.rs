@@ -173,7 +173,7 @@ fn frames_without_end_that_nobody_asked_for() {
     let begun = Instant::now();
     let ended = run(&against(&addr, &["get", "V.E.Testvar", "--timeout", "60000"]));
     assert_eq!(ended.code, Some(1), "{}", ended.stderr);
-    assert!(ended.stderr.contains("an answer to invoke ID"), "{}", ended.stderr);
+    assert!(ended.stderr.contains("a reply to invoke ID"), "{}", ended.stderr);
     assert!(begun.elapsed().as_secs() < 30, "{}", ended.stderr);
     for tool in [&["browse"][..], &["browse", "--variables"], &["run"]] {
         let ended = run(&against(&addr, tool));
@@ -191,7 +191,7 @@ fn frames_before_every_answer_of_a_run() {
     let addr = addr.to_string();
     let ended = run(&against(&addr, &["run", "--seed", "1"]));
     assert_eq!(ended.code, Some(1), "{}", ended.stderr);
-    assert!(ended.stdout.contains("an answer to invoke ID"), "{}", ended.stdout);
+    assert!(ended.stdout.contains("a reply to invoke ID"), "{}", ended.stdout);
 }
 
 #[test]
@@ -255,10 +255,10 @@ fn a_device_where_everything_is_there() {
         let ended = run(&against(&addr, tool));
         assert_eq!(ended.code, Some(3), "{tool:?}: {}", ended.stderr);
         let (why, least) = match tool.contains(&"--variables") {
-            true => ("their names have more than 8 MiB", 30_000),
-            false => ("100000 objects were found", 100_000),
+            true => ("the limit is 8 MiB of names", 30_000),
+            false => ("the limit is 100000 objects", 100_000),
         };
-        let why = format!("not all is listed: {why}");
+        let why = format!("the list is incomplete: {why}");
         assert!(ended.stderr.contains(&why), "{tool:?}: {}", ended.stderr);
         assert!(ended.stdout.lines().count() > least, "{tool:?}");
     }
@@ -441,7 +441,7 @@ fn a_client_without_end() {
         drop(more);
     });
     let said = format!("{}{}", ended.stdout, ended.stderr);
-    assert!(said.contains("17 connections beyond 64 were closed at once"), "{said}");
+    assert!(said.contains("17 connections after the first 64 were closed immediately"), "{said}");
     assert!(said.contains("5000"), "{said}");
     assert!(matches!(ended.code, Some(1 | 3)), "{said}");
 }

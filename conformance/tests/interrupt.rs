@@ -306,7 +306,7 @@ fn no_other_value_is_changed_then() {
     // By its handle at first, and then by its name.
     assert!(writes[2..].iter().all(|(data, _)| data.ends_with(&old_value(&report))));
     let notes = report["cases"].as_array().unwrap().iter().filter_map(|case| case["note"].as_str());
-    let note = "nothing more is written when a value could not be restored";
+    let note = "no more writes are sent after a value could not be restored";
     assert_eq!(notes.filter(|one| one.contains(note)).count(), CASES.len() - 1, "{report}");
 }
 

@@ -238,13 +238,13 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
         ("used", good.clone(), &[], 0, "used: var-descriptions [VAR-8]"),
         ("expired", good.replace("9999", "2020"), &[], 1, "stale: expired"),
         ("over", waiver("var-descriptions", "VAR-3", "fail", "2020-01-01"), &[], 1, "stale: exp"),
-        ("other", good.replace("fail", "warning"), &[], 1, "stale: the verdict is another one"),
+        ("other", good.replace("fail", "warning"), &[], 1, "stale: the verdict differs"),
         (
             "unmatched",
             format!("{good}{}", waiver("com-count", "VAR-8", "fail", "9999-01-01")),
             &[],
             5,
-            "stale: nothing that ran is called that: com-count",
+            "stale: no such case or requirement was run: com-count",
         ),
         (
             "passes",
@@ -291,10 +291,10 @@ fn a_bad_file_of_waivers_is_refused_with_its_line() {
         ("no-requirement", good.replace("VAR-8", "VAR-99"), "no such requirement: VAR-99"),
         ("pass", good.replace("\"fail\"", "\"pass\""), "line 4"),
         ("no-reason", good.replace("known", " "), "a waiver needs a reason"),
-        ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "a day alone"),
+        ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "expected a date such as"),
         ("never", good.replace("2030-01-01", "2030-02-30"), "line 6"),
         ("missing", good.replace("expires", "# expires"), "missing field `expires`"),
-        ("twice", format!("{good}{good}"), "line 7: a second waiver of VAR-8 in a"),
+        ("twice", format!("{good}{good}"), "line 7: duplicate waiver of VAR-8 in a"),
     ];
     for (name, text, why) in cases {
         let file = File::new(name, &text);

@@ -249,16 +249,16 @@ mod shell {
     fn two_answers_in_one_are_none() {
         assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), TesteeReaction::Answer(_)));
         for (line, why) in [
-            (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are there"),
-            (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are there"),
-            (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "both ok and error are there"),
+            (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are given"),
+            (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are given"),
+            (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "both ok and error are given"),
             (
                 r#"{"seq":1,"unsupported":{"what":"op"},"ok":{}}"#,
-                "both ok and unsupported are there",
+                "both ok and unsupported are given",
             ),
             (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
             (r#"{"seq":1,"reject":{},"reject":{}}"#, "duplicate field"),
-            (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is there"),
+            (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is given"),
             (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
         ] {
             let TesteeReaction::Garbled(found) = says(line) else { panic!("{line}") };
@@ -277,7 +277,7 @@ mod shell {
             assert!(matches!(answer, TesteeReaction::Answer(_)), "{answer:?}");
             let bye = testee.bye();
             assert_eq!(bye.is_ok(), is_right, "{bye:?}");
-            assert!(is_right || bye.unwrap_err().contains("no request asked for"));
+            assert!(is_right || bye.unwrap_err().contains("is not a reply to a request"));
         }
     }
 }

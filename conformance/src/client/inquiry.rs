@@ -1,4 +1,4 @@
-//! ReadDeviceInfo and ReadState, through the gate.
+//! Sends ReadDeviceInfo and ReadState, through the gate.
 
 use std::fmt;
 
@@ -13,11 +13,11 @@ use super::Client;
 use crate::exchange::{ExchangeError, Violation, violations};
 use crate::judge::Evidence;
 
-/// A command whose request has no data; `Self` is its reply.
+/// A command whose request has no data. The type is that of its reply.
 pub trait Inquiry: for<'a> Decode<'a> {
     const COMMAND: Command;
     const NAME: &'static str;
-    /// The requirement of its reply.
+    /// The requirement of the reply.
     const CLAUSE: ClauseId;
 
     /// The ADS error number.
@@ -51,22 +51,22 @@ pub enum InquiryReply<R> {
     Reply(R),
     /// An ADS error of the device.
     Refused(AdsError),
-    /// An AMS error: the address is unknown to the router.
+    /// An AMS error: the router does not know the address.
     Ams(AdsError),
 }
 
 /// An inquiry and its result.
 #[derive(Debug)]
 pub struct Inquired<R> {
-    /// Port of the request.
+    /// Port to which the request was sent.
     pub port: AmsPort,
-    /// The whole frame sent; empty if none was.
+    /// The frame sent; empty if nothing was sent.
     pub sent: Vec<u8>,
-    /// The received frame, or the part of it that arrived.
+    /// The frame received, or the part of it that arrived.
     pub received: Vec<u8>,
-    /// The reply, or why there is no valid one.
+    /// The reply, or why there is no valid reply.
     pub outcome: Result<InquiryReply<R>, ExchangeError>,
-    /// Rules of AMS/TCP that the received frame breaks.
+    /// Rules of AMS/TCP that the received frame violates.
     pub violations: Vec<Violation>,
 }
 
@@ -113,8 +113,8 @@ impl Client {
         });
         if let Err(fault) = &reply {
             if let ExchangeError::Malformed(error) = fault {
-                // An error in the reply's stream breaks the requirement of the reply, any other
-                // that of the headers.
+                // An error in the reply's stream violates the requirement of the reply; any other
+                // error violates that of the headers.
                 let own = error.field().stream() == Some(R::STREAM);
                 let requirement = if own { R::CLAUSE } else { ADS_5 };
                 inquired.violations.push(Violation { requirement, what: error.to_string() });

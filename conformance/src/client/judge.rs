@@ -8,7 +8,7 @@ use crate::exchange::{Exchange, ExchangeError, Violation, violations};
 use crate::wire_service::{clause, reply_stream};
 
 impl Client {
-    /// Adds the violations of the received frame's headers.
+    /// Adds the violations in the headers of the received frame.
     pub(super) fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
         let mut broken = Vec::new();
         match &exchange.outcome {
@@ -27,7 +27,7 @@ impl Client {
                 }
                 if exchange.contradicts_itself() {
                     let error = answer.ams_error;
-                    add(ADS_5, format!("AMS error {error:#x} before a reply of success"));
+                    add(ADS_5, format!("AMS error {error:#x} with the reply of a success"));
                 }
             }
             Err(fault) => {
@@ -37,7 +37,7 @@ impl Client {
                 if let ExchangeError::Malformed(error) = fault {
                     if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
-                        // A length is wrong, so the fields after it have other offsets.
+                        // A length is wrong, so the fields after it are shifted.
                         add(ADS_4, error.to_string());
                     } else {
                         add(ADS_5, error.to_string());
@@ -46,7 +46,7 @@ impl Client {
                         add(ADS_5, "no data, and no error in the AMS header".to_owned());
                     }
                 }
-                // The beginning of the next frame on this connection is unknown.
+                // The start of the next frame on this connection is unknown.
                 self.disconnect();
             }
         }

@@ -1,4 +1,4 @@
-//! Observers of a client's connections.
+//! Observes the connections of a client.
 
 use std::fmt;
 use std::io;

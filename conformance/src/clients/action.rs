@@ -1,4 +1,4 @@
-//! Actions that a client is told to do. The meaning of a word never changes.
+//! The actions that a client is told to execute. The meaning of a word never changes.
 
 use std::fmt;
 
@@ -7,9 +7,9 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionWord {
     pub name: &'static str,
-    /// Names of its arguments. The last argument may contain blanks.
+    /// Names of the arguments. The last argument may contain blanks.
     pub arguments: &'static [&'static str],
-    /// What the client does, and its result.
+    /// The result, and what the client does.
     pub gives: &'static str,
 }
 
@@ -26,12 +26,12 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "read-object" ["CHANNEL" "NAME"] "the content of an object, found by its name and read by its type";
     "write-object" ["CHANNEL" "NAME" "VALUE"] "nothing";
     "count-variables" ["CHANNEL" "KIND"] "the number of variables; KIND is V.E, V.G, V.A, or all";
-    "describe" ["CHANNEL" "INDEX" "KIND"] "a description: name, handle, type, access, size, dimensions, numbers as they are";
+    "describe" ["CHANNEL" "INDEX" "KIND"] "a description: name, handle, type, access, size and dimensions; type and access are numbers";
     "describe-extended" ["CHANNEL" "INDEX" "KIND"] "synchronisation and validity, or null";
     "handle" ["CHANNEL" "NAME"] "the handle of a variable";
     "read-by-name" ["CHANNEL" "NAME" "TYPE"] "its value";
     "write-by-name" ["CHANNEL" "NAME" "TYPE" "VALUE"] "nothing";
-    "read-by-handle" ["CHANNEL" "HANDLE" "INDICES" "TYPE"] "its value; INDICES are 4 or 1,2, and - is none";
+    "read-by-handle" ["CHANNEL" "HANDLE" "INDICES" "TYPE"] "its value; INDICES such as 4 or 1,2, or - for none";
     "write-by-handle" ["CHANNEL" "HANDLE" "INDICES" "TYPE" "VALUE"] "nothing";
     "axis-handle" ["CHANNEL" "AXIS" "NAME"] "the handle of an axis variable";
     "read-axis" ["CHANNEL" "AXIS" "NAME" "TYPE"] "its value";
@@ -49,16 +49,16 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "element-writable" ["CLASS" "CHANNEL" "AXIS" "ELEMENT"] "whether it may be written";
     "read-element" ["CLASS" "CHANNEL" "AXIS" "ELEMENT" "TYPE"] "its content";
     "write-element" ["CLASS" "CHANNEL" "AXIS" "ELEMENT" "TYPE" "VALUE"] "nothing";
-    "stream" ["CHANNEL" "FILE"] "nothing: the NC program is written, to its end";
-    "serve-echo" ["CHANNEL" "UUID" "REQUESTS" "SECONDS"] "how many requests were answered: each by its own text, response state 1, until this many are or this time has passed";
+    "stream" ["CHANNEL" "FILE"] "nothing; the whole NC program is written to the stream";
+    "serve-echo" ["CHANNEL" "UUID" "REQUESTS" "SECONDS"] "the number of requests answered, each with its own text and response state 1; ends after REQUESTS requests or SECONDS seconds";
     "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
 };
 
-/// A word of the vocabulary with arguments.
+/// An action of the vocabulary with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Action {
     pub action: String,
-    /// Its arguments.
+    /// The arguments.
     pub args: Vec<String>,
 }
 

@@ -9,14 +9,14 @@ use crate::judge::{Describe, Evidence, Record, Rule, Rules, Verdict};
 use crate::text::plural;
 use crate::wire_service::{decode_reply, service_of};
 
-/// The checks of a scenario with their verdicts.
+/// The checks of a scenario and their verdicts.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) record: Record,
 }
 
 impl Findings {
-    /// Records a check; the exchange is its evidence.
+    /// Records a check, with the exchange as its evidence.
     pub(super) fn check(
         &mut self,
         rules: impl Rules,
@@ -28,13 +28,14 @@ impl Findings {
         self.record.add_all(rules, passed, expected, found, || exchange.map(evidence));
     }
 
-    /// The first clause that fails: by a request that breaks it, as the answer of the client is judged last.
+    /// The first clause that failed. A faulty request comes first, because the client's answer is
+    /// judged last.
     pub(super) fn first_failed(&self) -> Option<&'static str> {
         let mut judgements = self.record.judgements.iter();
         judgements.find(|one| one.verdict == Verdict::Fail).map(|one| one.requirement)
     }
 
-    /// Makes all failed checks follow from a cause.
+    /// Marks all failed checks as consequences of a cause.
     pub(super) fn follow_all(&mut self, cause: &'static str) {
         for one in &mut self.record.judgements {
             if one.verdict == Verdict::Fail && one.requirement != cause {
@@ -43,7 +44,7 @@ impl Findings {
         }
     }
 
-    /// Records failed checks of rules; all but those of the cause only follow from it.
+    /// Records failed checks of rules; all except those of the cause are consequences of it.
     pub(super) fn follow(
         &mut self,
         rules: &[Rule],
@@ -65,7 +66,7 @@ pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
     // The client's request is judged, so the evidence shows the request.
     let fault = exchange.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
-        call: format!("bytes that are no request{fault}"),
+        call: format!("bytes that are not a request{fault}"),
         sent: Evidence::start(&exchange.request).to_vec(),
         result: plural(exchange.sent.len(), "byte"),
         frame_sent: Evidence::start(&exchange.request).to_vec(),
@@ -122,7 +123,7 @@ mod tests {
             fault,
             ..RecordedExchange::default()
         });
-        assert_eq!(shown.call, "bytes that are no request: a frame of 539959386 bytes");
+        assert_eq!(shown.call, "bytes that are not a request: a frame of 539959386 bytes");
         assert_eq!((shown.sent, shown.result.as_str()), (request, "0 bytes"));
     }
 

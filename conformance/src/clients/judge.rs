@@ -23,18 +23,18 @@ use crate::judge::{
 use crate::process::{interrupt, progress};
 use crate::simulator::Cnc;
 
-/// Maximum number of consecutive scenarios without an answer; after them the rest is not tried.
+/// Maximum number of consecutive scenarios without an answer; the scenarios after them are not tried.
 const UNANSWERED_MAX: usize = 12;
 
 #[derive(Debug)]
 pub struct JudgedClient {
     pub hello: Option<ClientHello>,
-    /// Of each scenario, and of the protocol.
+    /// The outcomes of the scenarios, and of the protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub requests: usize,
 }
 
-/// Runs a client through scenarios in their order.
+/// Runs a client through scenarios in order, and judges it.
 pub fn judge(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -51,11 +51,11 @@ pub fn judge(
             return JudgedClient { hello: None, outcomes, requests };
         }
         Err(reaction) => {
-            // After the deadline a missing answer proves nothing.
+            // After the deadline, a missing answer proves nothing.
             let over = actor.over();
             let (verdict, why) = match &over {
                 Some(why) => (Verdict::Inconclusive, why.as_str()),
-                None => (Verdict::NotRun, "there was no answer to hello"),
+                None => (Verdict::NotRun, "hello was not answered"),
             };
             let untried =
                 |one: &Scenario| CaseOutcome::untried(one.case(), verdict, why.to_owned());
@@ -89,8 +89,9 @@ pub fn judge(
             continue;
         }
         if lost >= UNANSWERED_MAX {
-            let note =
-                format!("the client is gone: {UNANSWERED_MAX} times in a row without an answer");
+            let note = format!(
+                "the client no longer answers: {UNANSWERED_MAX} consecutive actions without an answer"
+            );
             outcomes.push(CaseOutcome::untried(case, Verdict::Inconclusive, note));
             continue;
         }
@@ -132,7 +133,7 @@ pub fn judge(
         let bye = actor.bye();
         let passed = bye.is_ok();
         let found = || bye.err().unwrap_or_default();
-        protocol.check(Rule::CLIENT, passed, None, "its end with exit code 0 after bye", found);
+        protocol.check(Rule::CLIENT, passed, None, "exit code 0 after bye", found);
     }
     one_line(actor, &mut protocol);
     outcomes.push(protocol_outcome(protocol));
@@ -143,13 +144,13 @@ pub fn judge(
 fn one_line(actor: &mut dyn ClientUnderTest, protocol: &mut Findings) {
     for line in actor.unasked() {
         protocol.check(Rule::CLIENT, false, None, "one line for each action", || {
-            format!("{line} as well")
+            format!("the additional line {line}")
         });
     }
 }
 
-/// Runs this project's client with a defect through the scenarios with the requirement that it
-/// breaks, until it fails; a valid variant runs through all of them.
+/// Runs this project's client with a defect through the scenarios with the violated requirement,
+/// until it fails; a valid variant runs through all scenarios.
 pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     let mut own = ReferenceClient { fault: Some(defect.fault) };
     let wanted = Rule::of(defect.requirement).id;
@@ -168,8 +169,8 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     outcomes
 }
 
-/// Runs one scenario; returns its outcome, whether the client was lost, and how many requests it
-/// sent.
+/// Runs one scenario. Returns its outcome, whether the client stopped answering, and the number of
+/// requests it sent.
 fn play(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -177,9 +178,9 @@ fn play(
     place: &CncAddress,
 ) -> Result<(CaseOutcome, bool, usize), String> {
     let file = scenario.program.as_deref().map(ProgramFile::new).transpose();
-    let file = file.map_err(|error| format!("the NC program: {error}"))?;
+    let file = file.map_err(|error| format!("the NC program could not be written: {error}"))?;
     let name = file.as_ref().and_then(|file| file.0.to_str());
-    let action = scenario.action_with(name).ok_or("no word of the vocabulary")?;
+    let action = scenario.action_with(name).ok_or("the action is not in the vocabulary")?;
     let cnc = Cnc::with_default_model().map_err(|error| error.to_string())?;
     let mut script = ScenarioScript::new(cnc);
     script.tamper = scenario.tamper;
@@ -208,7 +209,7 @@ fn play(
     progress::requests(exchanges.len());
     let is_lost = !matches!(reaction, ClientReaction::Answer(_));
     let mut case = scenario.case();
-    // Additional requests are judged by their requirements too.
+    // Requests beyond those of the scenario are judged by their requirements too.
     for judgement in &findings.record.judgements {
         if !case.requirements.contains(&judgement.requirement) {
             case.requirements.push(judgement.requirement);
@@ -249,7 +250,13 @@ fn judge_reaction(
         ClientReaction::Answer(ActionResult::Unsupported(what)) => {
             // The client listed this action in its hello.
             let found = || format!("unsupported: {what}");
-            findings.check(Rule::CLIENT, false, last, "what its hello claims", found);
+            findings.check(
+                Rule::CLIENT,
+                false,
+                last,
+                "support for the action, which its hello claims",
+                found,
+            );
             return Some(Stop::NotApplicable(format!("the client has no {what}")));
         }
         ClientReaction::Answer(ActionResult::Result(value)) => {
@@ -265,13 +272,13 @@ fn judge_reaction(
     };
     let (rules, cause): (Vec<Rule>, _) = match reaction {
         ClientReaction::Answer(_) => (rules, findings.first_failed()),
-        // A crash breaks a must, even if the scenario's rules are assumed.
+        // A crash is judged at level must, even if the scenario's rules are assumed.
         ClientReaction::Died(_) => {
             let must = rules.into_iter().map(|rule| rule.at(Level::Must));
             (must.chain([Rule::CLIENT]).collect(), None)
         }
         ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
-            // What else such a client does or omits proves nothing.
+            // Nothing else that such a client does or omits proves anything.
             findings.follow_all(CLIENT);
             (rules.into_iter().chain([Rule::CLIENT]).collect(), Some(CLIENT))
         }
@@ -286,7 +293,7 @@ fn judge_reaction(
     None
 }
 
-/// An address with logical addressing.
+/// Converts the address of an instance to logical addressing.
 fn logical(place: &Value) -> Value {
     let parts = place.as_array().map(Vec::as_slice).unwrap_or_default();
     match (parts, parts.first().and_then(Value::as_u64).and_then(|group| group.try_into().ok())) {
@@ -326,7 +333,7 @@ impl std::fmt::Display for Expected {
 fn protocol_outcome(findings: Findings) -> CaseOutcome {
     let case = Case {
         id: "client-manners".to_owned(),
-        title: "It says who it is, one line to each action, and ends when told to".to_owned(),
+        title: "It answers hello, prints one line for each action, and exits after bye".to_owned(),
         subject: CaseSubject::Client,
         requirements: vec![CLIENT],
         needs: Needs::Queries,
@@ -380,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_scenario_that_panics_is_a_harness_error() {
+    fn a_panic_is_a_harness_error_of_its_scenario_only() {
         let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();
         let scenarios = scenarios();
         let judged = judge(&mut PanickingClient::default(), &server, &scenarios[..2]);

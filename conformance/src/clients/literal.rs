@@ -1,5 +1,5 @@
-//! Printed frames without a codec: printed bytes after headers built by hand. They detect a mistake
-//! that client and CNC share because both use the same codec.
+//! Printed frames, built without the codec from printed bytes and handwritten headers. They detect
+//! errors that client and CNC would share because both use the same codec.
 
 /// A printed example: the expected request and its reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub(super) struct Literal {
 const HEADERS: usize = 38;
 
 impl Literal {
-    /// The equivalent requests: channels by index, and padded names.
+    /// The equivalent requests: with the channel by rank, and with padded names.
     fn forms(&self) -> Vec<Self> {
         let by_index = Self { group: self.group & !0x10_0000, ..self.clone() };
         let mut forms = vec![self.clone(), by_index];
@@ -36,8 +36,8 @@ impl Literal {
         forms
     }
 
-    /// The service's part of the request before and after the read length, which the client may
-    /// choose.
+    /// The data of the service before and after the read length; the client may choose the read
+    /// length.
     fn request(&self) -> (Vec<u8>, Vec<u8>) {
         let mut front = self.group.to_le_bytes().to_vec();
         front.extend(self.offset.to_le_bytes());
@@ -50,7 +50,7 @@ impl Literal {
         (front, after)
     }
 
-    /// Whether a frame is this request, apart from source address, invoke ID and read length.
+    /// Whether a frame is this request, whatever its source address, invoke ID and read length.
     fn is(&self, frame: &[u8]) -> bool {
         let (front, after) = self.request();
         let between = if self.command == 3 { 0_usize } else { 4 };
@@ -71,7 +71,7 @@ impl Literal {
             && at(after_at, &after)
     }
 
-    /// The reply to a frame, if the frame is this request.
+    /// The reply to a frame; `None` unless the frame is this request.
     pub(super) fn reply(&self, frame: &[u8]) -> Option<Vec<u8>> {
         if !self.forms().iter().any(|form| form.is(frame)) {
             return None;

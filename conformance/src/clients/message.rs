@@ -15,7 +15,7 @@ pub const PROTOCOL: u32 = 1;
 /// A client's answer to hello.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClientHello {
-    /// Version of the protocol it implements.
+    /// Version of the protocol that it implements.
     pub protocol: u32,
     pub client: Identity,
     /// The words of the vocabulary that it implements.
@@ -37,7 +37,7 @@ pub struct CncAddress {
     pub port: u16,
 }
 
-/// The line that tells a running client to do an action.
+/// The line that tells a running client to execute an action.
 pub(super) fn action_command(place: &CncAddress, scenario: &str, action: &Action) -> Value {
     json!({
         "cmd": "do",
@@ -52,7 +52,7 @@ pub(super) fn action_command(place: &CncAddress, scenario: &str, action: &Action
     })
 }
 
-/// The environment of a client that is started for each action.
+/// The environment variables of a client that is started for each action.
 pub(super) fn environment(
     place: &CncAddress,
     scenario: &str,
@@ -70,10 +70,10 @@ pub(super) fn environment(
     ]
 }
 
-/// Maximum length of a quoted answer.
+/// Maximum length of an answer in a message.
 const SHOWN: usize = 200;
 
-/// The result of an action without a value.
+/// The result of an action that returns no value.
 pub(super) const DONE: Value = Value::Bool(true);
 
 /// The result of an action in the client's answer.
@@ -87,7 +87,7 @@ pub enum ActionResult {
     Unsupported(String),
 }
 
-/// How a client reacts to an action.
+/// The reaction of a client to an action.
 pub type ClientReaction = crate::process::Reaction<ActionResult>;
 
 impl std::fmt::Display for ClientReaction {
@@ -106,7 +106,7 @@ impl std::fmt::Display for ClientReaction {
             Self::Died(how) => {
                 write!(f, "it died: {}", how.strip_prefix("it ended, ").unwrap_or(how))
             }
-            Self::Silent(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
+            Self::Silent(time) => write!(f, "it hung: no answer within {} ms", time.as_millis()),
             Self::Broken(why) => f.write_str(why),
         }
     }

@@ -1,9 +1,8 @@
-//! Clients under test: the suite acts as the CNC, tells a client what to do, and judges the
-//! requests it sends and its reaction to invalid replies.
+//! Tests clients: the suite acts as the CNC, tells a client what to do, and judges its requests and
+//! its reactions to invalid replies.
 //!
-//! The protocol is described in `adapters/CLIENTS.md`. [`ClientProcess`] is a client that is
-//! started by a command, [`ReferenceClient`] that of this project, optionally with a defect:
-//! [`defects`].
+//! `adapters/CLIENTS.md` specifies the protocol. [`ClientProcess`] is a client that is started by a
+//! command; [`ReferenceClient`] is this project's client, optionally with one of its [`defects`].
 
 mod action;
 mod findings;
@@ -38,26 +37,26 @@ pub use test_server::TestServer;
 
 /// A client under test.
 pub trait ClientUnderTest {
-    /// Asks for its name and the actions it implements.
+    /// Returns the client's name and the actions that it implements.
     fn hello(&mut self, place: &CncAddress) -> Result<ClientHello, ClientReaction>;
 
-    /// Tells it to do an action; a process that has ended is started again.
+    /// Tells the client to execute an action. A process that has ended is restarted.
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction;
 
-    /// Tells it to end.
+    /// Tells the client to end.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// The lines it has printed in addition to its answers since the last call.
+    /// The lines that the client has printed in addition to its answers since the last call.
     fn unasked(&mut self) -> Vec<String> {
         Vec::new()
     }
 
-    /// The reason why no further action may be sent; `None` if one may.
+    /// Why no more actions may be sent; `None` if they may.
     fn over(&self) -> Option<String> {
         None
     }
 
-    /// Its output to stderr.
+    /// The output to stderr.
     fn stderr(&self) -> String {
         String::new()
     }

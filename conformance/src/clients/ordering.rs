@@ -1,4 +1,4 @@
-//! The order of a client's requests: packets of an NC program, and the Service Interface.
+//! Checks the order of a client's requests: packets of an NC program, and the Service Interface.
 
 use ads_cnc::operation::Request;
 use ads_cnc::service::ServiceVariable;
@@ -16,7 +16,7 @@ use crate::values::until_nul;
 /// Maximum length of a packet, and of a line without its line end.
 const PACKET_MAX: usize = 992;
 
-/// Judges the order of the requests.
+/// Judges the order of the requests of a scenario.
 pub(super) fn judge(
     watch: RequestOrder,
     scenario: &Scenario,
@@ -28,17 +28,17 @@ pub(super) fn judge(
         RequestOrder::Stream => stream(scenario, exchanges, findings),
         RequestOrder::NoStream(rule) => {
             let sent = packets(exchanges).into_iter().next();
-            let expected = "nothing of a program that cannot be streamed";
+            let expected = "no part of a program that cannot be streamed";
             let exchange = sent.as_ref().map(|(exchange, _)| *exchange);
             let rule = if rule == STM_8 { assumed(rule) } else { rule.into() };
-            findings.check(rule, sent.is_none(), exchange, expected, "a packet of it");
+            findings.check(rule, sent.is_none(), exchange, expected, "a packet of the program");
         }
         RequestOrder::Host => host(script, exchanges, findings),
         RequestOrder::IdleHost => {
             let written =
                 accesses(script, exchanges).into_iter().find(|access| access.value.is_some());
             let exchange = written.as_ref().map(|access| access.exchange);
-            let expected = "no answer to what is not its own, or is no request";
+            let expected = "no response without a request to its own service";
             findings.check(SVC_2, written.is_none(), exchange, expected, "a write");
         }
         RequestOrder::Caller => caller(script, exchanges, findings),
@@ -92,12 +92,12 @@ fn stream(scenario: &Scenario, exchanges: &[RecordedExchange], findings: &mut Fi
             ended && !bare,
             exchange,
             "whole lines, each ended by CR LF",
-            if ended { "a line ended by LF alone" } else { "a piece without CR LF at its end" },
+            if ended { "a line that ends with LF only" } else { "no CR LF at the end" },
         );
         let text = packet.iter().all(|&byte| byte.is_ascii() && byte != 0);
-        findings.check(STM_7, text, exchange, "ASCII characters and nothing else", "other bytes");
+        findings.check(STM_7, text, exchange, "ASCII characters only", "other bytes");
         if let Some(refused) = refused {
-            let expected = "the same packet again, as it was refused for the time being";
+            let expected = "the same packet again, because it was rejected as busy";
             findings.check(STM_6, packet == refused, exchange, expected, "another");
         }
         let accepted = exchange.and_then(result_of) == Some(0);
@@ -110,13 +110,13 @@ fn stream(scenario: &Scenario, exchanges: &[RecordedExchange], findings: &mut Fi
     let passed = arrived == expected;
     let found = || {
         if arrived.len() == expected.len() {
-            "as many bytes in another order, or others".to_owned()
+            "the same number of bytes, but other bytes or another order".to_owned()
         } else {
-            format!("{} bytes of it", arrived.len())
+            format!("{} bytes", arrived.len())
         }
     };
     let last = packets.last().map(|(exchange, _)| *exchange);
-    let what = || format!("the program line by line, {} bytes", expected.len());
+    let what = || format!("all lines of the program in order, {} bytes", expected.len());
     findings.check(STM_15, passed, last, what, found);
     if refused.is_some() || !scenario.refused.is_empty() {
         findings.check(STM_6, refused.is_none() && passed, last, what, found);
@@ -157,8 +157,8 @@ fn host(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mut 
         |variable| all.iter().position(|one| one.variable == variable && one.value.is_some());
     let first_write = all.iter().position(|one| one.value.is_some()).unwrap_or(all.len());
     for (variable, what) in [
-        (Uuid, "UUID read before anything is written"),
-        (RequestState, "REQUEST_STATE read before anything is written"),
+        (Uuid, "UUID read before the first write"),
+        (RequestState, "REQUEST_STATE read before the first write"),
     ] {
         let read = all.iter().take(first_write).any(|one| one.variable == variable);
         let exchange = all.get(first_write).map(|one| one.exchange).or(exchanges.last());
@@ -170,7 +170,7 @@ fn host(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mut 
     let at = |place: Option<usize>| place.and_then(|place| all.get(place));
     let exchange = at(state).or(at(response)).map(|one| one.exchange).or(exchanges.last());
     let in_order = matches!((response, state), (Some(response), Some(state)) if response < state);
-    let expected = "RESPONSE written, and then RESPONSE_STATE";
+    let expected = "RESPONSE written before RESPONSE_STATE";
     let found = match (response, state) {
         (Some(_), Some(_)) => "RESPONSE_STATE first",
         (None, _) => "no RESPONSE",
@@ -178,7 +178,7 @@ fn host(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mut 
     };
     findings.check(SVC_5, in_order, exchange, expected, found);
     let set = at(state).is_some_and(is_set);
-    findings.check(SVC_5, set, exchange, "a response state that is not 0", "0, or none");
+    findings.check(SVC_5, set, exchange, "a response state that is not 0", "0, or no value");
     if let Some(answer) = at(response) {
         let value = answer.value.as_deref().unwrap_or_default();
         let fits = value.len() <= 128;
@@ -191,15 +191,15 @@ fn host(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mut 
     if let Some(cleared) =
         all.iter().position(|one| one.variable == RequestState && one.value.is_some())
     {
-        // REQUEST_STATE = 0 after RESPONSE_STATE would cancel the answer (SVC-3).
+        // REQUEST_STATE = 0 after RESPONSE_STATE would cancel the response (SVC-3).
         let passed = state.is_none_or(|state| cleared < state);
-        let expected = "REQUEST_STATE written before RESPONSE_STATE, if at all";
+        let expected = "no write of REQUEST_STATE after RESPONSE_STATE";
         findings.check(
             SVC_3_1,
             passed,
             at(Some(cleared)).map(|one| one.exchange),
             expected,
-            "after it",
+            "a write of REQUEST_STATE after RESPONSE_STATE",
         );
     }
 }
@@ -213,7 +213,7 @@ fn caller(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mu
     for variable in [Uuid, Request] {
         let passed = before.iter().any(|one| one.variable == variable && one.value.is_some());
         let expected = || format!("{variable:?} written before REQUEST_STATE");
-        findings.check(SVC_12, passed, exchange, expected, "not before it");
+        findings.check(SVC_12, passed, exchange, expected, "not written before REQUEST_STATE");
     }
     let after = all.get(asked.unwrap_or(all.len())..).unwrap_or_default();
     let read =
@@ -225,15 +225,15 @@ fn caller(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mu
         (Some(looked), Some(read)) => looked < read,
         _ => false,
     };
-    let expected = "RESPONSE read when RESPONSE_STATE is not 0, and not before";
+    let expected = "RESPONSE read only after RESPONSE_STATE is not 0";
     let exchange = read(Response).and_then(|at| after.get(at)).map(|one| one.exchange).or(exchange);
     findings.check(SVC_6, passed, exchange, expected, "otherwise");
 }
 
-/// Whether a reply has a value other than 0 after result and length.
+/// Whether the value in a reply is not 0; it follows the result and the length.
 fn saw(exchange: &RecordedExchange) -> bool {
     exchange.sent.get(46..50).is_some_and(|state| state.iter().any(|&byte| byte != 0))
 }
 
-/// The request that the NC program sends and that the response must repeat.
+/// The request of the NC program, which the response must repeat.
 pub(super) const REQUEST: &str = "some-command";

@@ -1,4 +1,4 @@
-//! Judges the requests of a client that is not told what to do.
+//! Judges the requests of a client that is not controlled by the suite.
 
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
@@ -10,7 +10,7 @@ use super::test_server::{RecordedExchange, TestServer};
 use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
 use crate::simulator::{Cnc, ModelError};
 
-/// The case of all requests; its requirements are those that the requests touch.
+/// The case of all requests; its requirements are those that the requests concern.
 pub fn requests_case() -> Case {
     let functions = Function::ALL.iter().map(|function| function.spec().clause);
     let mut requirements: Vec<&'static str> =
@@ -19,7 +19,7 @@ pub fn requests_case() -> Case {
     requirements.dedup();
     Case {
         id: "client-requests".to_owned(),
-        title: "Every request is one that a CNC knows".to_owned(),
+        title: "Every request addresses a function of the CNC".to_owned(),
         subject: CaseSubject::Client,
         requirements,
         needs: Needs::Queries,
@@ -27,11 +27,11 @@ pub fn requests_case() -> Case {
     }
 }
 
-/// Serves the default model to every client until all connections are closed again or
-/// `go_on` returns false, and judges every request. Returns the number of requests too.
+/// Serves the default model to every client until all connections are closed or `go_on` returns
+/// false, and judges every request. Also returns the number of requests.
 ///
 /// # Errors
-/// None: a test builds the model.
+/// Never in practice: a test builds the default model.
 pub fn listen(
     server: &TestServer,
     mut go_on: impl FnMut() -> bool,

@@ -1,4 +1,4 @@
-//! A client in a process of its own: started once, or for each action.
+//! A client in its own process, which is started once or for each action.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, cut, not_json};
 use crate::text::did_you_mean;
 
-/// The name of the scenario that asks for hello.
+/// The name of the scenario that requests hello.
 const HELLO: &str = "hello";
 
 /// A client that is started by a command line.
@@ -19,12 +19,12 @@ const HELLO: &str = "hello";
 pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
-    /// The lines it has printed without a request.
+    /// The lines that the client has printed without an action.
     unasked: Vec<String>,
 }
 
 impl ClientProcess {
-    /// A client with a time limit for each action.
+    /// Creates a client with a time limit for each action.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self { process: Subprocess::new(line, timeout), stays: false, unasked: Vec::new() }
     }
@@ -35,7 +35,7 @@ impl ClientProcess {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// The line of its answer; without an answer the process is killed.
+    /// Receives the line with the answer; if none arrives, the process is killed.
     fn recv(&mut self, timeout: Duration) -> Result<String, ClientReaction> {
         let line = self.process.recv(timeout);
         if line.is_err() {
@@ -54,7 +54,9 @@ impl ClientProcess {
             if self.stays {
                 self.hello(place)?;
                 if !self.stays {
-                    return Err(ClientReaction::Garbled("it stays no longer".to_owned()));
+                    return Err(ClientReaction::Garbled(
+                        "it no longer keeps running, as its first hello claimed".to_owned(),
+                    ));
                 }
             } else {
                 self.process.start(environment(place, scenario, &action.to_string()))?;
@@ -81,17 +83,15 @@ impl ClientProcess {
     }
 }
 
-/// Rejects a hello with an action that does not exist: its cases would not be applicable, and a
-/// misspelt word would not be noticed.
+/// Rejects a hello with an unknown action. Otherwise a misspelt action would not be noticed,
+/// because its cases would not be applicable.
 fn known_actions(hello: &ClientHello) -> Result<(), ClientReaction> {
     let words = || VOCABULARY.iter().map(|word| word.name);
     match hello.actions.iter().find(|one| !words().any(|word| word == one.as_str())) {
         None => Ok(()),
         Some(word) => {
             let near = did_you_mean(word, words());
-            Err(ClientReaction::Garbled(format!(
-                "its hello names {word:?}, which is not an action{near}"
-            )))
+            Err(ClientReaction::Garbled(format!("its hello has the unknown action {word:?}{near}")))
         }
     }
 }
@@ -111,7 +111,7 @@ impl ClientUnderTest for ClientProcess {
             .and_then(|hello| match hello.protocol {
                 PROTOCOL => known_actions(&hello).map(|()| hello),
                 other => {
-                    let why = format!("it speaks protocol {other}, not {PROTOCOL}");
+                    let why = format!("it uses protocol {other}, not {PROTOCOL}");
                     Err(ClientReaction::Garbled(why))
                 }
             });
@@ -124,7 +124,7 @@ impl ClientUnderTest for ClientProcess {
     }
 
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
-        // After too many additional lines the next one cannot be assigned to an action.
+        // After too many additional lines, the next one cannot be attributed to an action.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;
             self.unasked.push(unasked);

@@ -1,4 +1,4 @@
-//! Compares a client's requests with those of the scenario.
+//! Compares the requests of a client with those that the scenario expects.
 
 use ads_cnc::CncStr;
 use ads_cnc::ads::FrameRef;
@@ -12,7 +12,7 @@ use super::test_server::RecordedExchange;
 use crate::judge::assumed;
 use crate::values::until_nul;
 
-/// A request as raw bytes; the codec is used only to find the end of the frame.
+/// A request in raw bytes; the codec is only used to find the end of the frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct RawRequest {
     command: u16,
@@ -46,7 +46,7 @@ impl RawRequest {
     }
 }
 
-/// Converts a group of the default model from addressing by index to logical addressing: the
+/// Converts a group of the default model from addressing by rank to logical addressing: the
 /// channels 1, 2 and 6 have the ranks 1, 2 and 3.
 pub(super) const fn logical(group: u32) -> u32 {
     let spindle = group & 0xF000 == 0x5000;
@@ -77,10 +77,10 @@ pub(super) fn judge(
     }
     for exchange in exchanges {
         let Some(clause) = writes(exchange) else { continue };
-        let told = RawRequest::of(exchange).is_some_and(|sent| {
+        let is_expected = RawRequest::of(exchange).is_some_and(|sent| {
             asks.iter().any(|ask| (ask.group, ask.offset) == (sent.group, sent.offset))
         });
-        findings.check(clause, told, Some(exchange), "nothing else to be written", "a write");
+        findings.check(clause, is_expected, Some(exchange), "no other write", "a write");
     }
 }
 
@@ -93,7 +93,7 @@ fn one(
     let place = |one: &RawRequest| (one.group, one.offset) == (ask.group, ask.offset);
     let is_data = |one: &RawRequest| one.data == ask.data || ask.also.contains(&one.data);
     let service = |one: &RawRequest| one.command == ask.command;
-    // The request to report: the one with the same address, or else with the same data.
+    // The request to report: the one with the same address, or otherwise with the same data.
     let nearest = sent.iter().max_by_key(|(one, _)| {
         let alike = [
             place(one) && is_data(one) && service(one) && one.port == ask.port,
@@ -109,8 +109,8 @@ fn one(
     });
     let Some((one, exchange)) = nearest else {
         let found = match exchanges.last() {
-            None => "no request at all",
-            Some(_) => "nothing that could be it",
+            None => "no request",
+            Some(_) => "no similar request",
         };
         findings.check(ask.place, false, exchanges.last(), || describe(ask), found);
         return;
@@ -129,7 +129,7 @@ fn one(
         findings.check(ask.place, false, exchange, || describe(ask), found);
         return;
     }
-    // Only for the decoder it is specified which of SDA and GEO serves a class.
+    // The manual specifies only for the decoder which of SDA and GEO serves a class.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     findings.check(GEN_4, port, exchange, || format!("port {}", ask.port), || one.port);
@@ -155,14 +155,14 @@ fn one(
         ReadLength::Times(size) => one.length > 0 && one.length.checked_rem(size) == Some(0),
     };
     let expected = || match ask.length {
-        ReadLength::AtLeast(least) => format!("at least {least} bytes read"),
-        ReadLength::Times(size) => format!("a read length of {size} or a multiple"),
+        ReadLength::AtLeast(least) => format!("a read length of at least {least}"),
+        ReadLength::Times(size) => format!("a read length of {size} or a multiple of it"),
     };
     let rule = if matches!(ask.length, ReadLength::Times(_)) { COM_3 } else { ask.service_rule() };
     findings.check(rule, enough, exchange, expected, || format!("a read length of {}", one.length));
 }
 
-/// Whether data begins with the expected text in UTF-8, where CP1252 has other bytes.
+/// Whether data starts with the expected text in UTF-8, where CP1252 has other bytes.
 fn is_in_utf8(expected: &[u8], found: &[u8]) -> bool {
     let text = until_nul(expected);
     let utf8 = CncStr::from_bytes(text).map(|text| text.to_string()).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Judges each request of a client: whether the CNC has such a function, and its headers.
+//! Judges each request of a client: its headers, and whether the CNC has the requested function.
 
 use std::fmt::Display;
 
@@ -21,8 +21,8 @@ pub(super) struct RequestJudge {
     rules: RuleBook,
     /// Connection and invoke ID of the previous request.
     before: Option<(usize, u32)>,
-    /// Whether replies show what later requests must match. In a scenario the suite itself names
-    /// what the client asks for, and changes replies.
+    /// Whether later requests are compared with earlier replies. Not in a scenario, where the suite
+    /// itself gives the names and changes replies.
     learns: bool,
 }
 
@@ -33,7 +33,7 @@ impl Observation for RecordedExchange {
 }
 
 impl RequestJudge {
-    /// For a client that decides by itself what to ask for.
+    /// For a client that decides by itself what to request.
     pub(super) fn passive() -> Self {
         Self { learns: true, ..Self::of_scenario() }
     }
@@ -58,21 +58,21 @@ impl RequestJudge {
         let frame = match FrameRef::split(&exchange.request, DATA_MAX) {
             Ok(Some((frame, _))) => frame,
             Ok(None) => {
-                let found = format!("{} bytes of a frame, and no more", exchange.request.len());
+                let found = format!("only the first {} bytes of a frame", exchange.request.len());
                 return check(ADS_5.into(), false, "a whole frame", &found);
             }
             Err(error) => return check(ADS_5.into(), false, "a frame", &error),
         };
         let header = frame.header();
         let net_id = header.target.net_id;
-        check(ADS_5.into(), net_id == NET_ID, "the NetId it was told", &net_id);
+        check(ADS_5.into(), net_id == NET_ID, &format!("the NetId {NET_ID}"), &net_id);
         let command = header.command;
         let is_known = (1..=9).contains(&command.0);
         check(ADS_5.into(), is_known, "a command from 1 to 9", &command.0);
         let port = header.target.port;
         let has_task = Task::from_port(port).is_some();
         check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
-        // With a constant invoke ID a client cannot detect a late reply.
+        // With a constant invoke ID, a client cannot detect a late reply.
         let before = self.before.replace((exchange.connection, header.invoke_id));
         let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
         self.rules.request_headers(exchange, &header, is_repeated);
@@ -91,7 +91,12 @@ impl RequestJudge {
                     return;
                 }
                 if let Some(unknown) = self.rules.request(exchange, &call) {
-                    check(address_clause(&call), false, "a request that a CNC knows", &unknown);
+                    check(
+                        address_clause(&call),
+                        false,
+                        "a request for a function of the CNC",
+                        &unknown,
+                    );
                 }
                 if self.learns {
                     self.reply(exchange, &frame, &call);
@@ -116,7 +121,7 @@ fn name(command: Command) -> String {
     }
 }
 
-/// The requirement that an address without a function breaks.
+/// The requirement that an address without a function violates.
 fn address_clause(call: &Call<'_>) -> Rule {
     match (call.dispatch(), call.port) {
         (Err(DispatchError::Group(_)), AmsPort::COM) => ADR_3.into(),
@@ -127,7 +132,7 @@ fn address_clause(call: &Call<'_>) -> Rule {
     }
 }
 
-/// Calls a function with the decoded request of an exchange, if it is one.
+/// Calls a function with the decoded request of an exchange, if it decodes.
 pub(super) fn with_request<T>(
     exchange: &RecordedExchange,
     then: impl FnOnce(&Request<'_>) -> T,

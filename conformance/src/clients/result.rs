@@ -1,10 +1,10 @@
-//! Compares the result of a client with the expected value, in any JSON notation.
+//! Compares the result of a client with the expected value, whatever its JSON notation.
 
 use serde_json::Value;
 
-/// Whether a result is the expected one. An array of one element equals the element, nested arrays
-/// equal the flat one, a number may be a string, and only the fields of an object that the client
-/// returns are compared.
+/// Whether a result is the expected one. An array of one element equals the element, and nested
+/// arrays equal the flat array. A number may be a string. Of an object, only the fields that the
+/// client returns are compared.
 pub(super) fn same(expected: &Value, found: &Value) -> bool {
     match (expected, found) {
         (Value::Object(expected), Value::Object(found)) => {
@@ -79,7 +79,7 @@ fn number(value: &Value) -> Option<NumericValue> {
     whole.or_else(|| text.parse().ok().map(NumericValue::Real))
 }
 
-/// Equal to fifteen decimal digits.
+/// Whether two numbers are equal to fifteen decimal digits.
 fn near(expected: f64, found: f64) -> bool {
     let off = (expected - found).abs();
     off <= expected.abs() * 1e-14
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_same_may_be_written_otherwise() {
+    fn notations_of_a_value_are_equal() {
         for (expected, found) in [
             (json!(30), json!("30")),
             (json!(30), json!([30])),
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn another_is_another() {
+    fn different_values_differ() {
         for (expected, found) in [
             (json!(30), json!(31)),
             (json!(30), json!(null)),

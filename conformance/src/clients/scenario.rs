@@ -1,4 +1,4 @@
-//! A scenario: an action, the requests that the client has to send, and the answer it has to give.
+//! A scenario: an action, the requests that the client must send, and the answer that it must give.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
@@ -12,31 +12,31 @@ use super::script::ScenarioScript;
 use super::tamper::Tamper;
 use crate::judge::{Body, Case, CaseSubject, Needs, Rule};
 
-/// A request that a client has to send, as raw bytes independent of the codec.
+/// A request that a client must send, in raw bytes, independent of the codec.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ExpectedRequest {
-    /// The number of its command: 2 Read, 3 Write, 9 ReadWrite.
+    /// The number of the command: 2 Read, 3 Write, 9 ReadWrite.
     pub(super) command: u16,
     pub(super) port: u16,
     pub(super) group: u32,
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
-    /// The read length.
+    /// The permitted read lengths.
     pub(super) length: ReadLength,
-    /// Equivalent data.
+    /// Other data that is equivalent.
     pub(super) also: Vec<Vec<u8>>,
-    /// Data that differs from the assumed one, but is not wrong.
+    /// Data that differs from the assumed form, but is not wrong.
     pub(super) tolerated: Vec<Vec<u8>>,
     /// Name of the function.
     pub(super) place: Rule,
     pub(super) stream: Rule,
 }
 
-/// The read length that a request has to have.
+/// The permitted read lengths of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ReadLength {
     AtLeast(u32),
-    /// A positive multiple.
+    /// A positive multiple of this number.
     Times(u32),
 }
 
@@ -56,7 +56,7 @@ impl ExpectedRequest {
         self
     }
 
-    /// The requirement of its index group.
+    /// The requirement of the index group.
     pub(super) const fn group_rule(&self) -> ClauseId {
         let table = self.group & 0xF00;
         match self.group & 0xFF_FF00 {
@@ -100,7 +100,7 @@ const fn ask(
     }
 }
 
-/// A Read of at least this many bytes.
+/// A Read of at least `least` bytes.
 pub(super) const fn read(port: u16, group: u32, offset: u32, least: u32) -> ExpectedRequest {
     ask(2, port, group, offset, Vec::new(), least)
 }
@@ -114,7 +114,7 @@ pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Expected
     ask(3, port, group, offset, data.to_vec(), 0)
 }
 
-/// The answer that a client has to give.
+/// The answer that a client must give.
 #[derive(Clone, Debug)]
 pub(super) enum ExpectedAnswer {
     /// This result.
@@ -133,27 +133,27 @@ pub(super) enum ExpectedAnswer {
     Error,
 }
 
-/// The order of requests that is judged.
+/// What the order of the requests is checked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RequestOrder {
-    /// The whole program in packets.
+    /// The whole program is sent in packets.
     Stream,
-    /// No part of a program that cannot be streamed is sent, for this reason.
+    /// No part of a program that cannot be streamed is sent; the clause is the reason.
     NoStream(ClauseId),
     /// The service answers the request of the program.
     Host,
     /// The service does not answer without a request.
     IdleHost,
-    /// The NC program's side of the interface.
+    /// The client acts as the NC program and keeps its order of accesses.
     Caller,
 }
 
 /// An action, and how the client's requests and answer are judged.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// A slug whose meaning never changes.
+    /// The ID, whose meaning never changes.
     pub id: String,
-    /// What is tried, as a sentence.
+    /// The verified behaviour, as a sentence.
     pub title: String,
     /// The action; for `stream` the file name is appended.
     pub(super) action: String,
@@ -161,7 +161,7 @@ pub struct Scenario {
     pub(super) expect: ExpectedAnswer,
     /// The rules of the client's answer.
     pub(super) rules: Vec<Rule>,
-    /// Further requirements that the answer may break.
+    /// Further requirements that the answer may violate.
     pub(super) more: Vec<ClauseId>,
     pub(super) tamper: Option<(Function, Tamper)>,
     pub(super) refused: Vec<(usize, AdsError)>,
@@ -226,7 +226,7 @@ impl Scenario {
         self
     }
 
-    /// The rules for the client's answer: by default the requirement of its first request.
+    /// The rules for the client's answer; by default, the requirement of the first request.
     pub(super) fn rules(&self) -> Vec<Rule> {
         match (self.rules.as_slice(), self.asks.first()) {
             ([], Some(ask)) => vec![ask.place],

@@ -12,7 +12,7 @@ use super::literal::Literal;
 use super::tamper::{SendStep, Tamper};
 use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
-/// Number of reads of RESPONSE_STATE before a simulated host has its response.
+/// Number of reads of RESPONSE_STATE after which the simulated host writes its response.
 const POLLS: usize = 2;
 
 /// The replies of the CNC in a scenario.
@@ -20,13 +20,14 @@ const POLLS: usize = 2;
 pub(super) struct ScenarioScript {
     /// The CNC whose replies the script changes.
     pub(super) cnc: Cnc,
-    /// The change of the replies of a function.
+    /// The change to the replies of a function.
     pub(super) tamper: Option<(Function, Tamper)>,
-    /// The writes to the streaming object that are rejected: number from 0, and error.
+    /// The writes to the streaming object that are rejected: their number, counted from 0, and the
+    /// error.
     pub(super) refused: Vec<(usize, AdsError)>,
     /// A printed request with its reply.
     pub(super) literal: Option<Literal>,
-    /// The response of a simulated host of the Service Interface.
+    /// The response of the simulated host of the Service Interface.
     pub(super) response: Option<&'static str>,
     looks: Option<usize>,
     streamed: usize,
@@ -34,7 +35,7 @@ pub(super) struct ScenarioScript {
 }
 
 impl ScenarioScript {
-    /// A CNC whose replies are all right.
+    /// A script with a CNC whose replies are not changed.
     pub(super) const fn new(cnc: Cnc) -> Self {
         Self {
             cnc,
@@ -87,7 +88,7 @@ impl ScenarioScript {
         self.refused.iter().find(|(refused, _)| *refused == number).map(|(_, error)| *error)
     }
 
-    /// The simulated host answers the client's request after a while.
+    /// Lets the simulated host answer the client's request after a while.
     fn host(&mut self, asked: &Request<'_>) {
         let Some(response) = self.response else { return };
         match self.service_variable(asked) {
@@ -145,7 +146,7 @@ impl ScenarioScript {
         let _written = write.and_then(|write| self.ask(write));
     }
 
-    /// The reply of a function, without changes.
+    /// The unchanged reply of a function.
     pub(super) fn ask<'a>(&self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];

@@ -1,4 +1,4 @@
-//! Changes of a reply: other bytes, or another way to send them.
+//! Changes to a reply: to its bytes, or to how they are sent.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use crate::wire_service::{decode_reply, encode_reply, service_of};
 pub(super) enum Tamper {
     /// One byte at a time.
     Bytewise,
-    /// In two pieces, the first of this size, with a pause between them.
+    /// In two pieces with a pause in between; the first has this size.
     Pieces(usize),
     /// After a reply with another invoke ID and other data, in one segment.
     Foreign,
@@ -46,7 +46,7 @@ pub(super) enum Tamper {
     Silence,
     /// This many additional bytes of data; all lengths match.
     More(usize),
-    /// This many bytes of data less; all lengths match.
+    /// This many bytes of data fewer; all lengths match.
     Less(usize),
     /// Only this many bytes of data.
     Only(usize),
@@ -54,7 +54,7 @@ pub(super) enum Tamper {
     Padded(usize),
     /// Without the NUL at the end.
     Open,
-    /// Other bytes in the data, from this offset on.
+    /// Other bytes in the data, starting at this offset.
     Patch(usize, [u8; 4]),
     /// At most this many descriptors.
     Descriptors(usize),
@@ -71,12 +71,12 @@ pub(super) enum LengthField {
     Data,
 }
 
-/// A wrong number for a length.
+/// A wrong value for a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum WrongLength {
-    /// Increments a counter.
+    /// One more than the right value.
     Longer,
-    /// One less.
+    /// One less than the right value.
     Shorter,
     /// 0.
     Zero,
@@ -84,7 +84,7 @@ pub(super) enum WrongLength {
     Huge,
 }
 
-/// A step of sending.
+/// A step of sending a reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum SendStep {
     Send(Vec<u8>),
@@ -92,14 +92,14 @@ pub(super) enum SendStep {
     Close,
 }
 
-/// Long enough for a client to read what was sent before.
+/// Long enough for a client to read the bytes sent before.
 const PAUSE: Duration = Duration::from_millis(40);
 
 /// The AMS error of a router for an unknown port.
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
 
 impl Tamper {
-    /// The steps that send a changed reply; `before` is the last reply to another request.
+    /// The steps that send a changed reply. `before` is the last reply to another request.
     pub(super) fn steps(self, reply: &[u8], before: Option<&[u8]>) -> Vec<SendStep> {
         let send = |bytes: Vec<u8>| vec![SendStep::Send(bytes)];
         let then_close =
@@ -119,7 +119,7 @@ impl Tamper {
             Self::Twice => send([all(), all()].concat()),
             Self::Late => send([before.unwrap_or_default().to_vec(), all()].concat()),
             Self::OtherInvokeId => then_close(foreign(reply)),
-            Self::Length(place, lie) => then_close(lying(reply, place, lie)),
+            Self::Length(place, wrong) => then_close(with_length(reply, place, wrong)),
             Self::OtherCommand => then_close(with_header(reply, |header| {
                 header.command = match header.command {
                     Command::READ => Command::READ_WRITE,
@@ -189,8 +189,8 @@ enum ReplyBody {
     Result(AdsError, Option<Vec<u8>>),
 }
 
-/// The reply changed and encoded again with matching lengths. A reply that does not decode stays as
-/// it is.
+/// The reply, changed and encoded again with matching lengths. A reply that does not decode is left
+/// unchanged.
 fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
@@ -224,7 +224,7 @@ fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
     })
 }
 
-/// A reply with an invoke ID that no request has, and other data of the same length.
+/// A reply with an unknown invoke ID, and other data of the same length.
 fn foreign(reply: &[u8]) -> Vec<u8> {
     let other = with_data(reply, |data| {
         for byte in data.iter_mut() {
@@ -234,8 +234,8 @@ fn foreign(reply: &[u8]) -> Vec<u8> {
     with_header(&other, |header| header.invoke_id = header.invoke_id.wrapping_add(0x0100_0000))
 }
 
-/// The reply with one length field overwritten and all other bytes unchanged.
-fn lying(reply: &[u8], place: LengthField, lie: WrongLength) -> Vec<u8> {
+/// The reply with one length field overwritten, and all other bytes unchanged.
+fn with_length(reply: &[u8], place: LengthField, wrong: WrongLength) -> Vec<u8> {
     // Offsets in the frame: 6 bytes of AMS/TCP header, 32 of AMS header, 4 of result.
     let at = match place {
         LengthField::AmsTcp => 2,
@@ -248,7 +248,7 @@ fn lying(reply: &[u8], place: LengthField, lie: WrongLength) -> Vec<u8> {
         field
     }) {
         let number = u32::from_le_bytes(*field);
-        let other = match lie {
+        let other = match wrong {
             WrongLength::Longer => number.wrapping_add(1),
             WrongLength::Shorter => number.wrapping_sub(1),
             WrongLength::Zero => 0,
@@ -282,23 +282,24 @@ mod tests {
     }
 
     #[test]
-    fn lengths_lie_where_they_should() {
+    fn only_the_chosen_length_is_wrong() {
         let at = |tamper, place: usize| sent(tamper)[place..place + 4].to_vec();
         assert_eq!(at(Tamper::Length(LengthField::AmsTcp, WrongLength::Longer), 2), [45, 0, 0, 0]);
         assert_eq!(at(Tamper::Length(LengthField::Ams, WrongLength::Shorter), 26), [11, 0, 0, 0]);
         assert_eq!(at(Tamper::Length(LengthField::Data, WrongLength::Huge), 42), [0xFF; 4]);
-        for lie in [WrongLength::Longer, WrongLength::Shorter, WrongLength::Zero, WrongLength::Huge]
+        for wrong in
+            [WrongLength::Longer, WrongLength::Shorter, WrongLength::Zero, WrongLength::Huge]
         {
             for place in [LengthField::AmsTcp, LengthField::Ams, LengthField::Data] {
-                let lying = sent(Tamper::Length(place, lie));
-                let differing = lying.iter().zip(reply()).filter(|(new, old)| **new != *old);
-                assert!(lying.len() == 50 && differing.count() >= 1);
+                let sent = sent(Tamper::Length(place, wrong));
+                let differing = sent.iter().zip(reply()).filter(|(new, old)| **new != *old);
+                assert!(sent.len() == 50 && differing.count() >= 1);
             }
         }
     }
 
     #[test]
-    fn what_is_put_together_again_is_right_but_for_what_was_meant() {
+    fn a_rebuilt_reply_is_valid_except_for_the_change() {
         assert_eq!(sent(Tamper::Bytewise), reply());
         assert_eq!(sent(Tamper::Pieces(7)), reply());
         assert_eq!(sent(Tamper::Less(1)).len(), 49);

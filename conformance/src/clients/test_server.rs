@@ -1,4 +1,5 @@
-//! The CNC that a client under test connects to: it records all frames and can change its replies.
+//! The server to which a client under test connects: it records all frames and can change its
+//! replies.
 
 use std::collections::HashMap;
 use std::io::{self, Read as _, Write as _};
@@ -20,11 +21,11 @@ use crate::simulator::{FRAME_MAX, NET_ID};
 /// Maximum number of connections in a scenario; further ones are counted and closed.
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
-/// Maximum number of recorded bytes of requests and replies, and overhead of a recorded request.
+/// Maximum number of recorded bytes of requests and replies; [`TURN`] is the overhead of a request.
 pub(super) const RECORDED_BYTES_MAX: usize = 8 << 20;
 const TURN: usize = 128;
 
-/// How long to wait for a connection that the client has closed.
+/// How long to wait for a connection to end after the client has closed it.
 const LINGER: Duration = Duration::from_millis(200);
 
 /// A request and all bytes sent in return.
@@ -35,7 +36,7 @@ pub(super) struct RecordedExchange {
     pub(super) request: Vec<u8>,
     /// All bytes sent in return.
     pub(super) sent: Vec<u8>,
-    /// Why it is not a frame.
+    /// Why the bytes are not a frame, if they are not.
     pub(super) fault: Option<String>,
 }
 
@@ -43,15 +44,15 @@ pub(super) struct RecordedExchange {
 #[derive(Debug, Default)]
 struct Recording {
     kept: Vec<RecordedExchange>,
-    /// How many were taken to be judged already.
+    /// Number of exchanges that were already taken to be judged.
     taken: usize,
     bytes: usize,
-    /// How many were not recorded.
+    /// Number of exchanges that were not recorded.
     beyond: usize,
 }
 
 impl Recording {
-    /// Records an exchange; returns its number, or `None` beyond the limit.
+    /// Records an exchange. Returns its number, or `None` if the limit is exceeded.
     fn record(&mut self, exchange: RecordedExchange) -> Option<usize> {
         self.grow(exchange.request.len().saturating_add(TURN));
         if self.bytes > RECORDED_BYTES_MAX {
@@ -87,12 +88,12 @@ impl Recording {
     }
 }
 
-/// How much exceeded the limits.
+/// The requests and connections that exceeded the limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Overflow {
-    /// Requests that were answered, but not judged.
+    /// Number of requests that were answered, but not judged.
     pub(super) requests: usize,
-    /// Connections that were closed at once.
+    /// Number of connections that were closed immediately.
     pub(super) connections: usize,
 }
 
@@ -109,17 +110,24 @@ impl std::fmt::Display for Overflow {
         let mebibytes = RECORDED_BYTES_MAX >> 20;
         match (requests, connections) {
             (0, _) => {}
-            (_, 0) => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged")?,
-            _ => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged; ")?,
+            (_, 0) => {
+                write!(f, "{requests} requests after the first {mebibytes} MiB were not judged")?
+            }
+            _ => {
+                write!(f, "{requests} requests after the first {mebibytes} MiB were not judged; ")?
+            }
         }
         if *connections > 0 {
-            write!(f, "{connections} connections beyond {CONNECTIONS_MAX} were closed at once")?;
+            write!(
+                f,
+                "{connections} connections after the first {CONNECTIONS_MAX} were closed immediately"
+            )?;
         }
         Ok(())
     }
 }
 
-/// A listener that runs one scenario after the other.
+/// A listener that runs one scenario after another.
 #[derive(Debug)]
 pub struct TestServer {
     acceptor: net::Acceptor,
@@ -127,7 +135,7 @@ pub struct TestServer {
     capture: Option<Mutex<ClientCapture>>,
 }
 
-/// A capture of connections, one after the other.
+/// A capture of connections, one after another.
 #[derive(Debug)]
 struct ClientCapture {
     tap: Box<dyn Tap>,
@@ -136,7 +144,7 @@ struct ClientCapture {
 }
 
 impl ClientCapture {
-    /// Ends the open connection and begins the next, if it is another one.
+    /// Ends the open connection and begins the next one, if it is another.
     fn switch(&mut self, next: Option<(SocketAddr, SocketAddr)>) {
         if self.open == next {
             return;
@@ -156,7 +164,7 @@ impl ClientCapture {
 struct TestRun {
     script: Mutex<ScenarioScript>,
     exchanges: Mutex<Recording>,
-    /// Open connections, and how many there have been.
+    /// Number of open connections, and number of all connections so far.
     streams: Mutex<Vec<TcpStream>>,
     /// The address of the client, by the number of the connection.
     peers: Mutex<HashMap<usize, SocketAddr>>,
@@ -176,25 +184,25 @@ impl TestServer {
         let run: Arc<Mutex<Option<Arc<TestRun>>>> = Arc::default();
         let playing = Arc::clone(&run);
         let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
-            // Between two scenarios a connection is closed. The lock is held until the connection
-            // is registered with its scenario, which may end at any time.
+            // A connection is closed if no scenario is running. The lock is held until the
+            // connection is registered with its scenario, because a scenario may end at any time.
             let run = lock(&playing);
             let _gone = run.clone().map(|run| run.connect(stream));
         })?;
         Ok(Self { acceptor, run, capture: None })
     }
 
-    /// Captures all connections, one after the other.
+    /// Captures all connections, one after another.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
         self.capture = Some(Mutex::new(ClientCapture { tap: capture.into(), open: None }));
         self
     }
 
-    /// Ends the capture, if there is one.
+    /// Ends the capture, if any.
     ///
     /// # Errors
-    /// The first error of the system while writing.
+    /// The first error of the system while the capture was written.
     pub fn end_capture(&mut self) -> io::Result<()> {
         let capture = self.capture.take().map(Mutex::into_inner);
         capture
@@ -214,7 +222,7 @@ impl TestServer {
         }
     }
 
-    /// The address it listens on.
+    /// The address on which the server listens.
     pub const fn addr(&self) -> SocketAddr {
         self.acceptor.addr()
     }
@@ -255,8 +263,8 @@ impl TestServer {
         }
     }
 
-    /// Takes the requests recorded since the last call, except for the last one, whose reply may
-    /// not be sent yet.
+    /// Takes the requests recorded since the last call, except the last one, whose reply may not
+    /// have been sent yet.
     pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         let exchanges = lock(&run.exchanges).take_answered();
@@ -264,12 +272,12 @@ impl TestServer {
         exchanges
     }
 
-    /// Ends the scenario and closes every connection.
+    /// Ends the scenario and closes all connections.
     pub(super) fn end(&self) -> (Vec<RecordedExchange>, Overflow, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Overflow::default(), None);
         };
-        // Bytes that a client sent just before it closed may still arrive.
+        // Bytes that a client sent just before it closed the connection may still arrive.
         drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
         for stream in lock(&run.streams).iter() {
             let _closed = stream.shutdown(Shutdown::Both);
@@ -371,14 +379,15 @@ impl TestRun {
         }
     }
 
-    /// Answers a frame; returns whether the connection stays open.
+    /// Answers a frame. Returns whether the connection stays open.
     fn exchange(
         &self,
         connection: usize,
         request: Vec<u8>,
         mut stream: &TcpStream,
     ) -> io::Result<bool> {
-        // Recorded before it is answered: with the answer the client may close the connection.
+        // Recorded before it is answered, because the client may close the connection after the
+        // answer.
         let place = self.record(RecordedExchange {
             connection,
             request: request.clone(),

@@ -1,4 +1,4 @@
-//! Index groups and offsets, for which the codec has no stream.
+//! Index groups and index offsets, for which the codec has no stream type.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable,
@@ -10,7 +10,7 @@ use ads_cnc_vectors::{Context, Type};
 use super::field_reader::FieldReader;
 use super::{Decoded, Refused, collect, name, one, uns32};
 
-/// The number in the bytes of an index group or offset.
+/// Decodes the bytes of an index group or index offset.
 fn number(bytes: &[u8]) -> Result<u32, Refused> {
     Ok(ObjectCount::decode(bytes)?.0)
 }
@@ -20,7 +20,9 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Re
     if let Some(base) = context.base {
         let again = of_base(IndexGroup::new(base), group)?;
         if again != group {
-            return Err(Refused::Unsupported(format!("{group} of the base {base:#x}: {again}")));
+            return Err(Refused::Unsupported(format!(
+                "the group {group} is not of the base {base:#x}, but {again}"
+            )));
         }
     }
     let mut fields = vec![("index_group", uns32(group.get()))];
@@ -47,9 +49,9 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Re
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// The group with a base and a number, encoded from both parts.
+/// The group with this base and the number of `group`, encoded from both.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Refused> {
-    let lacks = || Refused::Unsupported(format!("{group} of the base {base}"));
+    let lacks = || Refused::Unsupported(format!("{base} is not the base of {group}"));
     let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
     Ok(match base.parts().ok_or_else(lacks)? {
         Group::Com(com) if com.table == ComTable::Axis => {
@@ -108,25 +110,24 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, R
     let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::for_axis(stride, axis, element)?;
-    // Neither has more than 16 bits, otherwise encoding the parts would not have given the same
-    // offset.
+    // Both have at most 16 bits; otherwise encoding the parts would have given another offset.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// Encodes a group from its parts if they are given, and checks the number against them.
+/// Encodes a group from its parts, if given, and checks that they match the number.
 pub(super) fn encode_group(of: FieldReader<'_>) -> Result<Vec<u8>, Refused> {
     let number = of.number("index_group")?;
     let group = if of.has("task") { parts(of)?.index_group() } else { IndexGroup::new(number) };
     if group.get() == number {
         Ok(ObjectCount(number).encode_to_vec()?)
     } else {
-        Err(Refused::InvalidFields(format!("{number:#x}, but its parts are {group}")))
+        Err(Refused::InvalidFields(format!("{number:#x}, but its parts encode to {group}")))
     }
 }
 
 fn parts(of: FieldReader<'_>) -> Result<Group, Refused> {
-    let no = |what: &str, word: &str| Refused::InvalidFields(format!("no {what} {word}"));
+    let no = |what: &str, word: &str| Refused::InvalidFields(format!("unknown {what} {word}"));
     let addressings = [Addressing::Logical, Addressing::Index];
     let word = of.word("addressing")?;
     let addressing = addressings.into_iter().find(|&one| addressing(one) == word);
@@ -168,6 +169,6 @@ fn stride(context: &Context) -> Result<AxisStride, Refused> {
     match context.stride {
         Some(0x1_0000) => Ok(AxisStride::X10000),
         Some(0x1000) => Ok(AxisStride::X1000),
-        other => Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
+        other => Err(Refused::Unsupported(format!("the axis stride {other:?}"))),
     }
 }

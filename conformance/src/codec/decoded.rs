@@ -1,14 +1,14 @@
-//! What the codec makes of a stream.
+//! The result of decoding a stream.
 
 use ads_cnc::Error;
 use ads_cnc_vectors::Fields;
 
-/// The decoded fields of a stream, and the bytes of encoding them again.
+/// The decoded fields of a stream, and their encoding.
 #[derive(Debug, PartialEq)]
 pub struct Decoded {
     /// The fields by name, without counters.
     pub fields: Fields,
-    /// The fields encoded again.
+    /// The bytes of the fields, encoded again.
     pub bytes: Vec<u8>,
 }
 

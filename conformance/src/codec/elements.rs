@@ -1,4 +1,4 @@
-//! Values and contents, decoded and encoded by the type in the context.
+//! Values and contents, decoded and encoded with the type in the context.
 
 use ads_cnc::value::{DataType, EncodeValue as _};
 use ads_cnc::{CncStr, Elements, U32List};
@@ -8,7 +8,7 @@ use super::Refused;
 use super::field_reader::{bits, hex, integer, invalid, text};
 use super::fields::{data, element};
 
-/// Whether a field has a type: a value always has one, a content may have one.
+/// Whether a field has a type: a value always has one, a content only if the context names one.
 fn is_typed(field: &str, context: &Context) -> bool {
     let has_type = context.kind.is_some() && context.dimensions.is_some();
     field == "value" || field == "content" && has_type
@@ -25,7 +25,7 @@ fn type_of(context: &Context) -> Result<(Type, DataType, &[u32]), Refused> {
     }
 }
 
-/// Decodes the bytes of a field by the type; without one as plain bytes.
+/// Decodes the bytes of a field with the type of the context; without a type, as plain bytes.
 pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
     if !is_typed(field, context) {
         return Ok(data(bytes));
@@ -36,7 +36,7 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
     Ok(Value::List(elements.iter().map(named).collect()))
 }
 
-/// Encodes a field as the number of elements that the dimensions give.
+/// Encodes a field, which must have the number of elements that the dimensions require.
 pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Vec<u8>, Refused> {
     if !is_typed(field, context) {
         let plain = || invalid(format_args!("{field} is not a single value"));
@@ -56,12 +56,15 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
     });
     if count != Some(items.len()) {
         let dimensions = U32List::from(dimensions);
-        return Err(invalid(format_args!("{} elements for {dimensions:?}", items.len())));
+        return Err(invalid(format_args!(
+            "{} elements do not match the dimensions {dimensions:?}",
+            items.len()
+        )));
     }
     encode_elements(data_type, &items)
 }
 
-/// Encodes the elements in order with the codec.
+/// Encodes the elements in order.
 fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Refused> {
     let element = |one: &Tagged| {
         Ok(match data_type {
@@ -87,7 +90,7 @@ fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Re
     let bytes = each.concat();
     if data_type == DataType::String && items.len() != 1 {
         if each.windows(2).any(|two| two.first().map(Vec::len) != two.last().map(Vec::len)) {
-            return Err(invalid("texts of an array have the same room each"));
+            return Err(invalid("all texts of an array must have the same size"));
         }
         let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
         Elements::new(data_type, U32List::from(&count), &bytes)?;

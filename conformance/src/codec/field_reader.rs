@@ -1,4 +1,4 @@
-//! Access to the fields of a value to be encoded, by name and required type.
+//! Reads the fields of a value to be encoded, by name and required type.
 
 use std::fmt::Display;
 
@@ -41,7 +41,7 @@ impl<'f> FieldReader<'f> {
         self.list(name)?.iter().map(record).collect()
     }
 
-    /// An integer that fits its type.
+    /// An integer, which must fit its type.
     pub(super) fn number<T: TryFrom<i128>>(self, name: &str) -> Result<T, Refused> {
         integer(self.one(name)?)
     }
@@ -72,21 +72,21 @@ impl<'f> FieldReader<'f> {
 fn record(value: &Value) -> Result<FieldReader<'_>, Refused> {
     match value {
         Value::Record(fields) => Ok(FieldReader(fields)),
-        _ => Err(invalid("no record where one has to be")),
+        _ => Err(invalid("a record is expected")),
     }
 }
 
 pub(super) fn integer<T: TryFrom<i128>>(tagged: &Tagged) -> Result<T, Refused> {
-    let number = tagged.integer().ok_or_else(|| invalid("no whole number where one has to be"))?;
+    let number = tagged.integer().ok_or_else(|| invalid("an integer is expected"))?;
     T::try_from(number).map_err(|_| invalid(format_args!("{number} is out of range")))
 }
 
 pub(super) fn bits(tagged: &Tagged) -> Result<u64, Refused> {
-    tagged.real_bits().ok_or_else(|| invalid("a float without its bits"))
+    tagged.real_bits().ok_or_else(|| invalid("a float needs its bits"))
 }
 
 pub(super) fn hex(tagged: &Tagged) -> Result<&[u8], Refused> {
-    tagged.hex.as_deref().ok_or_else(|| invalid("no hex where there has to be some"))
+    tagged.hex.as_deref().ok_or_else(|| invalid("hex is expected"))
 }
 
 pub(super) fn text(tagged: &Tagged) -> Result<TextRef<'_>, Refused> {

@@ -81,7 +81,7 @@ pub(super) fn element(element: Element<'_>) -> Tagged {
     }
 }
 
-/// The shortest decimal of a float in the notation of the vectors: an exponent has a sign and two
+/// The shortest decimal notation of a float, as in the vectors: an exponent has a sign and two
 /// digits.
 pub(super) fn decimal(number: f64) -> String {
     let shortest = format!("{number:?}").to_lowercase();

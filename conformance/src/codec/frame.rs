@@ -1,4 +1,4 @@
-//! Whole frames: two headers, and the stream of the service.
+//! Whole frames: two headers and the stream of the service.
 
 use ads_cnc::ads::{AdsError, AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
@@ -9,7 +9,7 @@ use super::field_reader::FieldReader;
 use super::stream::{from_fields, to_fields};
 use super::{Decoded, Refused, collect, data, stream, uns16, uns32};
 
-/// The length in a header is a counter.
+/// The length field in a header, which is a counter.
 const LENGTH: &str = "data_length";
 
 const SERVICES: [&str; 6] = [
@@ -21,7 +21,7 @@ const SERVICES: [&str; 6] = [
     "read-write-reply",
 ];
 
-/// The name of the field with the stream of the service.
+/// The name of the field that holds the stream of the service.
 fn field_of(stream: &str) -> String {
     stream.replace('-', "_")
 }
@@ -37,19 +37,19 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         ("ams_tcp_header", Value::Record(collect(vec![("reserved", uns16(0))]))),
         ("ams_header", Value::Record(ams_header)),
     ]);
-    // Bytes after the frame are an error of its service's stream.
+    // Bytes after the frame are an error of the service's stream.
     let rest = bytes.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if let Some((name, value)) = service(context, &header, rest)? {
         fields.insert(name, value);
     }
     if len != bytes.len() {
-        return Err(Refused::InvalidFields("a frame and more".to_owned()));
+        return Err(Refused::InvalidFields("bytes after the frame".to_owned()));
     }
     let bytes = FrameRef::new(header, frame.data())?.encode_to_vec()?;
     Ok(Decoded { fields, bytes })
 }
 
-/// The error for an incomplete frame: that of the first incomplete part.
+/// The error of an incomplete frame: that of the first incomplete part.
 fn cut(context: &Context, bytes: &[u8]) -> Refused {
     let parts = || -> Result<(), Refused> {
         let (tcp, rest) = bytes.split_at(bytes.len().min(AMS_TCP_HEADER_LEN));
@@ -58,8 +58,8 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
         service(context, &AmsHeader::decode(header)?, data)?;
         Ok(())
     };
-    // Only the length in the header shows that data of another command is truncated.
-    let rest = || Refused::InvalidFields("less data than the header says".to_owned());
+    // For another command, only the length in the header shows that its data is truncated.
+    let rest = || Refused::InvalidFields("fewer bytes of data than the header requires".to_owned());
     parts().err().unwrap_or_else(rest)
 }
 
@@ -88,9 +88,7 @@ fn service(
 pub(super) fn encode(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
     let tcp = of.record("ams_tcp_header")?;
     if tcp.number::<u16>("reserved")? != 0 {
-        return Err(Refused::InvalidFields(
-            "a frame with a reserved number other than 0".to_owned(),
-        ));
+        return Err(Refused::InvalidFields("the reserved field of a frame must be 0".to_owned()));
     }
     let mut header = of.record("ams_header")?.0.clone();
     header.insert(LENGTH.to_owned(), uns32(0));

@@ -9,7 +9,7 @@ pub const PROTOCOL: u32 = 1;
 use crate::edition::Edition;
 use crate::text::{did_you_mean, hex::compact, shorten};
 
-/// A line to the testee.
+/// A command line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
 pub enum TesteeCommand {
@@ -27,7 +27,7 @@ pub enum TesteeCommand {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
-    /// `decode`, `encode`, `packets`, `check`, or one that does not exist.
+    /// `decode`, `encode`, `packets`, `check`, or an unknown op.
     pub op: String,
     pub stream: String,
     /// The edition, such as `en-1.05`.
@@ -37,7 +37,7 @@ pub struct Question {
     pub context: Known,
     #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
     pub hex: Option<Vec<u8>>,
-    /// Fields of a value.
+    /// The fields of a value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Fields>,
     /// The packets of an NC program.
@@ -60,7 +60,7 @@ impl Question {
     }
 }
 
-/// The facts that the bytes of a question do not contain, only those it needs.
+/// The facts that a question needs and its bytes do not contain.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Known {
     /// Type of the elements of a value or content.
@@ -89,7 +89,7 @@ impl From<&Context> for Known {
 }
 
 impl Known {
-    /// As a context of the vectors; `None` if an address is invalid.
+    /// Converts the facts to a context of the vectors; `None` if an address is invalid.
     pub(crate) fn context(&self) -> Option<Context> {
         let address = |text: &Option<String>| match text.as_deref() {
             None => Some(None),
@@ -116,7 +116,7 @@ pub struct TesteeHello {
     pub capabilities: Capabilities,
 }
 
-/// Name, version and language of a program from its answer to `hello`.
+/// Name, version and language of a program, from its answer to `hello`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     pub name: String,
@@ -141,7 +141,7 @@ pub struct Capabilities {
 pub(crate) const OPS: [&str; 4] = ["decode", "encode", "packets", "check"];
 
 impl Capabilities {
-    /// What is wrong with a name among the ops, streams or editions that does not exist.
+    /// Describes the first op, stream or edition that does not exist; `None` if all exist.
     pub(crate) fn misspelt(&self) -> Option<String> {
         let is_op = |op: &&String| !OPS.contains(&op.as_str());
         if let Some(op) = self.ops.iter().find(is_op) {
@@ -153,13 +153,13 @@ impl Capabilities {
         };
         let is_unknown = |name: &&String| !streams().any(|stream| stream == name.as_str());
         if let Some(name) = self.streams.iter().find(is_unknown) {
-            let meant = did_you_mean(name, streams());
-            return Some(format!("no vector has the stream {name:?}{meant}"));
+            let hint = did_you_mean(name, streams());
+            return Some(format!("{name:?} is not a stream of the vectors{hint}"));
         }
         self.editions.iter().find_map(|name| Edition::by_name(name).err())
     }
 
-    /// Whether it claims this op for this stream.
+    /// Whether the testee claims this op for this stream.
     pub fn claim(&self, op: &str, stream: &str) -> bool {
         let is_text = matches!(op, "packets" | "check");
         self.ops.iter().any(|one| one == op)
@@ -179,7 +179,7 @@ pub enum Answer {
         /// The unsupported part of the question: `op`, `stream`, `edition`, `context`.
         what: String,
     },
-    /// Another error.
+    /// Any other error.
     Error {
         message: String,
     },
@@ -189,13 +189,13 @@ pub enum Answer {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Of `decode`: the value.
+    /// The value, for `decode`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
-    /// Of `encode`: the bytes.
+    /// The bytes, for `encode`.
     #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
     pub hex: Option<Vec<u8>>,
-    /// Of `packets`: the packets in the order they are written.
+    /// The packets in the order in which they are written, for `packets`.
     #[serde(default, with = "compact::list", skip_serializing_if = "Option::is_none")]
     pub packets: Option<Vec<Vec<u8>>>,
 }
@@ -203,31 +203,31 @@ pub struct Output {
 /// Why the input is invalid.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejection {
-    /// Class of the fault.
+    /// Class of the error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub class: Option<String>,
-    /// Byte offset of the fault.
+    /// Byte offset of the error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<u64>,
-    /// Line of the fault, from 1.
+    /// Line number of the error, starting at 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<u64>,
-    /// Message for a person.
+    /// Message for a reader.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
 }
 
-/// A line from the testee that answers a case.
+/// A line from the testee, which answers a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Keys")]
 pub struct Reply {
-    /// Number of the case; `None` if the line of the case could not be parsed.
+    /// Number of the case; `None` if the testee could not parse the line of the case.
     pub seq: Option<u64>,
     #[serde(flatten)]
     pub answer: Answer,
 }
 
-/// Maximum number of stored characters of a text in an answer.
+/// Maximum number of characters that are stored of a text in an answer.
 const TEXT_MAX: usize = 400;
 
 fn short(text: &str) -> String {
@@ -250,7 +250,7 @@ impl Output {
     }
 }
 
-/// Estimated memory of a JSON value besides its text.
+/// Estimated memory of a JSON value in addition to its text.
 const NODE: usize = 64;
 
 /// Estimated memory of an object's map.
@@ -269,7 +269,7 @@ fn weight(value: &Value) -> usize {
     .saturating_add(NODE)
 }
 
-/// All keys that an answer may have: exactly one must be present.
+/// All keys of an answer, of which exactly one must be present.
 #[derive(Deserialize)]
 struct Keys {
     seq: Option<u64>,
@@ -293,7 +293,7 @@ struct OwnError {
     message: String,
 }
 
-/// A key that is present needs a value other than null.
+/// Deserializes a key that is present; its value must not be null.
 fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
     T::deserialize(from).map(Some)
 }
@@ -313,10 +313,10 @@ impl TryFrom<Keys> for Reply {
         ];
         let mut given = given.into_iter().flatten();
         let (first, answer) =
-            given.next().ok_or("none of ok, reject, unsupported and error is there")?;
+            given.next().ok_or("none of ok, reject, unsupported and error is given")?;
         match given.next() {
             None => Ok(Self { seq, answer }),
-            Some((second, _)) => Err(format!("both {first} and {second} are there")),
+            Some((second, _)) => Err(format!("both {first} and {second} are given")),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A variable's name, split into its parts and encoded from them.
+//! The name of a variable, split into its parts, and encoded from them.
 
 use ads_cnc::text::CncStr;
 use ads_cnc::{Kind, PathPart, TextRef, U32List, VariablePath};

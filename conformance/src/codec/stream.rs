@@ -1,5 +1,5 @@
-//! Streams by their Rust types and field tables: serde converts a value to and from JSON; the table
-//! has the types with which the vectors tag the fields.
+//! Streams by their Rust types and field tables: serde converts a value to and from JSON, and the
+//! table has the types with which the vectors tag the fields.
 
 use ads_cnc::ads::AmsNetId;
 use ads_cnc::dynamic::DynamicValue;
@@ -86,7 +86,7 @@ where
         let records = records.ok_or_else(|| invalid(format_args!("{name} is not a list")))?;
         let record = |one: &Value| match one {
             Value::Record(fields) => Ok(Json::Object(json_record(layout, context, fields)?)),
-            _ => Err(invalid("no record where one has to be")),
+            _ => Err(invalid("a record is expected")),
         };
         let records = records.iter().map(record).collect::<Result<_, Refused>>()?;
         return from_value(Json::Array(records)).map_err(invalid);
@@ -110,14 +110,14 @@ fn records_of(layout: &Layout) -> &'static str {
 }
 
 fn record(layout: &Layout, context: &Context, json: &Json) -> Result<Fields, Refused> {
-    // A type with a single field may be serialized as that field.
+    // A type with a single field may be serialized as this field.
     let single = match layout.fields {
         [row] if json.get(row.name).is_none() => Some(json),
         _ => None,
     };
     let mut fields = Fields::new();
     for row in layout.fields {
-        // The JSON has no counters; an optional field that is absent is null.
+        // The JSON has no counters; an absent optional field is null.
         let given = single.or_else(|| json.get(row.name));
         if let Some(given) = given.filter(|given| !given.is_null()) {
             fields.insert(row.name.to_owned(), field(row, context, given)?);
@@ -135,7 +135,7 @@ fn json_record(
     given.map(|(row, value)| Ok((row.name.to_owned(), json_field(row, context, value)?))).collect()
 }
 
-/// A field in the notation of the vectors.
+/// Converts a field to the notation of the vectors.
 fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refused> {
     if let (Json::Array(items), Size::Items { each: 2.., .. }) = (json, row.size) {
         let items = items.iter().map(|item| field(row, context, item));
@@ -173,7 +173,7 @@ fn kind(name: &str) -> Result<Type, Refused> {
     from_value(name.into()).map_err(invalid)
 }
 
-/// A field in the JSON of its Rust type.
+/// Converts a field to the JSON of its Rust type.
 fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json, Refused> {
     if row.ty == FieldType::Bytes {
         return to_value(elements::encode(row.name, context, value)?).map_err(invalid);

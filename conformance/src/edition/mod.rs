@@ -1,11 +1,11 @@
-//! Differences between the editions of the manual, and between versions of the CNC.
+//! Differences between the editions of the manual and between versions of the CNC.
 //!
 //! - The editions differ in the kinds of variables of the channel interface, and in those
 //!   accessible by name only (VAR-18, E-15): [`Edition::permits`].
 //! - The versions differ in V.P, V.L and V.S on that interface (VAR-19), the description by name,
 //!   and the Service Interface (SVC-11): [`CncVersion::has`].
 //!
-//! A client calls these functions before it sends a request, a server before it answers one. The
+//! A client calls these functions before it sends a request, and a server before it answers one. The
 //! codec itself rejects no kind.
 //!
 //! ```
@@ -17,7 +17,7 @@
 //! let version = Some(CncVersion::new("V3.1.3115")?);
 //! let may = |edition: Edition, function| edition.permits(function, name.kind(), version);
 //!
-//! // May I ask for a handle? Not of this kind; by its name I may read it.
+//! // No handle for a variable of this kind, but it can be read by its name.
 //! assert_eq!(may(Edition::German, Function::HandleByName).to_string(), "no (VAR-18)");
 //! assert_eq!(may(Edition::German, Function::ReadByName).to_string(), "yes (VAR-19)");
 //! // The English edition does not have the kind on this interface.
@@ -42,7 +42,7 @@ pub use version::{CncVersion, Feature, VersionError};
 ///
 /// | | `ads-en` 1.05 | `ads-de` 1.051 |
 /// |---|---|---|
-/// | on the channel interface | V.E, V.G, V.A, V.CYC | those, and V.P, V.L, V.S from some [versions](Feature::DynamicVariables) on |
+/// | on the channel interface | V.E, V.G, V.A, V.CYC | the same, and from certain [versions](Feature::DynamicVariables) on V.P, V.L, V.S |
 /// | by name only: without 0x46, 0x47, 0x49 | V.CYC | V.CYC, V.P, V.L, V.S |
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4, 4.1 and 4.2.1 (VAR-18, VAR-19, E-15).
@@ -75,7 +75,7 @@ impl Edition {
     /// Both editions.
     pub const ALL: [Self; 2] = [Self::English, Self::German];
 
-    /// The document: `ads-en`, `ads-de`.
+    /// The document: `ads-en` or `ads-de`.
     pub const fn document(self) -> &'static str {
         match self {
             Self::English => "ads-en",
@@ -83,7 +83,7 @@ impl Edition {
         }
     }
 
-    /// The edition's number: `1.05`, `1.051`.
+    /// The edition number: `1.05` or `1.051`.
     pub const fn number(self) -> &'static str {
         match self {
             Self::English => "1.05",
@@ -91,7 +91,7 @@ impl Edition {
         }
     }
 
-    /// The name: `en-1.05`, `de-1.051`.
+    /// The name: `en-1.05` or `de-1.051`.
     pub fn name(self) -> String {
         let document = self.document();
         let language = document.strip_prefix("ads-").unwrap_or(document);
@@ -101,7 +101,7 @@ impl Edition {
     /// The edition with this [`name`](Self::name).
     ///
     /// # Errors
-    /// The valid names.
+    /// If no edition has this name; the error lists the valid names.
     pub fn by_name(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|edition| edition.name() == name).ok_or_else(|| {
             let names = Self::ALL.map(Self::name).join(" and ");
@@ -109,7 +109,9 @@ impl Edition {
         })
     }
 
-    /// The kinds that are by name only: 0x46, 0x47 and 0x49 are not available for them (VAR-18).
+    /// The kinds that are accessible by name only: 0x46, 0x47 and 0x49 are not available for them.
+    ///
+    /// VAR-18
     pub const fn by_name_only(self) -> &'static [Kind<'static>] {
         match self {
             Self::English => &[Kind::V_CYC],
@@ -117,22 +119,22 @@ impl Edition {
         }
     }
 
-    /// Whether a function of the channel or axis interface may be called for variables of a kind:
-    /// that in the request or in the name, or that of the variable with the handle.
+    /// Whether a function of the channel or axis interface may be called for variables of a kind.
+    /// The kind is that in the request or in the name, or that of the variable with the handle.
     ///
-    /// Without a version, the newest CNC is assumed. A function without kinds is available. The
-    /// requirement is that of the function, except for
+    /// Without a version, the newest CNC is assumed. A function without kinds is always available.
+    /// The requirement in the result is that of the function, except for:
     ///
-    /// | | | requirement |
+    /// | case | available | requirement |
     /// |---|---|---|
     /// | a handle of a kind that is by name only | no | VAR-18 |
     /// | V.P, V.L, V.S in `ads-de`, by name | by [version](CncVersion::has) | VAR-19 |
-    /// | V.P, V.L, V.S in `ads-en`, which has them in section 3 alone | no, assumed | VAR-19 |
+    /// | V.P, V.L, V.S in `ads-en`, which has them only in section 3 | no, assumed | VAR-19 |
     /// | number or description by index of another kind than V.E, V.G, V.A | no, assumed (E-39) | VAR-1 |
-    /// | the number of all kinds: [`Kind::ALL`] | yes | VAR-1 |
+    /// | the number of variables of all kinds: [`Kind::ALL`] | yes | VAR-1 |
     /// | description by name, 0x4C | by [version](CncVersion::has); that it has V.CYC, V.P, V.L, V.S is assumed | VAR-28 |
     /// | another kind than V.A on the axis interface | no, assumed | |
-    /// | a kind of no manual, by name or handle | yes, assumed | |
+    /// | a kind that no manual has, by name or handle | yes, assumed | |
     ///
     /// ```
     /// use ads_cnc::Kind;

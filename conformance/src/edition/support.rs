@@ -1,4 +1,4 @@
-//! Whether an edition or a version has something.
+//! Whether an edition or a version has a feature.
 
 use std::fmt;
 
@@ -17,9 +17,9 @@ use std::fmt;
 pub struct Support {
     /// Whether it is available.
     pub available: bool,
-    /// The requirement that decides it.
+    /// The requirement that decides this.
     pub requirement: &'static str,
-    /// The requirement does not document it: a CNC may do otherwise.
+    /// Whether this is assumed: the requirement does not document it, and a CNC may differ.
     pub assumed: bool,
 }
 

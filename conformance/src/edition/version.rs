@@ -1,4 +1,4 @@
-//! Versions of a CNC, and what comes with them.
+//! Versions of a CNC, and the features that come with them.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,10 +8,10 @@ use ads_cnc_vectors::ids::*;
 
 use super::Support;
 
-/// The version of a CNC: `V2.11.2077`, `V3.1.3081.07`, `V4.18.0`.
+/// The version of a CNC, such as `V2.11.2077`, `V3.1.3081.07` or `V4.18.0`.
 ///
-/// Read with or without the V and, as `ads-de` and `service-*` print it, with a dot after the V.
-/// A missing fourth number counts as 0. `Display` omits a fourth number of 0 and writes others with two
+/// Parsed with or without the V, and with a dot after the V, as `ads-de` and `service-*` print it. A
+/// missing fourth number counts as 0. `Display` omits a fourth number of 0 and writes others with two
 /// digits.
 ///
 /// Manual: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03, section 1.
@@ -38,12 +38,12 @@ pub struct CncVersion {
 }
 
 impl CncVersion {
-    /// The version of this text.
+    /// Parses a version.
     ///
     /// # Errors
-    /// - A character that is not a digit, or one after the fourth number.
-    /// - Fewer than three numbers.
-    /// - A number over 65 535.
+    /// - A character is not a digit, or follows the fourth number.
+    /// - There are fewer than three numbers.
+    /// - A number exceeds 65 535.
     pub fn new(text: &str) -> Result<Self, VersionError> {
         let mut scan = VersionScan { text, at: 0 };
         if scan.skip(b'V') {
@@ -65,7 +65,7 @@ impl CncVersion {
         Ok(Self { major, minor, build, patch })
     }
 
-    /// The version of these numbers; a patch of 0 for none.
+    /// Creates a version from its numbers; `patch` is 0 if there is no fourth number.
     pub const fn from_parts(major: u16, minor: u16, build: u16, patch: u16) -> Self {
         Self { major, minor, build, patch }
     }
@@ -90,8 +90,9 @@ impl CncVersion {
         self.patch
     }
 
-    /// Major number, and minor number if the numbers after it are counted separately: V2.11, V3.1,
-    /// V4. That V4 continues across minor numbers is assumed, from V4.18.0 and V4.29.0.
+    /// The major number, and the minor number if later numbers are counted separately for it:
+    /// V2.11, V3.1, V4. That V4 is a single branch across minor numbers is assumed, from V4.18.0
+    /// and V4.29.0.
     const fn branch(self) -> (u16, u16) {
         match self.major {
             0..=3 => (self.major, self.minor),
@@ -101,14 +102,14 @@ impl CncVersion {
 
     /// Whether a CNC of this version has a feature.
     ///
-    /// | of the versions in [`Feature::since`] this one is | | |
+    /// | this version, compared with those in [`Feature::since`] | available | |
     /// |---|---|---|
-    /// | before the first of its branch | no | |
-    /// | the last of its branch, or after it | yes | |
-    /// | one between, or a later patch of it | yes | |
-    /// | after one between, in a later build | no | assumed: why else is a later one printed? |
-    /// | of a branch after all that are printed | yes | assumed |
-    /// | of another branch that is not printed | no | assumed |
+    /// | before the first one of its branch | no | |
+    /// | the last one of its branch, or later | yes | |
+    /// | in between: one of them, or a later patch of its build | yes | |
+    /// | in between: another build | no | assumed: otherwise the later one would not be printed |
+    /// | of a branch after all of them | yes | assumed |
+    /// | of another branch without any of them | no | assumed |
     ///
     /// ```
     /// use ads_cnc_conformance::edition::{CncVersion, Feature};
@@ -160,7 +161,7 @@ impl fmt::Debug for CncVersion {
     }
 }
 
-/// A feature that a CNC has from some version on, see [`CncVersion::has`].
+/// A feature that a CNC has from some version on; see [`CncVersion::has`].
 ///
 /// ```
 /// use ads_cnc_conformance::edition::{CncVersion, Feature};
@@ -175,8 +176,8 @@ pub enum Feature {
     /// V.P, V.L and V.S on the channel interface, "with restrictions": by name only (VAR-19;
     /// `ads-de` 1.051, section 4.1).
     DynamicVariables,
-    /// The description by name, index offset 0x4C (VAR-28; the vendors' public help pages: in
-    /// section 4.2.1 of both editions it is reserved).
+    /// The description by name, index offset 0x4C (VAR-28; documented in the vendors' public help
+    /// pages only: section 4.2.1 of both editions marks it as reserved).
     DescriptionByName,
     /// The Service Interface (SVC-11; `service-en` and `service-de` 1.03, section 1).
     ServiceInterface,
@@ -187,7 +188,7 @@ impl Feature {
     pub const ALL: &'static [Self] =
         &[Self::DynamicVariables, Self::DescriptionByName, Self::ServiceInterface];
 
-    /// What a CNC needs for a function; `None` if every version has the function.
+    /// The feature that a function requires; `None` if every version has the function.
     pub const fn of(function: Function) -> Option<Self> {
         match function {
             Function::DescribeByName => Some(Self::DescriptionByName),
@@ -195,7 +196,7 @@ impl Feature {
         }
     }
 
-    /// The printed versions, in ascending order.
+    /// The first versions with the feature that the manual prints, in ascending order.
     pub const fn since(self) -> &'static [CncVersion] {
         const fn v(major: u16, minor: u16, build: u16, patch: u16) -> CncVersion {
             CncVersion::from_parts(major, minor, build, patch)
@@ -239,7 +240,7 @@ impl Feature {
 #[error("cnc-version: {part} at offset {offset}: {fault}")]
 pub struct VersionError {
     part: &'static str,
-    /// Byte offset; all characters before it are ASCII.
+    /// Byte offset. All characters before it are ASCII.
     offset: usize,
     fault: VersionFault,
 }
@@ -258,7 +259,7 @@ enum VersionFault {
 
 struct VersionScan<'a> {
     text: &'a str,
-    /// Byte offset; all characters before it are ASCII.
+    /// Byte offset. All characters before it are ASCII.
     at: usize,
 }
 

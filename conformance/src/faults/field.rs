@@ -1,7 +1,7 @@
-//! Defects of one field: its bytes are changed before the codec decodes them, or after it has
-//! encoded them.
+//! Defects of one field: its bytes are changed before the codec decodes them, or after it has encoded
+//! them.
 //!
-//! They are generated from the field tables of the codec, so that every field has defects.
+//! The defects are generated from the field tables of the codec, so every field has defects.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::FieldDefect;
@@ -19,15 +19,15 @@ use crate::text::named;
 /// A defect of one field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldDefect {
-    /// Stream, field and change: `variable-description.size.flip`.
+    /// Stream, field and change, such as `variable-description.size.flip`.
     pub id: String,
     pub stream: Stream,
     pub field: Field,
-    /// The change of its bytes.
+    /// The change to the bytes.
     pub change: FieldChange,
 }
 
-/// A change of the bytes of a field. The length never changes.
+/// A change to the bytes of a field. The length stays the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FieldChange {
     /// The lowest bit of the first byte is inverted.
@@ -54,15 +54,15 @@ impl FieldChange {
 }
 
 impl FieldDefect {
-    /// The defects of every stream that is sent alone.
+    /// The defects of every stream that is sent on its own.
     ///
-    /// A list of descriptors has none of its own: a defect of the descriptor is in each record.
+    /// A list of descriptors has no own defects: a defect of the descriptor changes each record.
     pub fn all() -> Vec<Self> {
         let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
         streams.flat_map(Self::of_stream).collect()
     }
 
-    /// The defects of one stream: every change of every field, except reversing a single byte.
+    /// The defects of one stream: every change to every field, except reversing a single byte.
     pub fn of_stream(stream: Stream) -> Vec<Self> {
         let each = |field: Field| {
             let one = field.spec().is_some_and(|spec| spec.size == Size::Fixed(1));
@@ -87,12 +87,11 @@ impl FieldDefect {
         self.stream == stream || stream == self.sequence()
     }
 
-    /// The stream with the bytes of the field changed, in each record and item.
-    ///
-    /// Bytes that the walk over the stream does not reach stay as they are.
+    /// Returns the stream with the bytes of the field changed, in each record and item. Bytes that
+    /// the walk over the stream does not reach are not changed.
     pub fn apply(&self, bytes: &[u8]) -> Vec<u8> {
         let mut places = Vec::new();
-        // The walk ends at a fault; the fields before it are changed all the same.
+        // The walk ends at a fault; the fields before it are changed nevertheless.
         let _reached = self.sequence().walk(bytes, |segment: Segment<'_>| {
             if segment.field.name() == self.field.name() {
                 let start = usize::try_from(segment.offset).unwrap_or(usize::MAX);
@@ -108,7 +107,8 @@ impl FieldDefect {
         changed
     }
 
-    /// The stream of several such records for a record, so that the same walk serves both.
+    /// The stream of several such records, for the stream of one record, so that the same walk
+    /// serves both.
     fn sequence(&self) -> Stream {
         match self.stream {
             Stream::ObjectDescriptor => Stream::ObjectDescriptors,
@@ -133,7 +133,8 @@ impl fmt::Display for FieldDefect {
 mod tests {
     use super::*;
 
-    /// The printed description, except for its handle, which reads the same in reverse byte order.
+    /// The printed description with another handle, because the printed one is the same in reverse
+    /// byte order.
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 
@@ -152,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn just_the_field_changes() {
+    fn only_the_field_changes() {
         for one in FieldDefect::of_stream(Stream::VariableDescription) {
             let changed = one.apply(DESCRIPTION);
             assert_eq!(changed.len(), DESCRIPTION.len());
@@ -171,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn changes_do_what_they_say() {
+    fn every_change_has_its_effect() {
         let size = |id: &str| defect(id).apply(DESCRIPTION)[12..16].to_vec();
         assert_eq!(size("variable-description.size.flip"), [3, 0, 0, 0]);
         assert_eq!(size("variable-description.size.invert"), [0xFD, 0xFF, 0xFF, 0xFF]);
@@ -194,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_walk_does_not_reach_stays() {
+    fn bytes_after_a_fault_stay() {
         let name = defect("variable-description.name.invert");
         assert_eq!(name.apply(&DESCRIPTION[..22]), &DESCRIPTION[..22]);
         assert_eq!(name.apply(&[]), [0; 0]);

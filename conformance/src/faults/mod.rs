@@ -1,8 +1,8 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
 //! They are middleware around the codec and the simulated CNC, or give the CNC another model or
-//! policy. They test the suite: a defect must fail by a requirement that it breaks, and a valid
-//! variant must not fail.
+//! policy. They test the suite: with a defect, a requirement that it violates must fail; with a
+//! valid variant, none may fail.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, SeedKind};
@@ -44,9 +44,9 @@ pub fn by_id(id: &str) -> Option<&'static Seed> {
     all().iter().find(|seed| seed.id == id)
 }
 
-/// Requirements of level must that no seed breaks, with the reason.
+/// Requirements of level must that no seed violates, with the reason.
 ///
-/// Requirements of clients alone are broken by [defects of a client](crate::clients::defects).
+/// [Defects of a client](crate::clients::defects) violate the requirements that concern only clients.
 pub const fn without() -> &'static [(ClauseId, &'static str)] {
     &[
         (

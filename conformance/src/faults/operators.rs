@@ -1,4 +1,5 @@
-//! Defects of one function, generated: each operator changes the right answer, or asks for another one.
+//! Generated defects of one function: each operator changes the correct reply, or that to another
+//! request.
 //!
 //! ```
 //! use ads_cnc_conformance::faults;
@@ -28,11 +29,11 @@ use super::cnc::{
 };
 use super::seed::{How, Seed, SeedKind};
 
-/// A defect that any function of a kind can have.
+/// A defect that any function of a certain kind can have.
 struct Operator {
     name: &'static str,
     what: &'static str,
-    /// The requirements that it breaks beside that of the function.
+    /// The requirements that the defect violates, in addition to that of the function.
     breaks: &'static [ClauseId],
     applies: fn(&FunctionSpec) -> bool,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
@@ -48,7 +49,7 @@ const fn operator(
     Operator { name, what, breaks, applies, answer }
 }
 
-/// The request is taken for another one.
+/// The request is mistaken for another one.
 const OF_REQUESTS: &[Operator] = &[
     operator("reject", "it is rejected", &[], |_| true, |_, _| Err(AdsError::INVALID_DATA)),
     operator(
@@ -173,7 +174,7 @@ const OF_REQUESTS: &[Operator] = &[
     ),
 ];
 
-/// The request is understood, but answered or executed wrongly.
+/// The request is understood, but its reply or its execution is wrong.
 const OF_ANSWERS: &[Operator] = &[
     operator("empty", "the reply is empty", &[], has_reply, |cnc, call| {
         changed(cnc, call, Vec::clear)
@@ -301,7 +302,8 @@ const OF_ANSWERS: &[Operator] = &[
 
 /// The defects of all functions.
 pub(super) fn seeds() -> impl Iterator<Item = Seed> {
-    // The rows about streaming are by hand: a stream may be rejected for now, and is not read back.
+    // Rows about streaming are handwritten: a stream may be rejected temporarily, and cannot be
+    // read back.
     let functions = Function::ALL.iter().filter(|one| **one != Function::WriteProgramStream);
     functions.flat_map(|function| {
         let of_requests = OF_REQUESTS.iter().map(|operator| (operator, function.spec().request));
@@ -353,7 +355,7 @@ fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
     }
 }
 
-/// `describe-by-index` for `DescribeByIndex`.
+/// The ID part of a function: `describe-by-index` for `DescribeByIndex`.
 fn kebab(function: Function) -> String {
     let mut text = String::new();
     for letter in format!("{function:?}").chars() {

@@ -14,18 +14,18 @@ use crate::text::named;
 /// A seeded defect, or a valid variant.
 #[derive(Clone, Debug)]
 pub struct Seed {
-    /// Unique ID.
+    /// The ID, which is unique.
     pub id: String,
-    /// The requirements that it breaks: at least one of them has to fail. Empty for a valid
+    /// The requirements that the defect violates, at least one of which must fail. Empty for a valid
     /// variant.
     pub requirements: Vec<&'static str>,
     pub what: String,
-    /// Codec, CNC or valid variant.
+    /// The kind: codec, CNC or valid variant.
     pub kind: SeedKind,
-    /// The only edition in which it is detectable; `None` for both.
+    /// The only edition in which the defect is detectable; `None` for both.
     pub edition: Option<Edition>,
-    /// Whether the printed examples that it concerns are still answered literally. A valid variant
-    /// may answer otherwise.
+    /// Whether the printed examples that the defect concerns are still answered literally. A valid
+    /// variant may answer them differently.
     pub printed: bool,
     pub(super) how: How,
 }
@@ -33,7 +33,7 @@ pub struct Seed {
 /// The kind of a seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SeedKind {
-    /// A defect of a codec. A defect of a field exists in a CNC too.
+    /// A defect of a codec. A CNC can also have a field defect.
     Codec,
     Cnc,
     /// A valid variant of a CNC.
@@ -51,7 +51,7 @@ pub(super) enum How {
 
 impl From<FieldDefect> for Seed {
     fn from(defect: FieldDefect) -> Self {
-        // The field's requirement, and that of its offset in the stream.
+        // The requirement of the field, and that of its offset in the stream.
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
@@ -60,7 +60,7 @@ impl From<FieldDefect> for Seed {
             requirements.push(SDA_4.as_str());
         }
         requirements.dedup();
-        // Zero turns an error into a success, which ADS-7 forbids; other error numbers are not
+        // A zero turns an error into a success, which ADS-7 forbids; other error numbers are not
         // specified.
         if defect.field.name() == "result" && defect.change == FieldChange::Zero {
             requirements.push(ADS_7.as_str());
@@ -90,7 +90,7 @@ impl Seed {
         }
     }
 
-    /// The defect of a field, if it is one.
+    /// The field defect; `None` for any other seed.
     pub fn field(&self) -> Option<&FieldDefect> {
         match &self.how {
             How::Field(defect) => Some(defect),
@@ -98,7 +98,7 @@ impl Seed {
         }
     }
 
-    /// The defect of a codec's answers, if it is one.
+    /// The defect of a codec's answers; `None` for any other seed.
     pub(crate) const fn of_codec(&self) -> Option<CodecFault> {
         match self.how {
             How::Codec(fault) => Some(fault),
@@ -106,7 +106,7 @@ impl Seed {
         }
     }
 
-    /// Whether a simulated CNC can have it.
+    /// Whether a simulated CNC can have the defect.
     pub const fn is_for_cnc(&self) -> bool {
         matches!(self.how, How::Field(_) | How::Cnc(_))
     }
@@ -119,7 +119,7 @@ impl Seed {
         }
     }
 
-    /// Whether a codec can have it.
+    /// Whether a codec can have the defect.
     pub const fn is_for_codec(&self) -> bool {
         matches!(self.kind, SeedKind::Codec)
     }

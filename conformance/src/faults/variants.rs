@@ -17,7 +17,7 @@ use super::cnc::{
 };
 use row::{sent, unprinted};
 
-/// Changes the handles in replies, and back in requests.
+/// Changes the handles in replies, and changes those in requests back.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     let spec = function(call).map(Function::spec);
     match spec.map(|spec| (first(spec.request), first(spec.reply))) {
@@ -32,7 +32,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
     }
 }
 
-/// The text at the end of a reply, from an offset on, padded with NULs to a length.
+/// Pads the text at the end of a reply, which starts at an offset, with NULs to a length.
 fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);

@@ -1,6 +1,6 @@
 //! The areas of requirements.
 
-/// Each area and what it is about.
+/// Each area of requirements with its topic.
 const AREAS: [(&str, &str); 10] = [
     ("GEN", "bytes, texts, tasks"),
     ("ADR", "index groups and offsets"),
@@ -14,7 +14,7 @@ const AREAS: [(&str, &str); 10] = [
     ("OBJ", "lists of objects"),
 ];
 
-/// What an area of requirements, or a protocol, is about.
+/// The topic of an area of requirements; that of the suite's own protocol for any other ID.
 pub fn about(area: &str) -> &'static str {
     let found = AREAS.iter().find(|(name, _)| *name == area);
     found.map_or("the protocol with the suite", |(_, about)| about)

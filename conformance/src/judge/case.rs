@@ -1,4 +1,4 @@
-//! A case of the suite: its metadata.
+//! The metadata of a case.
 
 use std::fmt;
 
@@ -10,14 +10,14 @@ use crate::text::named;
 /// A case of the suite.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// A slug whose meaning never changes.
+    /// Its ID, whose meaning never changes.
     pub id: String,
-    /// The subject of the case, as a sentence.
+    /// The verified behaviour, as a sentence.
     pub title: String,
     pub subject: CaseSubject,
-    /// The requirements it can judge.
+    /// The requirements that it can judge.
     pub requirements: Vec<&'static str>,
-    /// What the target must permit or have.
+    /// What the target must permit or support.
     pub needs: Needs,
     pub body: Body,
 }
@@ -32,7 +32,7 @@ impl Case {
         }
     }
 
-    /// Whether a word is its ID, the ID of its vector or its stream.
+    /// Whether `word` is its ID, the ID of its vector or its stream.
     pub(crate) fn is_called(&self, word: &str) -> bool {
         let vector = self.stream().and_then(|_| Some(self.id.split_once('-')?.1));
         let names = [Some(self.id.as_str()), vector, self.stream()];
@@ -72,34 +72,34 @@ impl fmt::Display for CaseSubject {
 pub enum Needs {
     /// Well-formed queries.
     Queries,
-    /// Malformed requests: only for a target that cannot move.
+    /// Malformed requests, for a target that cannot move only.
     Malformed,
-    /// Writes that are undone, of values that may be written.
+    /// Writes of values that may be written; each is restored.
     Writes,
-    /// Malformed writes: only for a target that cannot move.
+    /// Malformed writes, for a target that cannot move only.
     MalformedWrites,
     /// A target whose profile claims the manuals' printed examples.
     PrintedExamples,
-    /// The frames that the other cases or other clients exchanged.
+    /// The frames exchanged by the other cases or by other clients.
     Frames,
-    /// No target: this project's codec is judged.
+    /// No target: the case judges this project's codec.
     Codec,
 }
 
 /// How a case is executed.
 #[derive(Clone, Copy, Debug)]
 pub enum Body {
-    /// By a function of the suite with the case's ID.
+    /// By the function of the suite for the case's ID.
     Probe,
     /// By sending a printed request and comparing the reply with the printed one.
     Printed(&'static Vector),
     /// By decoding and encoding a vector.
     Vector(&'static Vector),
-    /// By splitting an NC text into packets, or checking one.
+    /// By splitting an NC text into packets, or checking its packets.
     Sequence(&'static Sequence),
     /// By checking a testee's answers in all other cases.
     Protocol,
-    /// By checking a client's requests and answers.
+    /// By checking a client's requests and actions.
     Client,
     /// By checking captured traffic.
     Traffic,

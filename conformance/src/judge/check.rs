@@ -1,4 +1,4 @@
-//! Checks: the rule of each, and its verdict.
+//! Checks, their rules and their verdicts.
 
 use std::error::Error;
 use std::fmt::{self, Display};
@@ -14,14 +14,14 @@ pub type Step<T = ()> = Result<T, Stop>;
 /// Why a case ends early.
 #[derive(Clone, Debug)]
 pub enum Stop {
-    /// A failed check leaves nothing to continue with.
+    /// A check failed, and the case cannot continue without it.
     Judged,
     /// The target does not have what the case needs.
     NotApplicable(String),
     /// The replies do not decide the case.
     Inconclusive(String),
     Refused(String),
-    /// The run is being interrupted.
+    /// The run is interrupted.
     Interrupted,
     /// An error of the suite itself.
     Harness(String),
@@ -39,8 +39,8 @@ impl Stop {
     }
 }
 
-/// An error that a case returns with `?` is one of the suite, such as a request that cannot be
-/// encoded. A reply that cannot be decoded is a failed check or `None`, but never such an error.
+/// An error that a case returns with `?` is an error of the suite, such as a request that cannot be
+/// encoded. A reply that cannot be decoded is a failed check or `None`, never such an error.
 impl<E: Error> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Harness(error.to_string())
@@ -54,10 +54,10 @@ pub(crate) fn applicable(any: bool, why: &str) -> Step {
 
 /// Ends a case if a value is missing.
 pub(crate) trait OrStop<T> {
-    /// The value; without one the case ends as not applicable.
+    /// Returns the value, or ends the case as not applicable.
     fn or_not_applicable(self, why: &str) -> Step<T>;
 
-    /// The value; without one the case ends as inconclusive.
+    /// Returns the value, or ends the case as inconclusive.
     fn or_inconclusive(self, why: &str) -> Step<T>;
 }
 
@@ -73,11 +73,11 @@ impl<T> OrStop<T> for Option<T> {
 
 /// Continues a case without a value.
 pub(crate) trait IfPresent<T> {
-    /// The value; `None` if the target does not have it.
+    /// Returns the value, or `None` if the target does not have it.
     fn if_applicable(self) -> Step<Option<T>>;
 
-    /// The value; `None` if the target does not have it or it could not be read, which other cases
-    /// judge.
+    /// Returns the value, or `None` if the target does not have it or it could not be read, which
+    /// other cases judge.
     fn if_known(self) -> Step<Option<T>>;
 }
 
@@ -97,11 +97,11 @@ impl<T> IfPresent<T> for Step<T> {
     }
 }
 
-/// A requirement at a level: that of the catalogue, or of an assumed part.
+/// A requirement and the level at which it is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     pub id: &'static str,
-    /// The level, if it is not that of the catalogue.
+    /// The level, if it differs from the catalogue's.
     pub level: Option<Level>,
 }
 
@@ -111,19 +111,19 @@ impl From<ClauseId> for Rule {
     }
 }
 
-/// A part of a requirement that is assumed, even if the rest is stated.
+/// A part of a requirement that is assumed, even if the rest of it is stated in a manual.
 pub fn assumed(rule: impl Into<Rule>) -> Rule {
     rule.into().at(Level::Info)
 }
 
-/// A part of a requirement that is documented in online help only.
+/// A part of a requirement that is documented in the online help only.
 pub fn online(rule: impl Into<Rule>) -> Rule {
     rule.into().at(Level::Should)
 }
 
 /// The requirements of a check.
 pub trait Rules {
-    /// Each of them.
+    /// Iterates over the rules.
     fn rules(self) -> impl Iterator<Item = Rule>;
 }
 
@@ -163,8 +163,8 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
     }
 }
 
-/// What a check expected, or found. Only a check that fails formats it: for a pass no closure is called
-/// and no `format_args!` is formatted.
+/// The expected or the actual result of a check. It is formatted only if the check fails: for a
+/// pass, no closure is called and no `format_args!` is formatted.
 pub trait Describe {
     /// The text in a report.
     fn describe(self) -> String;
@@ -191,7 +191,7 @@ describe! { &str, String, &String, fmt::Arguments<'_>, Hex, u32, usize, ads_cnc:
 #[derive(Clone, Debug)]
 pub struct Judgement {
     pub requirement: &'static str,
-    /// The level it was judged at; that of an assumed part may be lower.
+    /// The level at which it was judged, which is lower for an assumed part.
     pub level: Option<Level>,
     pub verdict: Verdict,
     /// The expected result; empty for a pass.
@@ -204,14 +204,15 @@ pub struct Judgement {
     pub more: usize,
     /// The other clauses that the same check can fail for.
     pub together: Vec<&'static str>,
-    /// The clause whose failure explains this one, if it is inconclusive for that.
+    /// The clause whose failure caused this one, if the verdict is inconclusive for this reason.
     pub follows: Option<&'static str>,
 }
 
-/// Maximum number of failed checks stored for a requirement of a case; the others are counted.
+/// Maximum number of failed checks that are stored for a requirement in a case; further ones are
+/// counted.
 const STORED_MAX: usize = 3;
 
-/// Maximum number of characters of the expected, and of the actual result.
+/// Maximum number of characters of the expected and of the actual result.
 pub(crate) const TEXT_MAX: usize = 1024;
 
 #[derive(Clone, Debug, Default)]
@@ -223,8 +224,8 @@ pub(crate) struct Record {
 
 /// Records the checks of a case or of captured traffic.
 pub(crate) trait Checks {
-    /// Records a check for each of the rules; returns `passed`. The texts are formatted only if it
-    /// fails.
+    /// Records a check for each rule and returns `passed`. The texts are formatted only if the check
+    /// failed.
     fn check(
         &mut self,
         rules: impl Rules,
@@ -235,22 +236,22 @@ pub(crate) trait Checks {
 }
 
 impl Rule {
-    /// The protocol between the suite and a client, which is not of the catalogue.
+    /// The rule of the protocol between the suite and a client, which is not in the catalogue.
     pub(crate) const CLIENT: Self = Self { id: CLIENT, level: Some(Level::Must) };
 
-    /// The rule of an ID that is no constant: one of the codec's tables or of a vector.
+    /// The rule of an ID that is not a constant, from the codec's tables or a vector.
     pub(crate) fn of(id: &'static str) -> Self {
         let clause = clause(id);
         let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
         Self { id, level: clause.map(|clause| clause.level()) }
     }
 
-    /// At another level.
+    /// The same rule at another level.
     pub(crate) const fn at(self, level: Level) -> Self {
         Self { id: self.id, level: Some(level) }
     }
 
-    /// The verdict for a check that passed or failed.
+    /// The verdict of a check that passed or failed.
     pub(crate) const fn verdict(self, passed: bool) -> Verdict {
         match (passed, self.level) {
             (true, _) => Verdict::Pass,
@@ -284,8 +285,8 @@ impl Record {
         }
     }
 
-    /// Adds a check; of passed checks, and of several with the same verdict, only the first are
-    /// stored.
+    /// Adds a check. Of passed checks, and of failed checks with the same verdict, only the first
+    /// ones are stored.
     pub(crate) fn add(
         &mut self,
         rule: Rule,
@@ -341,7 +342,7 @@ impl Record {
         self.judgements.push(judgement);
     }
 
-    /// Records a check that failed only because the clause `cause` is broken.
+    /// Records a check that failed only as a consequence of the failed clause `cause`.
     pub(crate) fn add_following(
         &mut self,
         rule: Rule,
@@ -356,7 +357,7 @@ impl Record {
         }
     }
 
-    /// The part of the record about a requirement.
+    /// The part of the record for a requirement.
     pub(crate) fn of(&self, requirement: &str) -> Self {
         let mine = self.judgements.iter().filter(|one| one.requirement == requirement);
         let judgements: Vec<Judgement> = mine.cloned().collect();
@@ -364,7 +365,7 @@ impl Record {
         Self { checks, judgements }
     }
 
-    /// Adds a record of other requirements.
+    /// Appends the record of other requirements.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.judgements.append(&mut other.judgements);
         self.checks += other.checks;

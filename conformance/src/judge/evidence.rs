@@ -4,20 +4,20 @@ use ads_cnc::operation::Function;
 
 use crate::values::ValueFormat;
 
-/// The bytes of an exchange, as a report shows them.
+/// The bytes of an exchange, as shown in a report.
 #[derive(Clone, Debug, Default)]
 pub struct Evidence {
     /// The address and service of the request.
     pub call: String,
-    /// The variable or object it is about, if it is about one.
+    /// The variable or object that the exchange is about, if any.
     pub subject: Option<String>,
     /// The documented function that the request addresses.
     pub function: Option<Function>,
     /// The functions called since the previous check, whose replies the check may compare.
     pub compared: Vec<Function>,
-    /// Name of the stream of the request's data, if the function is documented.
+    /// Name of the stream in the request's data, if the function is documented.
     pub request_stream: Option<&'static str>,
-    /// Name of the stream of the reply's data.
+    /// Name of the stream in the reply's data.
     pub reply_stream: Option<&'static str>,
     /// Data of the request.
     pub sent: Vec<u8>,
@@ -25,17 +25,17 @@ pub struct Evidence {
     pub received: Option<Vec<u8>>,
     /// The expected data of the reply, if all of its bytes are known.
     pub expected: Option<Vec<u8>>,
-    /// The types of values in the data.
+    /// The types of the values in the data.
     pub values: ValueFormat,
     /// The result in a few words.
     pub result: String,
     /// The whole frame sent.
     pub frame_sent: Vec<u8>,
-    /// The received frame, or the part of it that arrived.
+    /// The frame received, or the part of it that arrived.
     pub frame_received: Vec<u8>,
 }
 
-/// Maximum number of bytes stored of each part of an exchange.
+/// Maximum number of bytes that are stored of each part of an exchange.
 const EVIDENCE_MAX: usize = 4096;
 
 impl Evidence {
@@ -49,7 +49,7 @@ impl Evidence {
         self.expected = Some(Self::start(reply).to_vec());
     }
 
-    /// Truncates a long exchange and adds a note.
+    /// Truncates a long exchange and adds a note about it.
     pub(crate) fn cut(mut self, sent: &[u8], received: &[u8]) -> Self {
         (self.frame_sent, self.frame_received) =
             (Self::start(sent).to_vec(), Self::start(received).to_vec());
@@ -57,9 +57,10 @@ impl Evidence {
             [(sent, &mut self.request_stream), (received, &mut self.reply_stream)]
         {
             if whole.len() > EVIDENCE_MAX {
-                // A truncated stream would be shown as a faulty one.
+                // A report would show a truncated stream as a faulty one.
                 *stream = None;
-                let note = format!(" (of {} bytes the first {EVIDENCE_MAX} are kept)", whole.len());
+                let note =
+                    format!(" (only the first {EVIDENCE_MAX} of {} bytes are stored)", whole.len());
                 self.result.push_str(&note);
             }
         }

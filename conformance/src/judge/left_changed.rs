@@ -12,10 +12,10 @@ pub struct LeftChanged {
     pub name: String,
     /// The original value in hex.
     pub was: String,
-    /// The current value in hex, as last read or written; `None` if unknown.
+    /// The last value read or written, in hex; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub is: Option<String>,
-    /// Why no write was sent to restore it.
+    /// Why no write was sent to restore the value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refused: Option<String>,
 }

@@ -1,5 +1,5 @@
-//! The terms of a judgement: case, check, evidence, outcome, verdict, plan, waiver. No module here
-//! opens a file or a socket.
+//! The terms of a judgement: case, check, evidence, outcome, verdict, plan, waiver. These modules
+//! open no file and no socket.
 
 mod areas;
 mod case;
@@ -35,8 +35,8 @@ pub const TESTEE: &str = "TESTEE";
 /// The ID of the rules of the client protocol, which are not in the catalogue.
 pub const CLIENT: &str = "CLIENT";
 
-/// The beginning of the note of a case whose streams the testee does not claim.
+/// The start of the note of a case whose streams the testee does not claim.
 pub(crate) const NOT_CLAIMED: &str = "the testee does not claim ";
 
-/// What is expected of a testee or client first; without it nothing else is judged.
+/// The first check of a testee or client; if it fails, nothing else is judged.
 pub const HELLO: &str = "an answer to hello";

@@ -10,11 +10,11 @@ pub struct CaseOutcome {
     pub case: Case,
     pub verdicts: Vec<RequirementVerdict>,
     pub checks: usize,
-    /// Why it did not run, or not completely.
+    /// Why the case was not run, or not completed.
     pub note: Option<String>,
     /// Whether the gate rejected one of its requests.
     pub refused: bool,
-    /// How long it took, if it was measured.
+    /// The duration of the case, if it was measured.
     pub time: Option<Duration>,
 }
 
@@ -22,17 +22,17 @@ pub struct CaseOutcome {
 #[derive(Clone, Debug)]
 pub struct RequirementVerdict {
     pub requirement: &'static str,
-    /// The gravest verdict of its checks.
+    /// The most severe verdict of its checks.
     pub verdict: Verdict,
     /// The checks that did not pass.
     pub judgements: Vec<Judgement>,
 }
 
-/// The note of an interrupted case.
+/// The note of a case that was interrupted.
 const INTERRUPTED: &str = "interrupted before its end";
 
 impl CaseOutcome {
-    /// Measures how long a case takes.
+    /// Runs a case and measures its duration.
     pub(crate) fn timed(run: impl FnOnce() -> Self) -> Self {
         let begin = Instant::now();
         let outcome = run();
@@ -86,7 +86,7 @@ impl CaseOutcome {
         Self { case, verdicts, checks, note, refused, time: None }
     }
 
-    /// The gravest verdict of its requirements.
+    /// The most severe verdict of its requirements.
     pub fn verdict(&self) -> Verdict {
         gravest(self.verdicts.iter().map(|judged| judged.verdict)).unwrap_or(Verdict::NotObserved)
     }
@@ -99,7 +99,7 @@ fn of_requirement(
 ) -> RequirementVerdict {
     let mine = || judgements.iter().filter(|judgement| judgement.requirement == requirement);
     let judged = gravest(mine().map(|judgement| judgement.verdict));
-    // A case that ended early does not pass because its first checks did.
+    // A case that ended early does not pass, even if its first checks passed.
     let verdict = match judged {
         Some(Verdict::Pass) if unjudged.gravity() > Verdict::Pass.gravity() => unjudged,
         Some(judged) => judged,
@@ -109,12 +109,12 @@ fn of_requirement(
     RequirementVerdict { requirement, verdict, judgements: failed.cloned().collect() }
 }
 
-/// The gravest of several verdicts.
+/// The most severe of several verdicts.
 pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
     verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
 }
 
-/// Calls a function; the error is the message of a panic, which ends only the current case.
+/// Calls a function. The error is the message of a panic, which ends only the current case.
 pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let text = payload.downcast_ref::<&str>().copied();

@@ -29,57 +29,58 @@ use crate::text::did_you_mean;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
-    /// The only edition of the manual to judge by; `None` for both.
+    /// The edition of the manual to judge by; `None` for both.
     pub edition: Option<Edition>,
-    /// Areas such as VAR, requirements such as VAR-11 or parts of them, streams such as
-    /// variable-description, IDs of cases. Upper and lower case are equal; an empty list selects all.
+    /// The words that select cases: areas such as VAR, requirements such as VAR-11 or parts of them,
+    /// streams such as variable-description, and IDs of cases. Case-insensitive; no word selects
+    /// all cases.
     pub only: Vec<String>,
 }
 
-/// A word that selects nothing.
+/// A word that selects no case.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no requirement, stream or case is called {word}{near}")]
 pub struct Unmatched {
     word: String,
-    /// The nearest names.
+    /// The most similar names.
     near: String,
 }
 
-/// The selected cases in order, and the others.
+/// The selected cases in order, and the other cases.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The cases to run. Their outcomes go to [`finish`](Self::finish).
+    /// The cases to run; pass their outcomes to [`finish`](Self::finish).
     pub cases: Vec<Case>,
     /// Cases that do not belong to the edition, each with the reason.
     pub foreign: Vec<(Case, String)>,
-    /// Those that were not selected.
+    /// The cases that were not selected.
     left_out: Vec<Case>,
-    /// The selected requirements of cases that are only partly selected.
+    /// The selected requirements of cases of which only some requirements are selected.
     judged: HashMap<String, Vec<&'static str>>,
 }
 
-/// The cases of a subject that were not selected.
+/// The number of cases of a subject that were not selected, and their requirements.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
     pub id: String,
-    /// Their subject.
+    /// The subject of the cases.
     pub subject: CaseSubject,
-    /// Their requirements.
+    /// The requirements of the cases.
     pub requirements: Vec<&'static str>,
 }
 
-/// A random seed.
+/// Returns a random seed.
 pub fn any_seed() -> u32 {
     let random = RandomState::new().hash_one(());
     u32::try_from(random >> 32).unwrap_or(u32::MAX)
 }
 
 impl Selection {
-    /// Selects cases and orders them by the seed. The order of two cases is the same in every
-    /// selection; cases that judge the frames of the others are last.
+    /// Selects cases and orders them by the seed. Two cases have the same order in every selection;
+    /// cases that judge the frames of the other cases come last.
     ///
     /// # Errors
-    /// A word of the selection that no case or requirement has.
+    /// If no case or requirement matches a word of the selection.
     pub fn plan(&self, mut cases: Vec<Case>, seed: u32) -> Result<Plan, Unmatched> {
         let unmatched = self.only.iter().find(|word| {
             let judges = |case: &Case| case.requirements.iter().any(|id| names(word, id));
@@ -129,7 +130,7 @@ impl Selection {
             requirement(id).is_none_or(|requirement| has(edition, &requirement.sources))
         };
         match all.iter().copied().filter(has).collect::<Vec<_>>() {
-            // All requirements of the case, so that it is listed with the reason.
+            // All requirements of the case, so that the case is listed with the reason.
             none if none.is_empty() => all,
             some => some,
         }
@@ -137,7 +138,7 @@ impl Selection {
 }
 
 impl Plan {
-    /// Adds query cases if only cases about frames are selected, which need frames to judge.
+    /// Adds query cases if only cases about frames are selected, because those need frames to judge.
     fn carry_frames(&mut self) {
         let of_target = |case: &&Case| case.subject == CaseSubject::Target;
         let frames = |case: &Case| case.needs == Needs::Frames;
@@ -169,7 +170,8 @@ impl Plan {
                 Some(judged) if judged.is_empty() => continue,
                 Some(judged) => {
                     left_out.push(left(&outcome.case, judged));
-                    // A client that breaks the protocol shows nothing of what is selected.
+                    // A violation of the client protocol is always kept: the other verdicts prove
+                    // nothing then.
                     outcome.verdicts.retain(|one| {
                         judged.contains(&one.requirement)
                             || one.verdict == Verdict::HarnessError
@@ -191,14 +193,15 @@ fn left(case: &Case, judged: &[&str]) -> LeftOut {
     LeftOut { id: case.id.clone(), subject: case.subject, requirements: requirements.collect() }
 }
 
-/// Whether a word is the area of a requirement, its ID, or that of one of its parts, such as VAR-4.1.
+/// Whether a word is the area of a requirement, its ID, or the ID of one of its parts, such as
+/// VAR-4.1.
 pub(crate) fn names(word: &str, requirement: &str) -> bool {
     let area = requirement.split_once('-').map_or("", |(area, _)| area);
     let word = word.split('.').next().unwrap_or(word);
     word.eq_ignore_ascii_case(requirement) || word.eq_ignore_ascii_case(area)
 }
 
-/// Whether any of these sources belongs to an edition, or none to either.
+/// Whether any of the sources belongs to the edition, or none belongs to an edition.
 fn has(edition: Edition, sources: &[Source]) -> bool {
     let has_source =
         |edition: Edition| sources.iter().any(|source| source.document == edition.document());
@@ -253,23 +256,23 @@ mod tests {
     }
 
     #[test]
-    fn a_seed_is_an_order() {
+    fn a_seed_determines_the_order() {
         let (one, again, two) = (plan(None, &[], 1), plan(None, &[], 1), plan(None, &[], 2));
         assert_eq!(ids(&one), ids(&again));
         assert_ne!(ids(&one), ids(&two));
         assert_eq!(one.cases.len(), cases().len());
         assert_eq!(ids(&one).last(), Some(&"ads-every-frame"));
-        // A selection has the order of the whole.
+        // The cases of a selection have the same order as in the whole.
         let part = plan(None, &["var"], 1);
         let mut whole = ids(&one);
         whole.retain(|id| ids(&part).contains(id));
         assert_eq!(whole, ids(&part));
-        // Fixed values: the seed of an old report must keep its order.
+        // Fixed values, because the seed of an old report must give the same order.
         assert_eq!(order(0, ""), 0xACA6_D6B5_4BE3_ED05);
     }
 
     #[test]
-    fn an_edition_leaves_out_what_only_the_other_prints() {
+    fn an_edition_omits_the_examples_of_the_other() {
         let english = plan(Some(Edition::English), &["VAR-20"], 1);
         let foreign: Vec<&str> = english.foreign.iter().map(|(case, _)| case.id.as_str()).collect();
         assert!(foreign.contains(&"vec-path-trajektorie-x"), "{foreign:?}");
@@ -290,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_are_carried() {
+    fn query_cases_are_added_to_cases_about_frames() {
         let frames = plan(None, &["ads-1"], 1);
         assert!(ids(&frames).contains(&"ads-every-frame"));
         let only = plan(None, &["ads-every-frame"], 1);

@@ -1,4 +1,4 @@
-//! Cases for a codec, made of golden vectors and NC texts.
+//! Cases for a codec, made from golden vectors and NC texts.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use ads_cnc_vectors::{Context, Given, Sequence, Vector, sequence, sequences, vec
 use super::{Body, Case, CaseSubject, Needs};
 use crate::values::{ValueFormat, type_by_name};
 
-/// A case for each vector, and for each text that is split into packets or checked.
+/// A case for each vector, and for each NC text that is split into packets or checked.
 pub(crate) fn codec_cases() -> Vec<Case> {
     let vectors = vectors().iter().map(|one| case_of(one, "vec", Needs::Codec, Body::Vector(one)));
     let texts = sequences().iter().filter(|one| is_text(one)).map(of_text);
@@ -29,7 +29,8 @@ fn of_text(sequence: &'static Sequence) -> Case {
     }
 }
 
-/// The accepted siblings of rejected vectors that are not among these cases.
+/// The accepted siblings of the rejected vectors of these cases, except those that are among the
+/// cases.
 pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
     let mut known: HashSet<&str> = HashSet::new();
     let mut wanted: Vec<&str> = Vec::new();
@@ -64,7 +65,7 @@ pub(crate) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -
     }
 }
 
-/// The types by which a report decodes the value of a vector.
+/// The format with which a report decodes the value of a vector.
 pub(crate) fn typed(context: &Context) -> ValueFormat {
     let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
     ValueFormat { ty, dimensions: context.dimensions.clone().unwrap_or_default() }

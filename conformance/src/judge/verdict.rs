@@ -14,23 +14,23 @@ use crate::text::named;
 pub enum Verdict {
     /// The requirement is met.
     Pass,
-    /// A must was not met.
+    /// A requirement of level must is not met.
     Fail,
-    /// A should was not met.
+    /// A requirement of level should is not met.
     Warning,
-    /// A part that is assumed is different.
+    /// An assumed part of a requirement is not met.
     Differs,
-    /// The rejection is right, but the accepted sibling was rejected too.
+    /// The request or input was rejected as required, but the valid one was rejected too.
     Vacuous,
-    /// The replies do not decide it.
+    /// The replies do not decide the requirement.
     Inconclusive,
-    /// The profile does not claim it.
+    /// The profile does not claim what the requirement is about.
     NotApplicable,
-    /// No request or reply touched the requirement.
+    /// No request or reply concerned the requirement.
     NotObserved,
-    /// Not selected.
+    /// The case was not selected, or not permitted.
     NotRun,
-    /// The run was interrupted before it.
+    /// The run was interrupted before the case.
     Interrupted,
     /// An error of the suite itself.
     HarnessError,
@@ -43,7 +43,7 @@ named! { Verdict:
 }
 
 impl Verdict {
-    /// The verdict on a requirement of this level that is not met.
+    /// The verdict if a requirement of this level is not met.
     pub const fn missed(level: Level) -> Self {
         match level {
             Level::Must => Self::Fail,
@@ -52,24 +52,24 @@ impl Verdict {
         }
     }
 
-    /// Whether it is a judgement of the target.
+    /// Whether the verdict is a judgement of the target.
     pub const fn is_judged(self) -> bool {
         matches!(self, Self::Pass | Self::Fail | Self::Warning | Self::Differs | Self::Vacuous)
     }
 
-    /// Whether a run with it is not a success.
+    /// Whether a run with this verdict fails.
     pub const fn fails_run(self) -> bool {
         let open = matches!(self, Self::Inconclusive | Self::Interrupted);
         open || matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
     }
 
-    /// Whether a waiver can accept it.
+    /// Whether a waiver can accept this verdict.
     pub const fn is_waivable(self) -> bool {
         let known = matches!(self, Self::Fail | Self::Vacuous | Self::Inconclusive);
         known || matches!(self, Self::Warning | Self::Differs)
     }
 
-    /// The order of severity; the verdict of a group is its gravest.
+    /// The severity; the verdict of a group is its most severe one.
     pub const fn gravity(self) -> u8 {
         match self {
             Self::HarnessError => 10,
@@ -93,12 +93,12 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The exit code, which is never a count.
+/// The exit code of a run; it is never a count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// All judgements are in order; warnings and differences are permitted.
+    /// Every judged requirement passed; warnings and differences are permitted.
     Success,
-    /// A fail, or a vacuous verdict.
+    /// A verdict is fail or vacuous.
     Failure,
     /// The command line is wrong.
     Usage,
@@ -151,23 +151,23 @@ impl Exit {
     }
 }
 
-/// The facts of a run that determine the exit code.
+/// The facts of a run that determine its exit code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VerdictTally {
     judged: bool,
     failed: bool,
     open: bool,
     broken: bool,
-    /// The gate rejected a request.
+    /// Whether the gate rejected a request.
     pub refused: bool,
-    /// A waiver is stale.
+    /// Whether a waiver is stale.
     pub stale: bool,
-    /// A value was changed and could not be restored.
+    /// Whether a value was changed and could not be restored.
     pub left_changed: bool,
 }
 
 impl VerdictTally {
-    /// Counts a verdict. A waived one counts as judged only.
+    /// Counts a verdict. A waived verdict only counts as judged.
     pub const fn add(&mut self, verdict: Verdict, waived: bool) {
         if verdict.is_judged() || waived {
             self.judged = true;
@@ -208,9 +208,9 @@ impl From<Exit> for ExitCode {
 mod tests {
     use super::*;
 
-    /// The precedence of exit codes; a run without judgements is not a success.
+    /// The precedence of the exit codes; a run without judgements is not a success.
     #[test]
-    fn the_first_cause_decides() {
+    fn exit_codes_have_a_precedence() {
         use Verdict::*;
         let cases: [(&[Verdict], u8); 11] = [
             (&[], 3),
@@ -230,9 +230,9 @@ mod tests {
         }
     }
 
-    /// A waived failure is a success; a stale waiver is not, but a failure takes precedence.
+    /// A waived failure is a success; a stale waiver is not, but a failure takes precedence over it.
     #[test]
-    fn waivers_decide_in_their_turn() {
+    fn stale_waivers_rank_after_failures() {
         use Verdict::*;
         let exit = |verdicts: &[(Verdict, bool)], stale, refused| {
             let mut tally = VerdictTally { stale, refused, ..VerdictTally::default() };

@@ -15,8 +15,8 @@
 //! # Ok::<(), ads_cnc_conformance::judge::WaiverError>(())
 //! ```
 //!
-//! A stale waiver makes the run end with the exit code 5: it has expired, no case that ran matches
-//! it, or the verdict is another one. A waiver whose case was not run is not stale.
+//! A waiver is stale if it has expired, if no case that ran matches it, or if the verdict differs. A
+//! stale waiver makes the run end with exit code 5. A waiver whose case was not run is not stale.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -34,7 +34,7 @@ use crate::text::Moment;
 #[derive(Clone, Debug, Default)]
 pub struct Waivers(Vec<Waiver>);
 
-/// An error in the file, with its line.
+/// An error in the file, with the line number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{why}", file.as_deref().map(|file| format!("{file}: ")).unwrap_or_default())]
 pub struct WaiverError {
@@ -42,7 +42,7 @@ pub struct WaiverError {
     why: String,
 }
 
-/// A waiver and its state in a run.
+/// A waiver and its state after a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WaiverReport {
@@ -51,7 +51,7 @@ pub struct WaiverReport {
     pub verdict: Verdict,
     /// Why the failure is accepted.
     pub reason: String,
-    /// The first day after its validity.
+    /// The first day on which the waiver is no longer valid.
     pub expires: String,
     pub state: WaiverState,
     /// The verdict in this run, if the case was run.
@@ -63,22 +63,22 @@ pub struct WaiverReport {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WaiverState {
-    /// The verdict is the expected one.
+    /// The verdict is the waived one.
     Used,
     /// Its case was not run.
     NotRun,
-    /// It has expired. Stale.
+    /// The waiver has expired. Stale.
     Expired,
-    /// No case or requirement that ran has this ID. Stale.
+    /// No case with this ID and requirement was run. Stale.
     Unmatched,
-    /// The verdict is another one. Stale.
-    StepError,
+    /// The verdict differs from the waived one. Stale.
+    Otherwise,
 }
 
 impl WaiverState {
     /// Whether the file must be corrected.
     pub const fn is_stale(self) -> bool {
-        matches!(self, Self::Expired | Self::Unmatched | Self::StepError)
+        matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
     }
 
     pub const fn name(self) -> &'static str {
@@ -86,8 +86,8 @@ impl WaiverState {
             Self::Used => "used",
             Self::NotRun => "not run",
             Self::Expired => "stale: expired",
-            Self::Unmatched => "stale: nothing that ran is called that",
-            Self::StepError => "stale: the verdict is another one",
+            Self::Unmatched => "stale: no such case or requirement was run",
+            Self::Otherwise => "stale: the verdict differs",
         }
     }
 }
@@ -126,7 +126,7 @@ impl Waivers {
     /// Parses the text of a file.
     ///
     /// # Errors
-    /// The line and what is wrong in it: unknown or missing keys, a requirement that does not
+    /// The line and what is wrong in it: an unknown or missing key, a requirement that does not
     /// exist, a verdict that cannot be waived, no reason, no date, or a duplicate waiver.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
@@ -140,14 +140,14 @@ impl Waivers {
             if !known.insert((test, requirement)) {
                 let before = &text.as_bytes()[..waiver.span().start];
                 let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-                let why = format!("line {line}: a second waiver of {requirement} in {test}");
+                let why = format!("line {line}: duplicate waiver of {requirement} in {test}");
                 return Err(failed(why));
             }
         }
         Ok(Self(file.waiver.into_iter().map(Spanned::into_inner).collect()))
     }
 
-    /// The IDs of their cases.
+    /// The IDs of the cases with a waiver.
     pub fn cases(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|waiver| waiver.test.as_str())
     }
@@ -184,7 +184,7 @@ impl Waiver {
             _ if over => WaiverState::Expired,
             Some(found) if found == *verdict => WaiverState::Used,
             Some(Verdict::NotRun | Verdict::Interrupted) => WaiverState::NotRun,
-            Some(_) => WaiverState::StepError,
+            Some(_) => WaiverState::Otherwise,
             None if left => WaiverState::NotRun,
             None => WaiverState::Unmatched,
         };
@@ -209,7 +209,7 @@ fn text<'de, D: Deserializer<'de>>(value: D, what: &str) -> Result<String, D::Er
 }
 
 fn test<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::Error> {
-    text(value, "the ID of a case, as run --list shows it")
+    text(value, "expected the ID of a case, as shown by run --list")
 }
 
 fn reason<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::Error> {
@@ -229,13 +229,16 @@ fn waivable<'de, D: Deserializer<'de>>(value: D) -> Result<Verdict, D::Error> {
     let waivable = Verdict::ALL.into_iter().filter(|verdict| verdict.is_waivable());
     waivable.clone().find(|verdict| verdict.name() == name).ok_or_else(|| {
         let names: Vec<&str> = waivable.map(Verdict::name).collect();
-        D::Error::custom(format!("the verdict of a waiver is one of {}", names.join(", ")))
+        D::Error::custom(format!("the verdict of a waiver must be one of {}", names.join(", ")))
     })
 }
 
 fn day<'de, D: Deserializer<'de>>(value: D) -> Result<Date, D::Error> {
-    let odd =
-        || D::Error::custom("a day alone, as 2027-01-31: the first on which it does not hold");
+    let odd = || {
+        D::Error::custom(
+            "expected a date such as 2027-01-31, the first day on which the waiver is no longer valid",
+        )
+    };
     match Datetime::deserialize(value)? {
         Datetime { date: Some(date), time: None, offset: None } => Ok(date),
         _ => Err(odd()),

@@ -1,14 +1,14 @@
-//! The fuzz targets that reach a requirement. The crate of the targets depends on this one and
+//! The fuzz targets that reach a requirement. The crate of the fuzz targets depends on this crate and
 //! checks that these names exist.
 
 use std::collections::BTreeSet;
 
-/// The targets for the streams and sequences of vectors, by name.
+/// The fuzz targets for the streams and sequences with these names.
 pub(super) fn targets<'n>(names: impl IntoIterator<Item = &'n str>) -> BTreeSet<&'static str> {
     names.into_iter().flat_map(of).copied().collect()
 }
 
-/// The targets of the dispatch of requests and replies.
+/// The fuzz targets for the dispatch of requests and replies.
 pub(super) const FUNCTIONS: &[&str] =
     &["operation_dispatch", "operation_request", "operation_reply"];
 
@@ -43,7 +43,7 @@ mod tests {
 
     /// Every stream with a vector has a fuzz target.
     #[test]
-    fn every_vector_leads_to_a_target() {
+    fn every_stream_with_a_vector_has_a_fuzz_target() {
         let names = vectors().iter().map(|vector| vector.stream.as_str());
         for name in names.chain(sequences().iter().map(|sequence| sequence.kind())) {
             assert!(!of(name).is_empty(), "{name}");

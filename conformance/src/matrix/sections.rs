@@ -14,9 +14,9 @@ use crate::judge::about;
 const HEAD: &str = "| section | requirements | functions | types | vectors | cases | fuzz targets |\n\
                     |---|---|---|---|---|---|---|\n";
 
-/// A table of the areas, and one of each manual's sections.
+/// Formats a table of the areas, and one for the sections of each manual.
 ///
-/// Both editions of the manual on ADS access are one table, because their sections have the same
+/// Both editions of the manual on ADS access share one table, because their sections have the same
 /// numbers.
 pub fn to_sections(rows: &[RequirementRow]) -> String {
     let mut text = String::from("# What covers which section of the manuals\n\n");
@@ -46,7 +46,7 @@ pub fn to_sections(rows: &[RequirementRow]) -> String {
     text
 }
 
-/// The table of the areas, which the README contains.
+/// The table of the areas, which is also in the README.
 fn areas(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| area | about | manual | types | requirements | vectors | cases | fuzz targets |\n\
@@ -80,7 +80,7 @@ fn manual(document: &str) -> &str {
     document.strip_prefix("ads-").map_or(document, |_| "ads")
 }
 
-/// What covers some requirements, each entry once.
+/// What covers a set of requirements, each entry once.
 #[derive(Default)]
 struct SectionCoverage<'r> {
     ids: Vec<&'r str>,
@@ -156,7 +156,7 @@ fn is_in(function: &Function, document: &str, section: &str) -> bool {
     }
 }
 
-/// The Rust types of the streams with fields of these requirements; without one, the modules of
+/// The Rust types of the streams with fields of these requirements; if there are none, the modules of
 /// their areas.
 fn types_of(ids: &[&str]) -> String {
     let is_about = |stream: &Stream| {

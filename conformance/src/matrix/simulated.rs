@@ -3,7 +3,7 @@
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-/// The test that plays the golden sequences of data streaming and of the Service Interface.
+/// The test that runs the golden sequences of data streaming and of the Service Interface.
 pub const SEQUENCES: &str = "the_simulated_cnc_goes_through_each_golden_sequence";
 
 /// The other tests, each with its requirements.

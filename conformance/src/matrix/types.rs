@@ -24,9 +24,9 @@ ads_cnc::streams! { types }
 /// An area of requirements.
 pub(super) struct Area {
     pub(super) area: &'static str,
-    /// Its main chapters.
+    /// The main chapters of the area.
     pub(super) chapters: &'static str,
-    /// Its modules in the codec.
+    /// The codec's modules for the area.
     pub(super) modules: &'static str,
 }
 
@@ -60,7 +60,7 @@ mod tests {
         }
     }
 
-    /// Each area of the catalogue is here once, and its requirements cite its chapters.
+    /// Each area of the catalogue is listed once, and its requirements cite its chapters.
     #[test]
     fn areas_are_those_of_the_catalogue() {
         for one in requirements() {

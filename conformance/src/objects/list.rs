@@ -6,7 +6,7 @@ use ads_cnc::address::{Class, ComTable};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::ObjectList;
 
-/// A list of objects, elements or variables, by the name that tools display.
+/// A list of objects, elements or variables; displayed by its name in the tools.
 ///
 /// ```
 /// use ads_cnc::address::Class;
@@ -26,16 +26,16 @@ pub enum List {
     /// An instance of a class of SDA and GEO.
     Class {
         class: Class,
-        /// The channel number, or the index of a spindle; None for the platform.
+        /// The channel number, or the index of a spindle; `None` for the platform.
         channel: Option<u8>,
-        /// The axis, by its index in the platform or the channel; None for the channel itself.
+        /// The index of the axis on the platform or in the channel; `None` for the channel itself.
         axis: Option<u8>,
     },
-    /// Variables of a kind, `V.E` for one.
+    /// Variables of a kind such as `V.E`.
     Variables {
         kind: &'static str,
         channel: u8,
-        /// The axis by its index in the channel, over the axis interface.
+        /// The index of the axis in the channel, on the axis interface.
         axis: Option<u16>,
     },
     /// Dynamic parameters.
@@ -43,7 +43,7 @@ pub enum List {
 }
 
 impl List {
-    /// The number of the channel whose list it is, or of whose axes.
+    /// The number of the channel to which the list, or its axis, belongs.
     pub(crate) fn channel(&self) -> Option<u8> {
         match *self {
             // The channel of a spindle is its index.
@@ -55,7 +55,7 @@ impl List {
         }
     }
 
-    /// The elements of an instance, by the channel and the axis of its request.
+    /// The elements of an instance, given by the channel and the axis of its request.
     pub(crate) fn of_instance(class: Class, channel: u32, axis: u32) -> Self {
         let is_of_channel = class == Class::Spindle || channel > 0;
         let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);

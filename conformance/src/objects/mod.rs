@@ -1,33 +1,34 @@
-//! The readable values of a CNC: objects of the COM task, elements of SDA and GEO, variables,
+//! The readable values of a CNC: objects of the COM task, elements of SDA and GEO, variables and
 //! parameters.
 //!
-//! [`walk`] finds all of them with as few requests as possible. A list ends where the table says; the
+//! [`walk`] finds all of them with as few requests as possible. A list ends as the table shows; the
 //! request after its last entry is rejected:
 //!
 //! | list | requests | ends |
 //! |---|---|---|
-//! | channels | number of objects, by rank and by number | when as many numbers are found as ranks; without ranks after [`GAP`] rejected numbers in a row |
-//! | channels that the caller names | number of objects of each | with them |
-//! | objects | descriptors, [`RANGE`] in a request; each by itself after such a request was rejected | with their number, or after [`GAP`] rejected in a row |
-//! | platform axes | number of objects | at the first that is rejected |
-//! | position controller, HLD of the platform | axes from 1 on | at the first that is rejected |
-//! | HLD of the first channel | axes from 1 on, if the platform has none (E-30) | at the first that is rejected |
-//! | interpolator, decoder, path preparation, HLD | each channel found | with them |
-//! | axes of a channel in these, but for the HLD | from 1 on | at the first that is rejected |
-//! | spindles | from 0 on | at the first that is rejected |
-//! | elements | name, type, length, unit, write flag | with their number, or after [`GAP`] rejected in a row |
-//! | variables, parameters | description or name, by index | with their number, or after [`GAP`] rejected in a row |
+//! | channels | number of objects, by rank and by number | when the numbers found are as many as the ranks; without ranks after [`GAP`] consecutive rejected numbers |
+//! | channels named by the caller | number of objects of each | after the last one |
+//! | objects | descriptors, [`RANGE`] in a request; one by one after such a request was rejected | at their number, or after [`GAP`] consecutive rejections |
+//! | platform axes | number of objects | at the first rejection |
+//! | position controller, HLD of the platform | axes, starting at 1 | at the first rejection |
+//! | HLD of the first channel | axes, starting at 1, if the platform has none (E-30) | at the first rejection |
+//! | interpolator, decoder, path preparation, HLD | each channel found | after the last channel |
+//! | axes of a channel in these classes, except the HLD | axes, starting at 1 | at the first rejection |
+//! | spindles | spindles, starting at 0 | at the first rejection |
+//! | elements | name, type, length, unit, write flag | at their number, or after [`GAP`] consecutive rejections |
+//! | variables, parameters | description or name, by index | at their number, or after [`GAP`] consecutive rejections |
 //!
-//! The suite walks by the same rules (`Walker`), but names the channels and axes that the profile
+//! The suite uses the same rules (`Walker`), but requests the channels and axes that the profile
 //! claims, and reads one descriptor in a request.
 //!
-//! No manual says whether SDA or GEO has a class: requests go to SDA, and to GEO for a class of which SDA
-//! has nothing. At most [`OBJECTS_MAX`] objects are listed with [`NAMES_MAX`] bytes of names, and
-//! [`REQUESTS_MAX`] requests sent. (0, 0), an error, or the address of another instance as the address of
-//! an instance means that the target does not have it. No number is above 255. Type, length, unit and
-//! write flag of an element are read once for the channels of a class and once for its axes: an element
-//! with the same name and number in another instance is assumed to have the same ([`Options::exact`]
-//! reads all).
+//! The manuals do not specify whether SDA or GEO serves a class: requests go to SDA, and to GEO for
+//! a class of which SDA has no instance. At most [`OBJECTS_MAX`] objects are listed, with at most
+//! [`NAMES_MAX`] bytes of names, and at most [`REQUESTS_MAX`] requests are sent. If the address of
+//! an instance is (0, 0), an error, or the address of another instance, the target does not have
+//! the instance. No number exceeds 255. Type, length, unit and write flag of an element are read
+//! once for the channels of a class and once for its axes: an element with the same name and number
+//! in another instance is assumed to have the same attributes ([`Options::exact`] reads all of
+//! them).
 
 mod list;
 mod object;

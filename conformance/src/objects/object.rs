@@ -11,22 +11,22 @@ use super::{List, ValueAddress};
 use crate::gate::Entry;
 use crate::values::Type;
 
-/// An entry of a list, with its value's address.
+/// An entry of a list, with the address of its value.
 #[derive(Clone, Debug)]
 pub struct Object {
     pub list: List,
     pub name: CncString,
     pub address: ValueAddress,
     pub ty: Type,
-    /// Its unit, if any.
+    /// The unit, if any.
     pub unit: Option<CncString>,
     pub access: ReportedAccess,
-    /// Its handle, if it is a variable.
+    /// The handle, for a variable.
     pub handle: Option<Handle>,
 }
 
 impl Object {
-    /// The object of the COM task with a descriptor.
+    /// The object of the COM task with this descriptor.
     pub(crate) fn of_descriptor(list: List, descriptor: DescriptorRef<'_>) -> Self {
         let (group, offset) = (descriptor.index_group(), descriptor.index_offset());
         Self {
@@ -40,7 +40,7 @@ impl Object {
         }
     }
 
-    /// The variable with a description.
+    /// The variable with this description.
     pub(crate) fn of_description(list: List, channel: Channel, variable: Description) -> Self {
         let Description { var_type, dimensions, size, access, handle, name, .. } = variable;
         let name = name.text;
@@ -55,8 +55,8 @@ impl Object {
         }
     }
 
-    /// A dynamic parameter: one number. It has no write function of its own, but on some CNCs V.L,
-    /// V.P and V.S are variables too (VAR-18).
+    /// A dynamic parameter, which is a single number. Parameters have no function that writes them,
+    /// but on some CNCs V.L, V.P and V.S are also variables (VAR-18).
     pub(crate) fn of_parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Self {
         Self {
             list: List::Parameters { kind, channel: channel.number() },
@@ -73,7 +73,7 @@ impl Object {
         }
     }
 
-    /// Size of its value in bytes; 0 if unknown.
+    /// Size of the value in bytes; 0 if unknown.
     pub fn size(&self) -> u32 {
         self.ty.size.unwrap_or(0)
     }
@@ -87,8 +87,8 @@ impl Object {
         self.ty.name == "STRING"
     }
 
-    /// Whether it belongs to the axis with this index. The offsets of a channel's axes have a
-    /// stride that is known from the descriptors only.
+    /// Whether the object belongs to the axis with this index. The offsets of a channel's axes have a
+    /// stride that only the descriptors show.
     pub(crate) fn is_of_axis(&self, index: u32) -> bool {
         let Some((_, offset)) = self.address.content() else { return false };
         let strides = [AxisStride::X1000, AxisStride::X10000];
@@ -96,7 +96,7 @@ impl Object {
         split.any(|(axis, element)| axis == index && element > 0)
     }
 
-    /// The entry of an allow file for exactly this object.
+    /// The entry for exactly this object in a file of `--allow-write`.
     pub fn entry(&self) -> Entry {
         let of_variable = |channel: Channel, axis| {
             let name = self.name.clone();
@@ -116,12 +116,12 @@ impl Object {
     }
 }
 
-/// Access as described by the CNC.
+/// The access that the CNC describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportedAccess {
-    /// It may be read.
+    /// The value may be read.
     Read,
-    /// It may be read and written.
+    /// The value may be read and written.
     ReadWrite,
     /// A code that no manual documents.
     Code(u32),
@@ -130,12 +130,12 @@ pub enum ReportedAccess {
 }
 
 impl ReportedAccess {
-    /// From a write flag.
+    /// The access for a write flag.
     pub const fn of_flag(writable: bool) -> Self {
         if writable { Self::ReadWrite } else { Self::Read }
     }
 
-    /// From a description.
+    /// The access in a description.
     pub const fn of_variable(access: VariableAccess) -> Self {
         match access {
             VariableAccess::READ_ONLY => Self::Read,

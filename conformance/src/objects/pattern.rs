@@ -1,13 +1,13 @@
-//! Patterns for names.
+//! Patterns of names.
 
-/// A case-insensitive pattern for names.
+/// A case-insensitive pattern of names.
 ///
 /// ```
 /// use ads_cnc_conformance::objects::Pattern;
 ///
 /// let part = Pattern::part("single_block");
 /// assert!(part.matches("mc_active_single_block_r") && !part.matches("mc_program_stream_w"));
-/// // A star stands for any characters, a question mark for one; then it is the whole name.
+/// // A star matches any characters, a question mark one; then the pattern must match the whole name.
 /// assert!(Pattern::part("v.g.np[?].*").matches("V.G.NP[0].V"));
 /// assert!(!Pattern::part("single?block*").matches("mc_active_single_block_r"));
 /// assert!(Pattern::whole("COM channel 1").matches("COM channel 1"));
@@ -19,7 +19,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// A part of the name; the whole name if it has a star or a question mark.
+    /// A pattern for a part of a name; for the whole name if it has a star or a question mark.
     pub fn part(text: &str) -> Self {
         if text.contains(['*', '?']) {
             Self::whole(text)
@@ -36,7 +36,7 @@ impl Pattern {
     pub fn matches(&self, name: &str) -> bool {
         let name: Vec<char> = folded(name).collect();
         let (mut pattern, mut rest) = (self.wanted.as_slice(), name.as_slice());
-        // Where to continue after a mismatch: after the last star, one character further.
+        // Where to continue after a mismatch: at the last star, one character further on.
         let mut back: Option<(&[char], &[char])> = None;
         loop {
             match (pattern.split_first(), rest.split_first()) {
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stars_take_as_much_as_they_have_to() {
+    fn stars_match_any_number_of_characters() {
         for (pattern, name, matches) in [
             ("*", "", true),
             ("?", "", false),

@@ -8,15 +8,15 @@ use crate::session::Session;
 use crate::text::hex;
 use crate::values::value_of;
 
-/// Objects of a target, as they are written as JSON; see `schema/objects.schema.json`.
+/// The objects of a target in the form of the JSON output; see `schema/objects.schema.json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct ObjectsReport {
     pub format: u32,
     /// TCP address of the target.
     pub target: String,
-    /// Its AMS NetId.
+    /// AMS NetId of the target.
     pub net_id: String,
-    /// Whether it is a simulated CNC that this process started.
+    /// Whether the target is a simulated CNC that this process started.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub simulated: bool,
     pub objects: Vec<ObjectReport>,
@@ -25,7 +25,7 @@ pub struct ObjectsReport {
 }
 
 impl ObjectsReport {
-    /// The report of a target.
+    /// Creates the report for the target of a session.
     pub fn new(session: &Session, objects: Vec<ObjectReport>, notes: Vec<String>) -> Self {
         let (target, simulated) = (session.target(), session.is_simulated());
         let (target, net_id) = (target.addr.to_string(), target.net_id.to_string());
@@ -37,27 +37,27 @@ impl ObjectsReport {
 pub struct ObjectReport {
     pub list: String,
     pub name: String,
-    /// Name of its type.
+    /// Name of the type.
     pub r#type: Option<String>,
     /// Number of elements in each dimension.
     pub dimensions: Vec<u32>,
-    /// Size of its value in bytes.
+    /// Size of the value in bytes.
     pub size: Option<u32>,
     pub unit: Option<String>,
     /// `R`, `RW`, or another code.
     pub access: Option<String>,
-    /// AMS port of the task with its content.
+    /// AMS port of the task that serves the content.
     pub port: Option<u16>,
-    /// Index group of its content.
+    /// Index group of the content.
     pub group: Option<u32>,
-    /// Index offset of its content.
+    /// Index offset of the content.
     pub offset: Option<u32>,
     /// Handle of a variable.
     pub handle: Option<u32>,
-    /// The bytes of its value, if they were read.
+    /// The bytes of the value, if they were read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hex: Option<String>,
-    /// Its value, if its type is known.
+    /// The value, if its type is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
     /// Why the value was not read.
@@ -89,7 +89,7 @@ impl From<&Object> for ObjectReport {
 }
 
 impl ObjectReport {
-    /// The entry of an object with its value.
+    /// The entry of an object with its value, or the reason why it could not be read.
     pub fn read(object: &Object, content: &Result<Vec<u8>, String>) -> Self {
         let report = Self::from(object);
         match content {

@@ -6,15 +6,15 @@ use super::Object;
 use crate::text::shorten;
 use crate::values::printable;
 
-/// A column: its head, and the cell of an object.
+/// A column: its heading, and the cell for an object.
 #[derive(Clone, Copy, Debug)]
 pub struct Column {
-    /// The head of the column.
+    /// The heading of the column.
     pub head: &'static str,
     pub cell: fn(&Object) -> String,
 }
 
-/// The columns of objects and elements, or of variables.
+/// The columns for variables, or for objects and elements.
 pub const fn columns(variables: bool) -> &'static [Column] {
     if variables { VARIABLE } else { OBJECT }
 }
@@ -66,14 +66,15 @@ const VARIABLE: &[Column] = &[
     },
 ];
 
-/// Maximum width of a column; a longer cell moves the rest of its own row only.
+/// Maximum width of a column; a longer cell shifts only the rest of its own row.
 const WIDTH_MAX: usize = 40;
 
-/// No column is made narrower than this.
+/// Minimum width of a column.
 const WIDTH_MIN: usize = 8;
 
-/// Writes rows with heads, each column as wide as its longest cell, up to `WIDTH_MAX`. On a terminal of
-/// this width, the widest columns are narrowed instead, and their cells cut, until a row fits on a line.
+/// Writes rows with headings, each column as wide as its longest cell, up to `WIDTH_MAX`. On a
+/// terminal of this width, the widest columns are narrowed and their cells truncated until a row
+/// fits on a line.
 pub fn table(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
@@ -105,8 +106,8 @@ pub fn table(
     Ok(())
 }
 
-/// Writes rows as comma-separated values with CR LF, as in RFC 4180. A cell that a spreadsheet
-/// would take for a formula gets a leading apostrophe.
+/// Writes rows as comma-separated values with CR LF, as in RFC 4180. A cell that a spreadsheet would
+/// treat as a formula gets a leading apostrophe.
 pub fn csv(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>>,
@@ -129,7 +130,7 @@ fn quoted(cell: &str) -> String {
     }
 }
 
-/// Whether a spreadsheet may take a cell for a formula. Numbers, lists of numbers and a single sign
+/// Whether a spreadsheet may treat a cell as a formula. Numbers, lists of numbers and a single sign
 /// are not formulas.
 fn is_formula(cell: &str) -> bool {
     let begins = cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);

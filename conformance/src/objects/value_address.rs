@@ -1,4 +1,4 @@
-//! The address of a value: how it is read and written.
+//! The address of a value, with which it is read and written.
 
 #![cfg_attr(
     not(test),
@@ -17,14 +17,14 @@ use ads_cnc::{CncString, Error, ErrorKind, Handle};
 
 use crate::session::{Session, ToolError};
 
-/// The address of a value; a variable has several.
+/// The address of a value. A variable has several addresses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueAddress {
-    /// A variable, or with indices an element of one.
+    /// A variable by its handle, or with indices one of its elements.
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
-    /// A variable; for an element the name has indices.
+    /// A variable by its name; for an element, the name has indices.
     Name { channel: Channel, name: CncString },
-    /// A variable of an axis, over the axis interface.
+    /// A variable of an axis, on the axis interface.
     Axis { channel: Channel, axis: ChannelAxis, name: CncString },
     /// A dynamic parameter.
     Parameter { channel: Channel, kind: DynamicKind, name: CncString },
@@ -35,12 +35,12 @@ pub enum ValueAddress {
 }
 
 impl ValueAddress {
-    /// The whole variable with a handle.
+    /// The address of the whole variable with a handle.
     pub const fn of_handle(channel: Channel, handle: Handle) -> Self {
         Self::Handle { channel, handle, indices: Vec::new() }
     }
 
-    /// The content of an element of SDA.
+    /// The address of the content of an element of SDA.
     pub const fn of_element(element: ElementAddress, length: u32) -> Self {
         Self::Element { element, length, task: Task::Sda }
     }
@@ -48,7 +48,7 @@ impl ValueAddress {
     /// The request that reads the value.
     ///
     /// # Errors
-    /// A content that no request can read.
+    /// If no request can read the content.
     pub fn read(&self) -> Result<Request<'_>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
@@ -73,13 +73,13 @@ impl ValueAddress {
     /// The request that writes a value.
     ///
     /// # Errors
-    /// A content that no request can write.
+    /// If no request can write the content.
     pub fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
                 WriteByHandle::new(*channel, *handle, indices, value).into()
             }
-            // Parameters have no write function of their own.
+            // No function writes a parameter.
             Self::Name { channel, name } | Self::Parameter { channel, name, .. } => {
                 WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
                     .into()
@@ -93,7 +93,7 @@ impl ValueAddress {
         })
     }
 
-    /// Index group and offset of a content; `None` of a variable or a parameter.
+    /// Index group and offset of a content; `None` for a variable or a parameter.
     pub const fn content(&self) -> Option<(IndexGroup, IndexOffset)> {
         match self {
             Self::Object { group, offset, .. } => Some((*group, *offset)),
@@ -116,13 +116,13 @@ impl ValueAddress {
     /// The error for an address without a request.
     fn no_request(&self, error: Error) -> ToolError {
         match (self, error.kind()) {
-            // Of the functions of COM only the program stream is in the groups of contents.
-            (Self::Object { .. }, ErrorKind::Function) => ToolError::Unable(
-                "it is the program stream, which is written only: by ads-cnc stream".to_owned(),
-            ),
+            // Of the functions of COM, only the program stream is in the groups of contents.
+            (Self::Object { .. }, ErrorKind::Function) => {
+                ToolError::Unable("use ads-cnc stream for the program stream".to_owned())
+            }
             // The offset of a function has no content (SDA-12).
             (_, ErrorKind::Function) => {
-                ToolError::Unable("a function is at its address, no content".to_owned())
+                ToolError::Unable("it is a function and has no content".to_owned())
             }
             _ => ToolError::Unsendable(error),
         }
@@ -133,7 +133,7 @@ impl Session {
     /// Reads the bytes of a value.
     ///
     /// # Errors
-    /// Those of [`request`](Self::request), and [`ToolError`] for a reply that does not decode to a
+    /// Those of [`request`](Self::request), and [`ToolError`] if the reply does not decode to a
     /// value.
     pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, ToolError> {
         let read = address.read().map_err(|error| address.no_request(error))?;
@@ -145,7 +145,7 @@ impl Session {
     /// Writes the bytes of a value.
     ///
     /// # Errors
-    /// That the gate rejects it, or those of [`request`](Self::request).
+    /// If the gate rejects the write, and those of [`request`](Self::request).
     pub fn write(&mut self, address: &ValueAddress, value: &[u8]) -> Result<(), ToolError> {
         let write = address.write(value).map_err(|error| address.no_request(error))?;
         let data = self.request(address.task(), write)?;
@@ -155,7 +155,7 @@ impl Session {
     /// Checks whether the gate allows a write of the value. Nothing is sent.
     ///
     /// # Errors
-    /// If it does not.
+    /// If the gate does not allow it.
     pub fn check_write(&self, address: &ValueAddress) -> Result<(), ToolError> {
         let write = address.write(&[]).map_err(|error| address.no_request(error))?;
         self.check(address.task(), write)

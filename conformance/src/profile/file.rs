@@ -19,7 +19,7 @@ use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
 use crate::text::utf8;
 
-/// A profile with a comment on every key; its values are the defaults for a device.
+/// A profile with a comment on each key. Its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
 
 /// An error in the file of `--profile`.
@@ -41,10 +41,10 @@ impl fmt::Display for ProfileFileError {
 impl std::error::Error for ProfileFileError {}
 
 impl Profile {
-    /// Reads a file.
+    /// Reads a profile from a file.
     ///
     /// # Errors
-    /// If the file cannot be read, and those of [`from_toml`](Self::from_toml).
+    /// If the file cannot be read, and the errors of [`from_toml`](Self::from_toml).
     pub fn from_file(file: &Path) -> Result<Self, ProfileFileError> {
         let failed = |why: String| ProfileFileError { file: Some(file.to_owned()), why };
         let bytes = fs::read(file).map_err(|error| failed(error.to_string()))?;
@@ -52,7 +52,7 @@ impl Profile {
         Self::from_toml(&text).map_err(|error| failed(error.why))
     }
 
-    /// Parses the text of a file; missing keys have the values of [`DEVICE`](Self::DEVICE).
+    /// Parses the text of a file. Missing keys have the values of [`DEVICE`](Self::DEVICE).
     ///
     /// ```
     /// use ads_cnc_conformance::profile::Profile;
@@ -65,7 +65,7 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// The line and what is wrong in it: unknown keys, or invalid values.
+    /// The line and what is wrong in it: an unknown key, or an invalid value.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
         let file: ProfileFile = toml::from_str(text).map_err(|error| {
             // `Display` quotes the line; `message` has no line number.
@@ -77,7 +77,7 @@ impl Profile {
             Some((number, place)) if profile.channels.contains(&number) => {
                 let before = text.as_bytes().iter().take(place.start);
                 let line = before.filter(|byte| **byte == b'\n').count().saturating_add(1);
-                let why = format!("line {line}: channel {number} is in `channels` too");
+                let why = format!("line {line}: channel {number} is also in `channels`");
                 Err(ProfileFileError { file: None, why })
             }
             _ => Ok(profile),
@@ -86,7 +86,7 @@ impl Profile {
 }
 
 impl Profile {
-    /// [`EXAMPLE`] with what this profile claims of ports, channels, axes and spindles.
+    /// [`EXAMPLE`] with this profile's claims of ports, channels, axes and spindles.
     pub fn filled(&self) -> String {
         let places: Vec<[u32; 2]> =
             self.empty_places.iter().map(|&(channel, place)| [channel, place]).collect();
@@ -170,7 +170,7 @@ impl From<ProfileFile> for Profile {
     }
 }
 
-/// Deserializes a value and checks it, so that the error has its line.
+/// Deserializes a value and checks it; done here so that the error has the line of the value.
 fn checked<'de, D, T, U>(
     value: D,
     check: impl FnOnce(T) -> Result<U, String>,
@@ -182,7 +182,8 @@ where
     check(T::deserialize(value)?).map(Some).map_err(D::Error::custom)
 }
 
-/// Like [`checked`] for a list that is not empty. `shape` says what is needed instead of another type.
+/// Like [`checked`], for a list that must not be empty. `shape` is the error for a value of another
+/// type.
 fn checked_list<'de, D, T>(
     value: D,
     noun: &str,
@@ -196,7 +197,7 @@ where
     let list = toml::Value::deserialize(value)?;
     let list = list.try_into::<Vec<T>>().map_err(|_| D::Error::custom(shape))?;
     if list.is_empty() {
-        return Err(D::Error::custom(format!("at least one {noun} is needed")));
+        return Err(D::Error::custom(format!("at least one {noun} is required")));
     }
     each(list, noun, check).map(Some).map_err(D::Error::custom)
 }
@@ -212,15 +213,12 @@ fn version<'de, D: Deserializer<'de>>(value: D) -> Result<Option<CncVersion>, D:
 }
 
 fn ports<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u16>>, D::Error> {
-    checked_list(
-        value,
-        "port",
-        "a list of ports, as [551, 552, 553]",
-        |&port| match Task::from_port(AmsPort(port)) {
+    checked_list(value, "port", "expected a list of ports such as [551, 552, 553]", |&port| {
+        match Task::from_port(AmsPort(port)) {
             Some(_) => Ok(()),
             None => Err(format!("{port} is not a port of a CNC; ports: 551, 552 and 553")),
-        },
-    )
+        }
+    })
 }
 
 fn is_channel(number: u32) -> Result<(), String> {
@@ -229,7 +227,7 @@ fn is_channel(number: u32) -> Result<(), String> {
 }
 
 fn channels<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u32>>, D::Error> {
-    let shape = "a list of channel numbers, as [1, 2]";
+    let shape = "expected a list of channel numbers such as [1, 2]";
     checked_list(value, "channel", shape, |&number| is_channel(number))
 }
 
@@ -242,13 +240,13 @@ fn axes<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
         0 => Ok(0),
         _ => PlatformAxis::new(axes)
             .map(|_| axes)
-            .map_err(|_| "at most 255 axes have a place".to_owned()),
+            .map_err(|_| "a platform has at most 255 axes".to_owned()),
     })
 }
 
 fn spindles<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
     checked(value, |spindles: u32| match spindles.checked_sub(1).map(Spindle::new) {
-        Some(Err(_)) => Err("at most 256 spindles have an index".to_owned()),
+        Some(Err(_)) => Err("a CNC has at most 256 spindles".to_owned()),
         _ => Ok(spindles),
     })
 }
@@ -257,7 +255,7 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
     checked(value, |places: Vec<(u32, u32)>| {
         each(places, "place", |&(channel, place)| {
             is_channel(channel)?;
-            let odd = |_| format!("{place} is not a place of an axis; places are counted from 1");
+            let odd = |_| format!("{place} is not an axis place; axis places are counted from 1");
             ChannelAxis::new(place).map(drop).map_err(odd)
         })
     })
@@ -269,7 +267,7 @@ fn kinds<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::
             if LISTED.iter().any(|known| known == kind) {
                 Ok(())
             } else {
-                Err(format!("{kind:?} cannot be listed; V.G, V.E and V.A can"))
+                Err(format!("{kind:?} cannot be listed; only V.G, V.E and V.A can"))
             }
         })
     })
@@ -309,12 +307,12 @@ fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>,
 
 fn timeout<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Duration>, D::Error> {
     checked(value, |milliseconds: u64| match milliseconds {
-        0 => Err("a time over 0 is needed".to_owned()),
+        0 => Err("the time must be greater than 0".to_owned()),
         _ => Ok(Duration::from_millis(milliseconds)),
     })
 }
 
-/// Checks every item of a list, and that none occurs twice.
+/// Checks every item of a list, and that no item occurs twice.
 fn each<T: PartialEq + fmt::Debug>(
     list: Vec<T>,
     noun: &str,
@@ -324,7 +322,7 @@ fn each<T: PartialEq + fmt::Debug>(
     let mut items = list.iter().enumerate();
     let twice = items.find(|(place, item)| list.iter().take(*place).any(|one| one == *item));
     match twice {
-        Some((_, item)) => Err(format!("{noun} {item:?} is there twice")),
+        Some((_, item)) => Err(format!("duplicate {noun} {item:?}")),
         None => Ok(list),
     }
 }
@@ -333,7 +331,7 @@ fn each<T: PartialEq + fmt::Debug>(
 mod tests {
     use super::*;
 
-    /// The printed example has the default values.
+    /// The example has the default values.
     #[test]
     fn the_example_is_the_device() {
         let profile = Profile::from_toml(EXAMPLE).unwrap();
@@ -352,19 +350,19 @@ mod tests {
         assert_eq!(profile.timeout, Some(Duration::from_secs(2)));
     }
 
-    /// Invalid values are rejected with their line and the reason.
+    /// An invalid value is rejected with its line and the reason.
     #[test]
-    fn what_is_wrong_is_said_with_its_line() {
+    fn an_error_has_its_line_and_a_reason() {
         for (line, why) in [
             ("edition = \"fr-1.0\"", "en-1.05 and de-1.051"),
             ("cnc-version = \"4\"", "V4.29.0"),
             ("ports = [552, 851]", "551, 552 and 553"),
-            ("ports = [552, 552]", "port 552 is there twice"),
-            ("ports = []", "at least one port is needed"),
-            ("channels = []", "at least one channel is needed"),
-            ("channels = \"1\"", "a list of channel numbers, as [1, 2]"),
-            ("channels = [1, 1]", "channel 1 is there twice"),
-            ("absent-channel = 1", "line 2: channel 1 is in `channels` too"),
+            ("ports = [552, 552]", "duplicate port 552"),
+            ("ports = []", "at least one port is required"),
+            ("channels = []", "at least one channel is required"),
+            ("channels = \"1\"", "a list of channel numbers such as [1, 2]"),
+            ("channels = [1, 1]", "duplicate channel 1"),
+            ("absent-channel = 1", "line 2: channel 1 is also in `channels`"),
             ("channels = [0]", "channel"),
             ("channels = [1, 256]", "channel"),
             ("absent-channel = 0", "channel"),
@@ -377,7 +375,7 @@ mod tests {
             ("unwritten = [\"\u{3A9}\"]", "\u{3A9}"),
             ("sections = [\"everything\"]", "objects"),
             ("functions = [\"read\"]", "read variable value by name"),
-            ("timeout = 0", "over 0"),
+            ("timeout = 0", "greater than 0"),
             ("timeout = \"2 s\"", "invalid type"),
             ("colour = \"red\"", "unknown field"),
             ("printed-examples = maybe", "line 2"),

@@ -1,5 +1,4 @@
-//! The profile of a target: parts that it does not claim are not applicable; those it claims must
-//! work.
+//! The profile of a target: what it claims must work; what it does not claim is not applicable.
 
 mod file;
 
@@ -20,13 +19,13 @@ pub use file::{EXAMPLE, ProfileFileError};
 pub struct Profile {
     /// The profile's name.
     pub name: Cow<'static, str>,
-    /// The edition of the manual it follows.
+    /// The edition of the manual that the target follows.
     #[serde(serialize_with = "edition")]
     pub edition: Edition,
-    /// The version of its CNC, if known.
+    /// The version of the CNC, if known.
     #[serde(serialize_with = "version")]
     pub cnc_version: Option<CncVersion>,
-    /// The AMS ports that reply.
+    /// The AMS ports that answer.
     pub ports: Cow<'static, [u16]>,
     /// Logical numbers of the active channels, in the order of their ranks.
     pub channels: Cow<'static, [u32]>,
@@ -44,18 +43,18 @@ pub struct Profile {
     pub by_name_only: Cow<'static, [Cow<'static, str>]>,
     /// Names of objects, elements and variables that are never written, even if a file allows it.
     pub unwritten: Cow<'static, [Cow<'static, str>]>,
-    /// The sections of the manuals that it claims.
+    /// The sections of the manuals that the target claims.
     pub sections: Cow<'static, [Section]>,
-    /// The claimed functions of these sections, by name in the function table; `None` for all.
+    /// The claimed functions of these sections, by their names in the function table; `None` for all.
     pub functions: Option<Cow<'static, [Cow<'static, str>]>>,
-    /// It answers the printed examples with the printed values.
+    /// Whether the target answers the printed examples with the printed values.
     pub printed_examples: bool,
-    /// How long to wait for its replies; in milliseconds in a report.
+    /// How long to wait for a reply; in milliseconds in a report.
     #[serde(serialize_with = "milliseconds", skip_serializing_if = "Option::is_none")]
     pub timeout: Option<Duration>,
 }
 
-/// A part of the manuals that a target may or may not have.
+/// A part of the manuals that a target may support or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Section {
@@ -101,11 +100,11 @@ impl Section {
 /// Whether a target claims a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// It must work.
+    /// The feature must work.
     Yes,
-    /// It is optional: if present, it must be right.
+    /// The feature is optional; if present, it must work.
     Open,
-    /// It is not tested.
+    /// The feature is not tested.
     No,
 }
 
@@ -115,7 +114,7 @@ const LISTED: &[Cow<'static, str>] =
 const PORTS: &[u16] = &[AmsPort::GEO.0, AmsPort::SDA.0, AmsPort::COM.0];
 
 impl Profile {
-    /// The profile of an unknown device that has at least a first channel, before it is asked.
+    /// The profile of an unknown device, before it is queried: it has at least a first channel.
     pub const DEVICE: Self = Self {
         name: Cow::Borrowed("device"),
         edition: Edition::English,
@@ -135,14 +134,14 @@ impl Profile {
         timeout: None,
     };
 
-    /// Whether it claims a function.
+    /// Whether the profile claims a function.
     ///
     /// ```
     /// use ads_cnc::operation::Function;
     /// use ads_cnc_conformance::profile::{Claim, Profile};
     ///
     /// assert_eq!(Profile::DEVICE.claims(Function::ReadByName), Claim::Yes);
-    /// // No manual has it, and not every version.
+    /// // No manual and not every version has this function.
     /// assert_eq!(Profile::DEVICE.claims(Function::DescribeByName), Claim::Open);
     /// let newest = Profile { cnc_version: "V4.29.0".parse().ok(), ..Profile::DEVICE };
     /// assert_eq!(newest.claims(Function::DescribeByName), Claim::Yes);
@@ -159,13 +158,13 @@ impl Profile {
         }
     }
 
-    /// Whether it claims a function by its name.
+    /// Whether the profile claims a function by name.
     pub fn names(&self, function: Function) -> bool {
         let functions = self.functions.as_deref().unwrap_or_default();
         functions.iter().any(|name| name == function.spec().name)
     }
 
-    /// Whether it claims a feature that depends on the version.
+    /// Whether the profile claims a feature that depends on the version.
     pub fn has(&self, feature: Feature) -> Claim {
         match self.cnc_version.map(|version| version.has(feature)) {
             Some(answer) if answer.available && !answer.assumed => Claim::Yes,
@@ -174,22 +173,22 @@ impl Profile {
         }
     }
 
-    /// Whether it claims a section of the manuals.
+    /// Whether the profile claims a section of the manuals.
     pub fn has_section(&self, section: Section) -> bool {
         self.sections.contains(&section)
     }
 
-    /// Whether it claims a port.
+    /// Whether the profile claims a port.
     pub fn has_port(&self, port: AmsPort) -> bool {
         self.ports.contains(&port.0)
     }
 
-    /// Whether it claims a task.
+    /// Whether the profile claims a task.
     pub fn has_task(&self, task: Task) -> bool {
         self.has_port(task.port())
     }
 
-    /// Whether it claims that a kind of variables can be listed.
+    /// Whether the profile claims that a kind of variables can be listed.
     pub fn has_kind(&self, kind: Kind<'_>) -> bool {
         self.kinds.iter().any(|name| kind.text() == **name)
     }
@@ -200,7 +199,7 @@ impl Profile {
     }
 }
 
-/// Serialized as in `--edition`.
+/// Serializes an edition like the value of `--edition`.
 fn edition<S: Serializer>(edition: &Edition, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&edition.name())
 }

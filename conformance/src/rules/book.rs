@@ -1,4 +1,4 @@
-//! The records of all checks, and the knowledge of all CNCs.
+//! The records of all checks, and the knowledge of each CNC.
 
 use std::collections::BTreeMap;
 
@@ -14,23 +14,23 @@ use crate::exchange::{Exchange, Violation};
 /// Maximum number of CNCs that are distinguished.
 const CNCS_MAX: usize = 64;
 
-/// The checks of all exchanges, and what they have shown of each CNC.
+/// The checks of all exchanges, and the state of each CNC as far as they have shown it.
 #[derive(Debug)]
 pub(crate) struct RuleBook {
     pub(crate) records: TopicRecords,
     cncs: BTreeMap<AmsNetId, Knowledge>,
-    /// Whether requests are missing that may have changed the state of a CNC.
+    /// Whether requests that may have changed the state of a CNC are missing.
     is_lost: bool,
     budget: MemoryBudget,
 }
 
 impl RuleBook {
-    /// `is_lost`: a CNC may have received requests before the first observed one.
+    /// `is_lost`: whether a CNC may have received requests before the first one observed.
     pub(crate) fn new(is_lost: bool) -> Self {
         Self::with_memory(is_lost, MemoryBudget::ALL)
     }
 
-    /// For a run, whose cases have knowledge of their own.
+    /// For a run, whose cases keep their own knowledge of the target.
     pub(crate) fn of_run() -> Self {
         Self::with_memory(true, MemoryBudget::OF_RUN)
     }
@@ -45,14 +45,14 @@ impl RuleBook {
         self.budget.missed
     }
 
-    /// Missing requests may have changed any state: forgets what is known of all CNCs.
+    /// Forgets what is known of all CNCs, because missing requests may have changed any state.
     pub(crate) fn forget_cncs(&mut self) {
         self.cncs.clear();
         self.is_lost = true;
     }
 
     /// Judges the headers of a request. `is_repeated`: whether another request with this invoke ID
-    /// waits for its reply, if that is known.
+    /// is still without a reply, if known.
     pub(crate) fn request_headers(
         &mut self,
         observation: &dyn Observation,
@@ -62,7 +62,7 @@ impl RuleBook {
         requests::headers(&mut self.records, observation, header, is_repeated);
     }
 
-    /// Judges a request; returns its address if no manual documents it.
+    /// Judges a request. Returns its address if no manual documents it.
     pub(crate) fn request(
         &mut self,
         observation: &dyn Observation,
@@ -71,7 +71,7 @@ impl RuleBook {
         requests::judge(&mut self.records, observation, call)
     }
 
-    /// Judges a reply by itself and with earlier ones of the same CNC.
+    /// Judges a reply, alone and together with earlier ones of the same CNC.
     pub(crate) fn reply(
         &mut self,
         observation: &dyn Observation,
@@ -85,7 +85,7 @@ impl RuleBook {
             return;
         };
         if !answer.ams_error.is_ok() {
-            // The CNC may be gone, and another one may take its NetId.
+            // The CNC may have been replaced by another one with the same NetId.
             self.cncs.remove(&cnc);
             return;
         }
@@ -98,7 +98,7 @@ impl RuleBook {
         replies::judge(&mut judge, observation, call, answer);
     }
 
-    /// The described variable that a request reads or writes.
+    /// The variable that a request reads or writes, if its description is known.
     pub(crate) fn described(&self, cnc: AmsNetId, request: &Request<'_>) -> Option<TargetVariable> {
         self.cncs.get(&cnc)?.variables.described(request)
     }

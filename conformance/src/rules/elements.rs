@@ -15,14 +15,14 @@ use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
 
-/// The type of an element with this name: one that variables have, or REAL32.
+/// The type of an element with this type name: a type of variables, or REAL32.
 pub(crate) fn element_type(name: &str) -> Option<DataType> {
     let is_of_objects_only = |one: &DataType| matches!(one, DataType::Lint | DataType::Lword);
     DataType::ALL.into_iter().find(|one| one.name() == name && !is_of_objects_only(one))
 }
 
-/// The rule for a name that is not in the manual's list: a name of the same pattern with another
-/// width may continue the list; another name for a listed type breaks it.
+/// The rule for a type name that is not in the manual's list: a name of the same pattern with another
+/// width may continue the list; another name for a listed type violates it.
 fn name_rule(name: &str) -> Rule {
     let digits = ["UNS", "SGN", "REAL"].into_iter().find_map(|one| name.strip_prefix(one));
     let is_alike = digits.is_some_and(|digits| {
@@ -32,8 +32,8 @@ fn name_rule(name: &str) -> Rule {
 }
 
 /// The rules for the length of an element of a type. The tables of dynamic parameters print the sizes
-/// of UNS32 and REAL64, an example that of BOOLEAN; the others are documented online. Either the type
-/// or the length is wrong.
+/// of UNS32 and REAL64, an example prints that of BOOLEAN, and the others are documented online.
+/// Either the type or the length may be wrong.
 fn length_rules(data_type: DataType) -> [Rule; 3] {
     let of_size = if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) };
     match data_type {
@@ -44,7 +44,7 @@ fn length_rules(data_type: DataType) -> [Rule; 3] {
     }
 }
 
-/// Checks the name of an element's type; returns the type, if it is one of the manual.
+/// Checks the name of an element's type. Returns the type, if the manual has it.
 pub(crate) fn check_type(
     record: &mut impl Checks,
     name: &str,
@@ -67,9 +67,9 @@ pub(crate) fn check_length(
     if let Some((data_type, size)) = data_type.and_then(|one| Some((one, one.size()?))) {
         let expected = || format!("the {size} bytes of {data_type}");
         record.check(length_rules(data_type), length == size, expected, found);
-        record.check(SDA_8, length > 0, "a number of bytes", found);
+        record.check(SDA_8, length > 0, "a length of at least 1 byte", found);
     } else {
-        record.check(assumed(SDA_8), length > 0, "a number of bytes", found);
+        record.check(assumed(SDA_8), length > 0, "a length of at least 1 byte", found);
     }
 }
 
@@ -109,14 +109,14 @@ impl ExchangeJudge<'_> {
             (Request::ReadElement(_), Some(Reply::Content(content))) => {
                 let given = u32::try_from(content.bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length.filter(|length| call.read_length >= *length) {
-                    let expected = || format!("the {length} bytes it says to have");
+                    let expected = || format!("the {length} bytes of its length attribute");
                     record.check(SDA_8, given == length, expected, || format!("{given} bytes"));
                 }
                 return;
             }
             (Request::WriteElement(write), reply) => {
                 let passed = element.writable != Some(false) || reply.is_none();
-                let expected = "an error number: its write flag is FALSE";
+                let expected = "an error number, because its write flag is FALSE";
                 record.check(assumed(SDA_9), passed, expected, "a success");
                 let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length {
@@ -128,11 +128,11 @@ impl ExchangeJudge<'_> {
             }
             _ => return,
         }
-        // The size of the number, which is element 0 of a list, is assumed.
+        // That the number of elements, which is element 0, has 4 bytes is assumed.
         if call.index_offset.get() & 0xFFF == 0 {
             return;
         }
-        // Compares length and type as soon as both are known.
+        // Length and type are compared as soon as both are known.
         let (Some(data_type), Some(length)) = (element.data_type, element.length) else { return };
         check_length(&mut record, Some(data_type), length, &at);
     }
@@ -156,7 +156,7 @@ impl ExchangeJudge<'_> {
             return;
         };
         let record = &mut self.records.on(Topic::CncSda, observation);
-        // Queried by index, the returned rank may differ from the requested one.
+        // If requested by rank, the returned rank may differ from the requested one.
         let is_by_number = find.class_group().addressing == Addressing::Logical;
         let instance = (is_by_number || class == Class::Spindle).then_some(query.channel);
         check_group(record, (class, instance), group);
@@ -164,7 +164,7 @@ impl ExchangeJudge<'_> {
     }
 }
 
-/// Checks the group of the address of an instance: of its class and number, if that is known.
+/// Checks the group in the address of an instance: it must match the class and the number, if known.
 pub(crate) fn check_group(
     record: &mut impl Checks,
     (class, instance): (Class, Option<u32>),
@@ -181,14 +181,14 @@ pub(crate) fn check_group(
     if class == Class::Spindle {
         record.check(ADR_2, !logical, "a group without the logical bit", found);
     } else {
-        record.check(ADR_5, logical, "a group with the logical bit, as asked", found);
+        record.check(ADR_5, logical, "a group with the logical bit, as in the request", found);
         if matches!(class, Class::Decoder | Class::Hld) {
-            record.check(SDA_3, logical, "a group as printed", found);
+            record.check(SDA_3, logical, "the group printed in the manual", found);
         }
     }
 }
 
-/// Checks the offset of the address of an instance, which is printed for the decoder and for one axis
+/// Checks the offset in the address of an instance, which is printed for the decoder and for one axis
 /// of the HLD.
 pub(crate) fn check_offset(
     record: &mut impl Checks,
@@ -226,7 +226,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_of_another_width_may_be_a_type() {
+    fn a_type_name_of_another_width_is_not_an_error() {
         for other in ["UNS64", "SGN64", "REAL80"] {
             assert_eq!(name_rule(other).level, Some(Level::Info), "{other}");
         }

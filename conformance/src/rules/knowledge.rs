@@ -1,4 +1,4 @@
-//! What is known of one CNC, and what a judgement of an exchange with it needs.
+//! The known state of a CNC, and what the judgement of an exchange needs.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,7 +13,7 @@ use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::judge::{Checks as _, Describe, Rule, assumed};
 
-/// The state that the judgement of one exchange needs.
+/// The context of the judgement of one exchange.
 pub(super) struct ExchangeJudge<'j> {
     pub(super) records: &'j mut TopicRecords,
     pub(super) cnc: &'j mut Knowledge,
@@ -21,7 +21,7 @@ pub(super) struct ExchangeJudge<'j> {
 }
 
 impl ExchangeJudge<'_> {
-    /// Judges a client's request for an index or name that, as a reply shows, does not exist. No
+    /// Judges a client's request for an index or name that does not exist, according to a reply. No
     /// manual forbids such a request, so the rule is assumed.
     pub(super) fn judge_nonexistent(
         &mut self,
@@ -36,7 +36,7 @@ impl ExchangeJudge<'_> {
     }
 }
 
-/// The memory left for names, objects and elements of all CNCs.
+/// The remaining memory for names, objects and elements of all CNCs.
 #[derive(Debug)]
 pub(super) struct MemoryBudget {
     pub(super) left: usize,
@@ -48,7 +48,7 @@ impl MemoryBudget {
     pub(super) const ALL: usize = 0x180_0000;
     pub(super) const OF_RUN: usize = 0x40_0000;
 
-    /// Takes memory for an entry of this size plus overhead; returns whether enough was left.
+    /// Reserves memory for an entry of this size plus overhead. Returns whether enough was left.
     pub(super) fn take(&mut self, bytes: usize) -> bool {
         let left = self.left.checked_sub(bytes.saturating_add(512));
         match left {
@@ -59,7 +59,7 @@ impl MemoryBudget {
     }
 }
 
-/// The state of a CNC as captured so far.
+/// The state of a CNC as far as observed.
 #[derive(Debug, Default)]
 pub(super) struct Knowledge {
     pub(super) objects: Objects,
@@ -71,13 +71,13 @@ pub(super) struct Knowledge {
 }
 
 impl Knowledge {
-    /// `is_lost`: requests to it before the capture began are possible.
+    /// `is_lost`: whether the CNC may have received requests before the first one observed.
     pub(super) fn new(is_lost: bool) -> Self {
         Self { streams: Streams::new(is_lost), services: Services::new(is_lost), ..Self::default() }
     }
 }
 
-/// The objects of a CNC as captured so far.
+/// The objects of a CNC as far as observed.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
     /// By index group.
@@ -103,7 +103,7 @@ pub(super) struct ObservedContent {
     pub(super) writable: bool,
 }
 
-/// The elements of a CNC as captured so far.
+/// The elements of a CNC as far as observed.
 #[derive(Debug, Default)]
 pub(super) struct ObservedElements {
     /// By index group and index offset of the content.
@@ -117,22 +117,22 @@ pub(super) struct ObservedElement {
     pub(super) writable: Option<bool>,
 }
 
-/// The numbers of dynamic parameters of a CNC as captured so far.
+/// The numbers of dynamic parameters of a CNC as far as observed.
 #[derive(Debug, Default)]
 pub(super) struct ObservedParameters {
     /// By index group and kind.
     pub(super) counts: BTreeMap<(u32, String), ObservedCount>,
 }
 
-/// A number of parameters, which a program may change at any time.
+/// The number of parameters of a kind, which a program may change at any time.
 #[derive(Debug)]
 pub(super) struct ObservedCount {
     pub(super) number: u32,
-    /// An index beyond the number that was answered since.
+    /// An index after the number for which a request has succeeded since.
     pub(super) answered_beyond: Option<u32>,
 }
 
-/// The variables of a CNC as captured so far.
+/// The variables of a CNC as far as observed.
 #[derive(Debug, Default)]
 pub(super) struct Variables {
     /// By index group of the channel.
@@ -141,20 +141,20 @@ pub(super) struct Variables {
 
 #[derive(Debug, Default)]
 pub(super) struct ChannelVariables {
-    /// By kind; the empty kind has the sum.
+    /// By kind; the empty kind has the sum of all.
     pub(super) counts: BTreeMap<String, u32>,
-    /// By name: the description, and the kind and index it was requested by.
+    /// By name: the description, and the kind and index with which it was requested.
     pub(super) described: BTreeMap<String, (Description, String, u32)>,
     pub(super) handles: BTreeMap<u32, String>,
-    /// The first handle of each name.
+    /// The first known name of each handle.
     pub(super) names: BTreeMap<String, u32>,
 }
 
-/// The program streams of a CNC as captured so far, by index group of the channel.
+/// The program streams of a CNC as far as observed, by index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Streams {
     pub(super) known: BTreeMap<u32, ObservedStream>,
-    /// Whether earlier writes are possible that were not captured.
+    /// Whether earlier writes may exist that were not observed.
     pub(super) is_lost: bool,
 }
 
@@ -166,7 +166,7 @@ impl Streams {
 
 #[derive(Default)]
 pub(super) struct ObservedStream {
-    /// The packet that was rejected last, and when.
+    /// The last packet that was rejected, and when.
     pub(super) refused: Option<(Vec<u8>, Option<Duration>)>,
     /// Checks the program so far; `None` while its beginning is unknown.
     pub(super) checker: Option<Checker>,
@@ -178,11 +178,11 @@ impl fmt::Debug for ObservedStream {
     }
 }
 
-/// The Service Interfaces of a CNC as captured so far, by index group of the channel.
+/// The Service Interfaces of a CNC as far as observed, by index group of the channel.
 #[derive(Debug, Default)]
 pub(super) struct Services {
     pub(super) known: BTreeMap<u32, ObservedInterface>,
-    /// Whether requests before the first captured one are possible.
+    /// Whether requests before the first one observed are possible.
     pub(super) is_lost: bool,
 }
 
@@ -195,25 +195,25 @@ impl Services {
 /// The state of one channel's interface.
 #[derive(Debug, Default)]
 pub(super) struct ObservedInterface {
-    /// Accesses for the current request may be missing in the capture.
+    /// Whether accesses for the current request may be missing.
     pub(super) is_lost: bool,
-    /// The service has read REQUEST_STATE != 0, and the UUID.
+    /// Whether the service has read REQUEST_STATE != 0, and the UUID.
     pub(super) read_state: bool,
     pub(super) read_id: bool,
-    /// The service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE for the current
+    /// Whether the service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE for the current
     /// request.
     pub(super) response: bool,
     pub(super) reset: bool,
     pub(super) answered: bool,
-    /// A client that acts as the NC program has written UUID and REQUEST.
+    /// Whether a client that acts as the NC program has written UUID and REQUEST.
     pub(super) wrote_id: bool,
     pub(super) wrote_request: bool,
-    /// A client that acts as the NC program wrote REQUEST_STATE != 0, and no RESPONSE_STATE was
-    /// written since.
+    /// Whether a client that acts as the NC program has written REQUEST_STATE != 0, and no
+    /// RESPONSE_STATE was written since.
     pub(super) asked: bool,
 }
 
-/// A variable that a request is about.
+/// The variable that a request is about.
 #[derive(Clone, Debug)]
 pub(crate) struct TargetVariable {
     pub(crate) description: Description,

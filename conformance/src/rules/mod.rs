@@ -1,8 +1,8 @@
-//! The clauses of the manuals as checks of a request, its reply and what earlier ones have shown.
+//! Checks of a request and its reply, alone and together with earlier ones, by the manuals' clauses.
 //!
-//! `ads-cnc check` applies them to captured traffic, `ads-cnc run` to every exchange it makes with a
-//! target, `ads-cnc run --client` and `--listen` to every request of a client. A `RuleBook` records
-//! the checks by `Topic`.
+//! `ads-cnc check` applies them to captured traffic, `ads-cnc run` to every exchange with a target,
+//! and `ads-cnc run --client` and `--listen` to every request of a client. A `RuleBook` records the
+//! checks by `Topic`.
 
 mod book;
 mod elements;
@@ -34,7 +34,7 @@ pub(crate) use self::topic::{Topic, captured_cases, reply_cases};
 pub(crate) use self::variables::{check_description, check_extended};
 use crate::wire_service;
 
-/// The requirement of a command's service.
+/// The requirement of the service with this command.
 pub(crate) fn service_clause(command: Command) -> ClauseId {
     wire_service::service_of(command).map_or(ADS_5, wire_service::clause)
 }

@@ -55,7 +55,8 @@ impl ExchangeJudge<'_> {
                         .check(COM_5, sized, expected, found);
                 }
                 let passed = known.writable || reply.is_none();
-                let expected = || format!("an error number: {} may not be written", known.name);
+                let expected =
+                    || format!("an error number, because {} may not be written", known.name);
                 let mut record = self.records.on(Topic::CncCom, observation);
                 record.check(assumed(COM_2), passed, expected, "a success");
             }
@@ -75,9 +76,9 @@ impl ExchangeJudge<'_> {
         }
         list.count = Some(count);
         let last = list.known.last_key_value().map_or(0, |(&last, _)| last);
-        let found = || format!("{count} objects, but a descriptor of object {last}");
+        let found = || format!("{count} objects, but object {last} has a descriptor");
         let mut record = self.records.on(Topic::CncCom, observation);
-        record.check(COM_1, last <= count, "the number of objects", found);
+        record.check(COM_1, last <= count, || format!("at least {last} objects"), found);
     }
 
     fn descriptors(
@@ -92,10 +93,10 @@ impl ExchangeJudge<'_> {
         let first = read.first();
         let count = self.cnc.objects.lists.get(&group).and_then(|list| list.count);
         if let Some(count) = count.filter(|count| first > *count) {
-            let expected = || format!("one of {count} objects");
-            let asked = || format!("object {first}");
+            let expected = || format!("an index in the list of {count} objects");
+            let asked = || format!("index {first}");
             self.judge_nonexistent(observation, request, COM_2, expected, asked);
-            let expected = || format!("an error number: there are {count} objects");
+            let expected = || format!("an error number, because the list has {count} objects");
             let found = || format!("a descriptor of object {first}");
             let mut record = self.records.on(Topic::CncCom, observation);
             record.check(COM_2, given.is_none_or(|given| given.is_empty()), expected, found);
@@ -108,11 +109,11 @@ impl ExchangeJudge<'_> {
             let exact = call.read_length.checked_rem(length) == Some(0);
             let asked = if exact { read.count() } else { 1 };
             let expected = asked.min(left);
-            // The manual does not state the end of the list, nor the result for another length: the
-            // rule is assumed.
+            // The manual does not state where the list ends, nor the result of a request for
+            // another length: the rule is assumed.
             let rule: Rule = if exact && asked <= left { COM_3.into() } else { assumed(COM_3) };
             let passed = u32::try_from(given.len()) == Ok(expected);
-            let expected = || format!("{expected} descriptors from object {first} on");
+            let expected = || format!("{expected} descriptors, starting with object {first}");
             self.records.on(Topic::CncCom, observation).check(rule, passed, expected, given.len());
         }
         let alone = given.len() == 1;
@@ -129,17 +130,18 @@ impl ExchangeJudge<'_> {
             if list.ids.contains_key(&object.id()) || self.budget.take(0) {
                 list.ids.insert(object.id(), index);
             }
-            // Objects after the last are an error of the list, and not of the number.
+            // Objects after the last are an error of the list, not of the number.
             let is_listed = count.is_none_or(|count| index <= count);
             if is_listed && (known.is_some() || self.budget.take(0)) {
                 list.known.insert(index, (owned, alone));
             }
             let mut record = self.records.on(Topic::CncCom, observation);
-            record.check(COM_2, other.is_none(), "an ID no other object has", found);
+            record.check(COM_2, other.is_none(), "an ID that no other object has", found);
             if let Some((known, was_alone)) = known {
-                // Descriptors read one by one and read in a range must be equal.
+                // Descriptors must be equal whether they are read one by one or in a range.
                 let rule: Rule = if alone == was_alone { assumed(COM_2) } else { COM_3.into() };
-                let found = || format!("another descriptor of object {index} than before");
+                let found =
+                    || format!("a descriptor of object {index} that differs from the earlier one");
                 record.check(rule, known == owned, "the same descriptor", found);
             }
             let place = (object.index_group().get(), object.index_offset().get());
@@ -178,7 +180,7 @@ pub(crate) fn check_descriptor(record: &mut impl Checks, object: DescriptorRef<'
     let group = object.index_group();
     let content =
         matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
-    let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
+    let expected = "a group for contents of COM, such as 0x120100 or 0x120200";
     record.check(assumed(COM_5), content, expected, || format!("group {group} of {name}"));
     let access = object.write_access().0;
     let expected = "write access 0 or 1";

@@ -9,7 +9,7 @@ use crate::judge::Evidence;
 pub(crate) trait Observation {
     fn evidence(&self) -> Evidence;
 
-    /// When the request was sent, from any common start; `None` if unknown.
+    /// When the request was sent, relative to any common start; `None` if unknown.
     fn time(&self) -> Option<Duration> {
         None
     }

@@ -36,13 +36,13 @@ impl ExchangeJudge<'_> {
         let Some(ObservedCount { number: count, answered_beyond }) = known else { return };
         let count = *count;
         if index > count && reply.is_some() {
-            // A program may have created a parameter: the next count shows whether it has.
+            // A program may have created a parameter; the next count will show that.
             *answered_beyond = Some(index);
             return;
         }
         if index > count {
             let expected = || match count {
-                0 => "no index: the list is empty".to_owned(),
+                0 => "no request for an index, because the list is empty".to_owned(),
                 _ => format!("an index from 1 to {count}"),
             };
             let found = || format!("index {index}");
@@ -59,7 +59,9 @@ impl ExchangeJudge<'_> {
         record.check(DYN_2, of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
     }
 
-    /// Stores a number. Names are not stored because indices move (DYN-4).
+    /// Stores a number. Names are not stored, because a parameter's index may change.
+    ///
+    /// DYN-4
     fn number_of_parameters(
         &mut self,
         observation: &dyn Observation,
@@ -67,7 +69,7 @@ impl ExchangeJudge<'_> {
         number: u32,
     ) {
         let length = key.1.len();
-        // A subprogram may have created a V.L, and deleted it at its end.
+        // A subprogram may have created a V.L variable and deleted it at its end.
         let rule = if key.1 == "V.L" { assumed(DYN_5) } else { DYN_5.into() };
         let counts = &mut self.cnc.parameters.counts;
         if !counts.contains_key(&key) && !self.budget.take(length) {

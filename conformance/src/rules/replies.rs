@@ -1,4 +1,4 @@
-//! Judges a reply alone, and passes it on to be compared with earlier ones.
+//! Judges a reply alone, and passes it on for the comparison with earlier ones.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
@@ -14,7 +14,7 @@ use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::wire_service;
 
-/// Checks that apply to the headers of every reply.
+/// Checks the headers of a reply.
 pub(super) fn headers(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -22,7 +22,7 @@ pub(super) fn headers(
 ) {
     let mut record = records.on(Topic::CncFrames, observation);
     for violation in violations {
-        let expected = "the header of the answer to this request";
+        let expected = "the header of a reply to this request";
         record.check(violation.requirement, false, expected, &violation.what);
     }
     if violations.is_empty() {
@@ -30,7 +30,7 @@ pub(super) fn headers(
     }
 }
 
-/// Judges the service's reply and returns it if it decodes.
+/// Judges the reply as that of its service, and returns it if it decodes.
 pub(super) fn service<'e>(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -44,8 +44,7 @@ pub(super) fn service<'e>(
             record.pass(ADS_4);
             let given = answer.data.as_ref().map_or(0, Vec::len);
             let passed = usize::try_from(exchange.read_length).is_ok_and(|read| given <= read);
-            let expected =
-                || format!("at most the {} bytes that were asked for", exchange.read_length);
+            let expected = || format!("at most the {} requested bytes", exchange.read_length);
             record.check(clause, passed, expected, || format!("{given} bytes of data"));
             short_error(records, observation, answer, header);
             Some(answer)
@@ -80,7 +79,7 @@ pub(super) fn judge(
     let request = match call.dispatch() {
         Ok(request) => request,
         Err(DispatchError::Stream(error)) => {
-            // That the CNC must reject the request is assumed, except if its count is too large.
+            // That the CNC must reject the request is assumed, unless its count is too large.
             let spec = error.field().spec().map(|spec| spec.clause);
             let spec =
                 if error.kind() == ErrorKind::TooMany { Some(VAR_24.as_str()) } else { spec };
@@ -125,8 +124,8 @@ pub(super) fn judge(
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
             let mut record = context.records.on(Topic::of_reply(request.function()), observation);
             let clause = if record.knows(clause) { clause } else { spec.clause };
-            // Assumed are the size of a number of elements, and the reply to a read length between two
-            // multiples of a descriptor's.
+            // The size of a number of elements is assumed, and so is the reply to a read length
+            // between two multiples of a descriptor's length.
             let is_assumed = match &request {
                 Request::CountElements(_) => true,
                 Request::ReadDescriptors(_) => {

@@ -13,7 +13,7 @@ use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::values::until_nul;
 use crate::wire_service;
 
-/// Checks that apply to the headers of every request.
+/// Checks the headers of a request.
 pub(super) fn headers(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -28,12 +28,13 @@ pub(super) fn headers(
     let found = || format!("AMS error {:#x}", header.error);
     record.check(ADS_5, is_free, "no AMS error in a request", found);
     if let Some(again) = again {
-        let found = || format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
-        record.check(assumed(ADS_5), !again, "an invoke ID of its own", found);
+        let found =
+            || format!("the invoke ID {:#x} of a request without a reply", header.invoke_id);
+        record.check(assumed(ADS_5), !again, "an invoke ID that no pending request has", found);
     }
 }
 
-/// Judges a request; returns its address if no manual documents it.
+/// Judges a request. Returns its address if no manual documents it.
 pub(super) fn judge(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -53,7 +54,7 @@ pub(super) fn judge(
                 let rule = match error.kind() {
                     ErrorKind::TooMany => VAR_24.into(),
                     ErrorKind::TooLong if function == Function::WriteProgramStream => STM_2.into(),
-                    // The reply does not fit into the requested length: the minimum is assumed.
+                    // The reply does not fit into the requested length; that length is assumed.
                     ErrorKind::BufferTooSmall => assumed(COM_3),
                     _ => Rule::of(known.unwrap_or(spec.clause)),
                 };
@@ -90,12 +91,12 @@ pub(super) fn judge(
     }
 }
 
-/// The manual states the port of COM; those of SDA and GEO are known from online sources.
+/// The manual states the port of COM; the ports of SDA and GEO are documented online only.
 fn port_rule(port: AmsPort) -> Rule {
     if port == AmsPort::COM { GEN_4.into() } else { online(GEN_4) }
 }
 
-/// The function at a call's address.
+/// The function at a call's address, whatever its service.
 pub(crate) fn function_at(call: &Call<'_>) -> Option<Function> {
     let group = call.index_group.parts()?;
     let mut all = Function::ALL.iter().copied().filter(|function| {
@@ -107,8 +108,9 @@ pub(crate) fn function_at(call: &Call<'_>) -> Option<Function> {
     first.or_else(|| all.find(|function| function.spec().service == call.service))
 }
 
-/// Judges a call of a function by the wrong service. On the decoder channel it may be a read of all
-/// elements in turn, whose offsets collide with functions (SDA-12): it is counted only.
+/// Judges a call of a function by the wrong service. In the decoder's group it may also be a read
+/// of all elements in sequence, whose offsets collide with functions (SDA-12): such a call is only
+/// counted.
 fn wrong_service(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -151,7 +153,7 @@ fn documented(
     }
     if let Request::DynamicValueByName(request) = request {
         let ended = request.name.tail().is_some();
-        record.check(assumed(DYN_3), ended, "a name with its NUL", "a name without");
+        record.check(assumed(DYN_3), ended, "a name with a NUL", "a name without a NUL");
     }
     if let Request::ReadByHandle(_) | Request::WriteByHandle(_) = request {
         record.pass(VAR_24);
@@ -160,15 +162,21 @@ fn documented(
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
         let mut record = records.on(Topic::ClientServices, observation);
-        let expected = || format!("a read length of {least} bytes, which the reply needs");
-        let found = || format!("at most {asked} asked for");
+        let expected =
+            || format!("a read length of at least {least} bytes, the length of the reply");
+        let found = || format!("a read length of {asked} bytes");
         record.check(rule, asked >= least, expected, found);
     }
     let mut record = records.on(case, observation);
     if let Some(name) = name_of(function, call) {
         let path = VariablePath::from_text(name);
         let found = path.err().map(|error| format!("{name}: {error}")).unwrap_or_default();
-        record.check(assumed(VAR_20), found.is_empty(), "a name as the manual builds them", found);
+        record.check(
+            assumed(VAR_20),
+            found.is_empty(),
+            "a name with the structure that the manual describes",
+            found,
+        );
     }
 }
 

@@ -55,7 +55,7 @@ impl ExchangeJudge<'_> {
     }
 }
 
-/// A text has at most 128 bytes, a state is an UNS32.
+/// Checks the size: a text has at most 128 bytes, a state is an UNS32.
 fn form(record: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
     let found = || format!("{length} bytes of {}", variable.name());
@@ -79,7 +79,7 @@ impl ObservedInterface {
         match variable {
             ServiceVariable::RequestState => {
                 if is_set(value) && self.answered {
-                    // A new request.
+                    // This is a new request.
                     *self = Self::default();
                 }
                 self.read_state = is_set(value);
@@ -101,28 +101,38 @@ impl ObservedInterface {
                 // The client acts as the NC program.
                 let found = "REQUEST_STATE before UUID and REQUEST";
                 let passed = self.is_lost || self.wrote_id && self.wrote_request;
-                record.check(SVC_12, passed, "UUID and REQUEST before it", found);
+                record.check(SVC_12, passed, "UUID and REQUEST before REQUEST_STATE", found);
                 *self = Self { asked: true, ..Self::default() };
             }
             ServiceVariable::RequestState => {
                 let found = "REQUEST_STATE after RESPONSE_STATE, which it resets";
-                record.check(assumed(SVC_4), !self.answered, "RESPONSE_STATE last", found);
+                record.check(
+                    assumed(SVC_4),
+                    !self.answered,
+                    "RESPONSE_STATE as the last write",
+                    found,
+                );
                 self.reset = true;
             }
             ServiceVariable::Response => self.response = true,
             ServiceVariable::ResponseState => {
                 self.asked = false;
-                let found = "RESPONSE_STATE = 0, which leaves the program waiting";
-                record.check(SVC_5, is_set(value), "another number than 0", found);
+                let found = "RESPONSE_STATE = 0, for which the program waits forever";
+                record.check(SVC_5, is_set(value), "a number other than 0", found);
                 if !is_set(value) {
                     return;
                 }
                 let found = "RESPONSE_STATE before RESPONSE";
                 let passed = self.is_lost || self.response;
-                record.check(SVC_5, passed, "RESPONSE before it", found);
-                let found = "an answer to what was not read to be asked";
+                record.check(SVC_5, passed, "RESPONSE before RESPONSE_STATE", found);
+                let found = "a response to a request that was not read";
                 let passed = self.is_lost || self.read_state && self.read_id;
-                record.check(SVC_2, passed, "UUID and REQUEST_STATE read before", found);
+                record.check(
+                    SVC_2,
+                    passed,
+                    "UUID and REQUEST_STATE read before the response",
+                    found,
+                );
                 self.answered = true;
             }
         }

@@ -12,7 +12,7 @@ use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed};
 
-/// After a rejected write, a client that is silent for this long has given up.
+/// A client that has sent nothing for this long after a rejected write has given up.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(30);
 
 impl ExchangeJudge<'_> {
@@ -29,7 +29,7 @@ impl ExchangeJudge<'_> {
         record.check(STM_2, passed, "at most 992 bytes", || format!("{length} bytes"));
         let whole = data.ends_with(b"\r\n");
         record.check(STM_4, whole, "whole lines, each with CR LF", "an open line at the end");
-        // `NcText` accepts every line end, so bare line feeds are detected here.
+        // `NcText` accepts every line end, so bare CR and LF are detected here.
         let bare = data.windows(2).any(|two| matches!(two, [first, b'\n'] if *first != b'\r'))
             || data.first() == Some(&b'\n')
             || data.windows(2).any(|two| matches!(two, [b'\r', second] if *second != b'\n'));
@@ -56,7 +56,7 @@ impl ExchangeJudge<'_> {
                 _ => Duration::ZERO,
             };
             if waited < RETRY_TIMEOUT {
-                let expected = || format!("the {} bytes that were refused before", refused.len());
+                let expected = || format!("the {} bytes that were rejected before", refused.len());
                 record.check(STM_6, refused == data, expected, "other data");
             }
         }
@@ -70,11 +70,11 @@ impl ExchangeJudge<'_> {
                     CheckEvent::Diagnostic(finding) => {
                         let clause = match finding.kind {
                             DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => STM_8,
-                            // After the end of a program the next one begins, or the rest of this
-                            // one follows.
+                            // After its end, the next program begins, or the rest of this one
+                            // follows.
                             _ => continue,
                         };
-                        record.check(clause, false, "what a stream may have", || finding);
+                        record.check(clause, false, "a program that can be streamed", || finding);
                     }
                 }
             }

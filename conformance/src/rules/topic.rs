@@ -1,4 +1,4 @@
-//! The topics of the checks, each a case, and their records.
+//! The topics of the checks, each of which is a case, and their records.
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -17,7 +17,7 @@ use crate::judge::{
 /// Declares [`Topic`].
 macro_rules! traffic_cases {
     ($( $case:ident: $subject:ident, $id:literal, $title:literal, [$($requirement:expr),*] $(of $area:literal)?; )+) => {
-        /// A case of captured traffic.
+        /// The topic of a check, which is a case of captured traffic.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(crate) enum Topic { $( $case, )+ }
 
@@ -124,20 +124,20 @@ pub(crate) fn captured_cases() -> impl Iterator<Item = Case> {
     Topic::ALL.iter().map(|topic| topic.case())
 }
 
-/// The cases that judge every reply to a run's own requests. The case of all frames judges their
-/// headers.
+/// The cases that judge every reply to a run's own requests. The headers are judged by the case of
+/// all frames.
 pub(crate) fn reply_cases() -> impl Iterator<Item = Case> {
     let replies = Topic::ALL.iter().filter(|topic| topic.subject() == CaseSubject::CapturedCnc);
     let replies = replies.filter(|topic| **topic != Topic::CncFrames).map(|topic| topic.case());
     replies.map(|case| Case { id: reply_case_id(&case.id), subject: CaseSubject::Target, ..case })
 }
 
-/// The ID of the case for a run that corresponds to a case of captured replies.
+/// The ID of the case of a run that corresponds to a case of captured replies.
 fn reply_case_id(captured: &str) -> String {
     captured.replacen("cap-cnc", "replies", 1)
 }
 
-/// The requirements that the function table and the field tables name for an area.
+/// The requirements of an area in the function table and the field tables.
 fn of_area(area: &str, subject: CaseSubject, also: Vec<&'static str>) -> Vec<&'static str> {
     let mut all = also;
     for spec in Function::ALL.iter().map(|function| function.spec()) {
@@ -159,7 +159,7 @@ fn clauses(stream: Stream) -> impl Iterator<Item = &'static str> {
     layout.fields.iter().map(|field| field.clause).chain([layout.clause])
 }
 
-/// The records of all cases.
+/// The records of all topics.
 #[derive(Debug)]
 pub(crate) struct TopicRecords {
     records: Vec<(Case, Record, Vec<String>)>,
@@ -171,7 +171,7 @@ impl TopicRecords {
         Self { records: records.collect() }
     }
 
-    /// Where the checks of a topic are recorded.
+    /// The record for the checks of a topic.
     pub(crate) fn on<'b>(
         &'b mut self,
         case: Topic,
@@ -181,7 +181,7 @@ impl TopicRecords {
         TopicRecord { case: self.records.get_mut(place), observation, subject: None }
     }
 
-    /// Adds a note for the reader to a case.
+    /// Adds a note to a case.
     pub(crate) fn note(&mut self, case: Topic, note: impl Into<String>) {
         let place = Topic::ALL.iter().position(|one| *one == case).unwrap_or(0);
         if let Some((.., notes)) = self.records.get_mut(place) {
@@ -189,7 +189,7 @@ impl TopicRecords {
         }
     }
 
-    /// The number of cases in which a check failed.
+    /// The number of cases with a failed check.
     pub(crate) fn failed(&self) -> usize {
         let has_failed = |record: &Record| {
             record.judgements.iter().any(|judgement| judgement.verdict == Verdict::Fail)
@@ -204,7 +204,7 @@ impl TopicRecords {
         mine.map(|(_, record, _)| std::mem::take(record)).unwrap_or_default()
     }
 
-    /// The record of all checks of clients.
+    /// The record of all checks of a client.
     pub(crate) fn into_client_record(self) -> Record {
         let mut all = Record::default();
         let of_client = |case: &Case| case.subject == CaseSubject::CapturedClient;
@@ -232,21 +232,21 @@ pub(crate) struct TopicRecord<'b> {
 }
 
 impl TopicRecord<'_> {
-    /// Notes the variable or object that the following checks are about.
+    /// Sets the variable or object that the following checks are about.
     pub(crate) fn about(&mut self, name: impl Display) {
         self.subject = Some(name.to_string());
     }
 
-    /// Records an inconclusive check: the bytes it needs were not captured.
+    /// Records an inconclusive check: the bytes that it needs were not captured.
     pub(crate) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
         if let Some((_, record, _)) = &mut self.case {
-            let (verdict, expected) = (Verdict::Inconclusive, "all of it in the capture");
+            let (verdict, expected) = (Verdict::Inconclusive, "all its bytes in the capture");
             let evidence = || Some(self.observation.evidence());
             record.add(rule.into(), verdict, expected, found, evidence);
         }
     }
 
-    /// Whether this requirement is one of the case.
+    /// Whether the case has this requirement.
     pub(crate) fn knows(&self, requirement: &str) -> bool {
         self.case.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
     }

@@ -10,7 +10,7 @@ use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
 
-/// Bytes of the longest text that can be declared.
+/// Maximum size in bytes of a text that can be declared.
 const TEXT_MAX: usize = 800;
 
 impl TargetVariable {
@@ -25,7 +25,7 @@ impl TargetVariable {
         self.indices.is_empty() || self.indices.len() == self.description.dimensions.len()
     }
 
-    /// Whether each index is within the array.
+    /// Whether every index is within the array.
     fn is_inside(&self) -> bool {
         self.indices.iter().zip(&self.description.dimensions).all(|(index, count)| index < count)
     }
@@ -53,7 +53,7 @@ impl ExchangeJudge<'_> {
         let mut record = self.records.on(Topic::ClientVar, observation);
         let found = || format!("{indices} indices of {name}");
         let rule = assumed(if by_handle { VAR_11 } else { VAR_20 });
-        record.check(rule, fits, || format!("none, or {dimensions} indices"), found);
+        record.check(rule, fits, || format!("no index, or {dimensions} indices"), found);
         if let (Some(written), Some(size), true) = (written, target.size(), fits) {
             let given = written.len();
             let sized = u32::try_from(given) == Ok(size);
@@ -63,20 +63,22 @@ impl ExchangeJudge<'_> {
         let mut record = self.records.on(Topic::CncVar, observation);
         record.about(name);
         if !fits {
-            let expected = || format!("an error number: {name} has {dimensions} dimensions");
+            let expected =
+                || format!("an error number, because {name} has {dimensions} dimensions");
             record.check(rule, reply.is_none(), expected, "a success");
             return;
         }
         if !target.is_inside() {
             let rule = if by_handle { VAR_11 } else { VAR_20 };
-            let expected = || format!("an error number: {name} has not {:?}", target.indices);
+            let expected =
+                || format!("an error number, because {name} has no element {:?}", target.indices);
             record.check(rule, reply.is_none(), expected, "a success");
             return;
         }
         if written.is_some() {
             let only_read = target.description.access == VariableAccess::READ_ONLY;
             let passed = !only_read || reply.is_none();
-            let expected = || format!("an error number: {name} may only be read");
+            let expected = || format!("an error number, because {name} is READ_ONLY");
             record.check(assumed(VAR_6), passed, expected, "a success");
             return;
         }

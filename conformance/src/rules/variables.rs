@@ -42,7 +42,7 @@ impl Variables {
         self.channels.get(&group)?.handles.get(&handle).map(String::as_str)
     }
 
-    /// The described variable that a request reads or writes, and the indices.
+    /// The variable that a request reads or writes, if its description is known, and the indices.
     pub(super) fn described(&self, request: &Request<'_>) -> Option<TargetVariable> {
         let by_handle = |group: u32, handle: u32, indices: Vec<u32>| {
             let channel = self.channels.get(&group)?;
@@ -78,7 +78,7 @@ impl Variables {
     }
 }
 
-/// The kinds of variables that programs create and delete.
+/// The kinds of variables that programs can create and delete.
 const OF_PROGRAM: [&str; 3] = ["V.P", "V.L", "V.S"];
 
 impl ExchangeJudge<'_> {
@@ -157,7 +157,7 @@ impl ExchangeJudge<'_> {
     /// The number of variables of a kind, unless a program may change it.
     fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
         let counts = &self.cnc.variables.channel(call)?.counts;
-        // The empty kind is all kinds, those of programs too.
+        // The empty kind includes all kinds, also those of programs.
         let is_of_program = kind.is_empty() || OF_PROGRAM.contains(&kind);
         counts.get(kind).copied().filter(|_| !is_of_program)
     }
@@ -172,7 +172,7 @@ impl ExchangeJudge<'_> {
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
-            // The configuration has changed: the stored facts are those of the old one.
+            // The configuration has changed, so the stored facts are obsolete.
             *channel = ChannelVariables::default();
         }
         if channel.counts.len() < 64 {
@@ -204,7 +204,7 @@ impl ExchangeJudge<'_> {
         if let Some((known, of, at)) = channel.described.get(&name) {
             let unique = *of == kind && *at == index;
             let found = || format!("{name} at index {index}, and at {at}");
-            record.check(VAR_3, unique, "another variable at each index", found);
+            record.check(VAR_3, unique, "a different variable at each index", found);
             let words = |one: &Description| {
                 let facts = in_words(one.var_type, one.access, one.size, &one.dimensions);
                 format!("handle {:#x}, {facts}", one.handle.0)
@@ -214,8 +214,10 @@ impl ExchangeJudge<'_> {
             record.check(assumed(VAR_4), same, expected, || words(&variable));
         }
         let other = channel.handles.get(&handle).filter(|other| **other != name);
-        let found = || format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
-        record.check(assumed(VAR_10), other.is_none(), "a handle of its own", found);
+        let found = || {
+            format!("the handle {handle:#x}, which {} has too", other.map_or("", String::as_str))
+        };
+        record.check(assumed(VAR_10), other.is_none(), "a handle that no other name has", found);
         channel.handle(handle, &name, self.budget);
         let length = name.len().saturating_add(variable.dimensions.len()).saturating_mul(4);
         if channel.described.contains_key(&name) || self.budget.take(length) {
@@ -232,9 +234,9 @@ impl ExchangeJudge<'_> {
     ) {
         let text = name.to_string();
         let mut record = self.records.on(Topic::CncVar, observation);
-        // V.CYC has no list in either edition; V.P, V.L and V.S have none in one of them.
+        // Neither edition has a list of V.CYC; one of them has none of V.P, V.L and V.S.
         let barred = text.starts_with("V.CYC");
-        let expected = "an error number: V.CYC has no handles";
+        let expected = "an error number, because V.CYC has no handles";
         record.check(VAR_18, !barred, expected, || format!("{handle:#x}"));
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let before = channel.names.get(&text).copied();
@@ -245,12 +247,12 @@ impl ExchangeJudge<'_> {
         }
         let other = channel.handles.get(&handle).filter(|other| **other != text).cloned();
         let found = || format!("the handle of {}", other.as_deref().unwrap_or_default());
-        record.check(rule, other.is_none(), || format!("a handle of {text} alone"), found);
+        record.check(rule, other.is_none(), || format!("a handle that only {text} has"), found);
         channel.handle(handle, &text, self.budget);
     }
 }
 
-/// Checks the extended description of a V.E.
+/// Checks the extended description of a V.E variable.
 pub(crate) fn check_extended(record: &mut impl Checks, reply: &ExtendedReply, at: &str) {
     let found = || format!("no data for {at}");
     record.check(VAR_15, reply.0.is_some(), "an extended description", found);
@@ -264,7 +266,7 @@ pub(crate) fn check_extended(record: &mut impl Checks, reply: &ExtendedReply, at
     record.check(VAR_15, known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
-/// A description as a report shows it.
+/// A description, as shown in a report.
 fn in_words(ty: VariableType, access: VariableAccess, size: u32, dimensions: &[u32]) -> String {
     format!("{ty}, {access}, {size} bytes, dimensions {dimensions:?}")
 }
@@ -287,9 +289,9 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
     let empty = variable.dimensions.contains(&0);
     let found = || format!("{:?} of {name}", variable.dimensions);
     record.check(VAR_4, !empty, "at least one element in each dimension", found);
-    record.check(VAR_7, !empty, "a dimension for an array only", found);
+    record.check(VAR_7, !empty, "dimensions for an array only", found);
     let Description { var_type, access, .. } = variable;
-    // Invalid in this order, but valid when exchanged.
+    // Type and access are invalid in this order, but valid when exchanged.
     let exchanged = !(1..=2).contains(&access.0)
         && VariableType(access.0).name().is_some()
         && (1..=2).contains(&var_type.0);

@@ -60,15 +60,15 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
 
 fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        // The group is stated, and that channels start at 1; that SDA has port 552 is documented
-        // online.
+        // The manual states the group, and that channels start at 1. Port 552 of SDA is documented
+        // online only.
         let rules = [ADR_1.into(), ADR_5.into(), GEN_6.into(), online(GEN_4)];
         probe.ask(rules, CountVariables::new(channel, Kind::V_E))?;
     }
     Ok(())
 }
 
-/// Queries that identify a channel: numbers, first object and first variables.
+/// Queries whose replies identify a channel: counts, first object and first variables.
 fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     let mut requests =
         vec![CountObjects::new(channel).into(), ReadDescriptors::new(channel, 1, 1)?.into()];
@@ -80,7 +80,8 @@ fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     Ok(requests)
 }
 
-/// Whether both describe the same object: addressed by rank, its group may have the rank too.
+/// Whether both descriptors describe the same object. The reply to a request by rank may contain
+/// the rank in its group.
 fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
     let one = |bytes| Some(DescriptorsRef::decode(bytes).ok()?.get(0)?.to_owned());
     let (Some(logical), Some(found)) = (one(logical), one(found)) else { return false };
@@ -134,7 +135,7 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let beyond = Channel::by_index(ranks.saturating_add(1))?;
     probe.refuses(
         ADR_11,
-        "a rank beyond the last channel",
+        "a rank after the last channel",
         CountVariables::new(beyond, Kind::V_E),
         CountVariables::new(rank, Kind::V_E),
     )
@@ -182,11 +183,11 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     let broken = std::mem::take(&mut probe.target.broken);
     let answered = probe.target.answered.clone();
     if answered.is_empty() && broken.checks == 0 {
-        return Err(Stop::inconclusive("no frame was answered"));
+        return Err(Stop::inconclusive("no request was answered"));
     }
     if let Some(last) = only_errors_with_data(probe) {
         probe.set_evidence(Some(last));
-        let found = "errors with the data of a success, and no success";
+        let found = "only errors that carry data, and no success";
         probe.check(ADS_4, false, "the result 0 for a success", found);
     }
     let mut judged = Record::default();
@@ -209,7 +210,7 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// An error with data, if there is one and no reply was a success.
+/// The last error reply with data, if no reply of the run was a success.
 fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
     let last = probe.target.error_with_data.take();
     last.filter(|_| !probe.target.any_success)

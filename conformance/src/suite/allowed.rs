@@ -1,5 +1,5 @@
-//! Looks up the names in the file of `--allow-write` on the target, after the cases: the cases skip a name
-//! that the target does not have, so a misspelt one would go unnoticed.
+//! Looks up the names in the file of `--allow-write` on the target after the cases have run: the
+//! cases skip a name that the target does not have, so a misspelt name would go unnoticed.
 
 use ads_cnc::address::{Addressing, Attribute, Channel, ClassGroup, ElementAddress, Group};
 use ads_cnc::operation::ReadElementWriteFlag;
@@ -14,9 +14,9 @@ use crate::objects::{List, ReportedAccess, ValueAddress};
 /// The names in the file that cannot be written.
 #[derive(Clone, Debug, Default)]
 pub struct Unwritable {
-    /// Those that the target does not have.
+    /// Names that the target does not have.
     pub absent: Vec<String>,
-    /// Read-only ones: the suite checks that writes to them are rejected.
+    /// Names of read-only items: the suite checks that writes to them are rejected.
     pub read_only: Vec<String>,
 }
 
@@ -27,7 +27,7 @@ enum Named {
     Absent(&'static str),
 }
 
-/// Looks up the entries of the file. Nothing is found where the target no longer answers.
+/// Looks up the entries of the file. Finds nothing if the target no longer answers.
 pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let allowed = target.client.gate().allowed();
     let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
@@ -35,7 +35,7 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let deadline = target.deadline;
     let mut probe = Probe::new(target).with_deadline(deadline);
     for entry in entries {
-        // A target that has stopped answering tells nothing about the other names.
+        // A target that has stopped answering says nothing about the remaining names.
         let named = match is_in_no_channel(&probe, &entry) {
             true => Ok(Named::Absent("channel")),
             false => look_up(&mut probe, &entry),
@@ -88,7 +88,7 @@ fn look_up(probe: &mut Probe<'_>, entry: &Entry) -> Step<Named> {
                     _ => Named::Writable,
                 }
             }
-            // An object by its address need not be in a list.
+            // An object given by its address need not be in a list.
             _ => Named::Writable,
         },
         Entry::Stream(_) | Entry::Service(_) => Named::Writable,
@@ -115,7 +115,7 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
     })
 }
 
-/// Whether an entry is of a channel that the target does not have.
+/// Whether an entry belongs to a channel that the target does not have.
 fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     let channel = match entry {
         Entry::Variable { channel, .. } | Entry::Stream(channel) | Entry::Service(channel) => {
@@ -132,7 +132,7 @@ fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     !channels.is_empty() && !known
 }
 
-/// The channel by its number, which the lists have.
+/// The channel addressed by its number, as in the lists.
 fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     let by_rank = channel.addressing() == Addressing::Index;
     let rank = usize::from(channel.number()).checked_sub(1).filter(|_| by_rank);
@@ -140,7 +140,7 @@ fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     number.and_then(|number| Channel::new(number).ok()).unwrap_or(channel)
 }
 
-/// The name of an entry and where it is.
+/// The name of an entry and its location.
 fn place(entry: &Entry) -> String {
     let of = |channel: &Channel| match channel.addressing() {
         Addressing::Logical => format!("channel {}", channel.number()),

@@ -18,15 +18,15 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read with too few or too many indices returns an error"),
 ];
 
-/// The indices with another index in one dimension.
+/// The indices, with the index of one dimension replaced.
 fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {
     let mut place = place.to_vec();
     place.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
     place
 }
 
-/// A variable that is not an array has no dimension. The number of indices for several dimensions
-/// is assumed: if the first element can be read with it, so must the last of each dimension.
+/// A variable that is not an array has no dimension. How several dimensions are indexed is assumed:
+/// if the first element can be read this way, the last of each dimension must be readable too.
 fn array_has_elements(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let Description { handle, dimensions, name, .. } = variable;

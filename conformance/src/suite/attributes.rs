@@ -35,8 +35,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             let of_type = text(&of_type);
             for (attribute, group) in [(&name, "0x100"), (&unit, "0x400")] {
                 let Some(other) = attribute.as_ref().map(text) else { continue };
-                // Types may have other names than in the manual, but a name of an element is not a
-                // type.
+                // A type's name may differ from the manual, but an element's name is not a type.
                 let is_type = |name| element_type(name).is_some();
                 let swapped = is_type(&other) && !is_type(&of_type);
                 let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
@@ -49,7 +48,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             let Some(content) = probe.try_ask(content)? else { continue };
             let same = u32::try_from(content.len()) == Ok(length);
             let found =
-                || format!("{length} at 0x300, a content of {} bytes for {at}", content.len());
+                || format!("{length} at 0x300, but {} bytes of content for {at}", content.len());
             probe.check(ADR_6, same, "the length of the content at 0x300", found);
         }
     }

@@ -28,7 +28,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "The axis interface has no axis place 0: its offsets belong to other functions"),
 ];
 
-/// Calls a function for each place of each channel at which a variable with this name has a handle.
+/// Calls a function for each axis place at which a variable with this name has a handle.
 fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
@@ -57,7 +57,7 @@ struct AxisVariable<'a> {
     axis: ChannelAxis,
     /// The name in the request.
     name: &'a CncString,
-    /// The name in the description of the handle.
+    /// The name in the description with the same handle.
     own: &'a CncString,
 }
 
@@ -83,21 +83,21 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let handle = Handle::decode(&data);
                 let found = || format!("a success with {} bytes", data.len());
                 let expected =
-                    || format!("an error, or the handle of {name} at place {place} in 4 bytes");
+                    || format!("an error, or the 4-byte handle of {name} at place {place}");
                 probe.check(VAR_26, handle.is_ok(), expected, found);
                 let Ok(Handle(handle)) = handle else { continue };
-                // The handle belongs to the place; without an axis any handle is right.
+                // A handle belongs to one place; a place without an axis may return any handle.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
                 let found = || {
                     let other = other.unwrap_or_default();
-                    format!("the handle {handle:#x} at place {place} and at place {other}")
+                    format!("the handle {handle:#x} at both places {place} and {other}")
                 };
                 probe.check(
                     [VAR_10, VAR_26, ADR_7],
                     other.is_none(),
-                    "a handle of each place",
+                    "a different handle at each place",
                     found,
                 );
             }
@@ -105,21 +105,21 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 break;
             }
         }
-        let found = || format!("none answers in channel {}", channel.number());
+        let found = || format!("no name has a handle in channel {}", channel.number());
         probe.check(VAR_26, any, "handles by name on the axis interface", found);
         // No manual states that a variable has only one handle.
         let handles = described.iter().map(|(_, variable)| variable.handle.0);
         let is_one_number = handles.into_iter().any(|handle| at_places.contains_key(&handle));
         for (_, variable) in &described {
-            // The place of the handle is one of those counted from 1.
+            // The handle must belong to one of the places, which are counted from 1.
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
-            let expected = || format!("a place from 1 on with the handle of {name}");
-            probe.check([VAR_26, GEN_6], has_place, expected, "none has it");
+            let expected = || format!("a place, counted from 1, with the handle of {name}");
+            probe.check([VAR_26, GEN_6], has_place, expected, "no such place");
         }
     }
     each(probe, |probe, at, variable| {
-        let found = || format!("that of {} for {at}", variable.name.text);
+        let found = || format!("the handle of {} for {at}", variable.name.text);
         let same = at.own == at.name;
         probe.check(VAR_26, same, || format!("the handle of a {}", at.name), found);
         probe.check(VAR_10, same, "a handle of this variable", found);
@@ -136,11 +136,16 @@ fn values(probe: &mut Probe<'_>) -> Step {
         if variable.var_type.element_size().is_some() {
             let sized = u32::try_from(value.len()) == Ok(variable.size);
             let found = || format!("{} bytes of {at}", value.len());
-            probe.check(VAR_26, sized, || format!("its {} bytes", variable.size), found);
+            probe.check(
+                VAR_26,
+                sized,
+                || format!("the {} bytes of its description", variable.size),
+                found,
+            );
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
         steady.same(probe, VAR_26, &at, by_name, request)?;
-        // That handles of this interface can be used there is assumed.
+        // That handles of the axis interface can be used on the channel interface is assumed.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
         steady.same(probe, assumed(VAR_10), &at, by_handle, request)
     })?;
@@ -162,12 +167,12 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         probe.refuses(ADS_4, &what, handle(axis, bad), handle(axis, good))?;
         probe.refuses(ADS_4, &what, read(axis, bad), read(axis, good))?;
     }
-    // Names on the axis interface have no axis.
+    // A name on the axis interface must not contain an axis.
     let with_axis = name_of(&variable);
     let what = format!("{} on the axis interface", variable.name.text);
     probe.refuses(VAR_26, &what, handle(axis, with_axis), handle(axis, good))?;
     probe.refuses(VAR_26, &what, read(axis, with_axis), read(axis, good))?;
-    // Names on the channel interface have one.
+    // A name on the channel interface must contain an axis.
     let what = format!("{} on the channel interface", good.text());
     let of_channel = |name| HandleByName { channel, name };
     probe.refuses(VAR_26, &what, of_channel(good), of_channel(with_axis))?;

@@ -1,4 +1,4 @@
-//! Cases of axis places: the axis at each, and places without an axis.
+//! Cases of axis places: the axis at each place, and places without an axis.
 
 use std::collections::HashSet;
 
@@ -34,13 +34,13 @@ fn places(probe: &mut Probe<'_>) -> Step {
             let own: Vec<&Description> =
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
             let found = || format!("{} places of channel {}", places.len(), channel.number());
-            let expected = || format!("a place for each {name} of {} axes", own.len());
+            let expected = || format!("one place for each of the {} axes with {name}", own.len());
             probe.check([VAR_26, GEN_6], places.len() >= own.len(), expected, found);
             // An axis has only one place. Handles of places without an axis belong to no variable.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
-                let found = || format!("handle {} of place {} too", at.handle, at.axis.index());
-                let expected = || format!("another handle at each place for {name}");
+                let found = || format!("handle {} also at place {}", at.handle, at.axis.index());
+                let expected = || format!("a different handle of {name} at each place");
                 let own = seen.insert(at.handle.0);
                 probe.check([VAR_10, VAR_26], own, expected, found);
             }
@@ -52,7 +52,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target describes no axis variable")
 }
 
-/// The value under the name with the axis equals that at one of the places.
+/// Checks that the name with the axis appended reads the same value as one of the places.
 fn at_a_place(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -74,7 +74,8 @@ fn at_a_place(
     match compare(probe, |probe| probe.try_ask(by_name), find, |_, is_found| *is_found)? {
         Compared::Same => probe.pass(VAR_26),
         Compared::Differs(value, ..) => {
-            let expected = || format!("{} of {} at a place", Hex(value), variable.name.text);
+            let expected =
+                || format!("{} of {} at one of the places", Hex(value), variable.name.text);
             let found = || format!("other values at all {} places", places.len());
             probe.check(VAR_26, false, expected, found);
         }
@@ -83,7 +84,7 @@ fn at_a_place(
     Ok(())
 }
 
-/// A name with a handle at a place that has an axis.
+/// The place and handle of a name at an axis.
 fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
@@ -98,14 +99,16 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     Err(Stop::not_applicable("no axis variable is on the axis interface"))
 }
 
-/// The reply for a place beyond the last is not specified, but must not be that of an axis.
+/// The reply for a place after the last is not specified, but must not be that of an axis.
 fn too_far(probe: &mut Probe<'_>) -> Step {
     let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
         let far = ChannelAxis::new(u32::from(axis.index()) | bit)?;
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
         let given = probe.try_read::<Handle>(request)?;
-        let expected = || format!("not the handle of place {} at {}", axis.index(), far.index());
+        let expected = || {
+            format!("a handle other than that of place {} at place {}", axis.index(), far.index())
+        };
         probe.check(VAR_26, given != Some(handle), expected, || format!("{handle:?}"));
     }
     Ok(())

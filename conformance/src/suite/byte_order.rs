@@ -19,7 +19,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Numbers in descriptors, descriptions and addresses are little-endian"),
 ];
 
-/// A number that is wrong, but right with reversed bytes, breaks the byte order.
+/// A number that is wrong, but right with reversed bytes, violates the byte order.
 fn number_order(probe: &mut Probe<'_>) -> Step {
     for (one, number) in Counted::all(probe)? {
         let from_behind = number.swap_bytes();
@@ -27,7 +27,7 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         let swapped = !one.has(probe, number)? && one.has(probe, from_behind)?;
-        let found = || format!("{number:#x}, where the last is number {from_behind:#x}");
+        let found = || format!("{number:#x}, but the list ends after item {from_behind:#x}");
         probe.check(GEN_1, !swapped, || format!("the number of items of {one}"), found);
     }
     for channel in probe.channels()? {
@@ -44,8 +44,7 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks a number: one that is implausible, but plausible with reversed bytes, breaks the byte
-/// order.
+/// Checks a number: a value that is plausible only with reversed bytes violates the byte order.
 fn in_order(
     probe: &mut Probe<'_>,
     what: impl Display,
@@ -88,7 +87,7 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
             };
             in_order(
                 probe,
-                format_args!("the group of the decoder of channel {number}"),
+                format_args!("the group of the decoder in channel {number}"),
                 address.index_group.get(),
                 of_class,
             );

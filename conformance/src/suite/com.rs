@@ -27,7 +27,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length that is not a multiple of 84 returns one descriptor"),
 ];
 
-/// The platform's list and those of the channels; other cases judge missing ones.
+/// The lists of the platform and the channels; other cases judge missing lists.
 fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
     let mut all = Vec::new();
     for list in probe.lists()? {
@@ -44,7 +44,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
     for list in lists(probe)? {
         let ObjectCount(number) = probe.read(COM_1, CountObjects::new(list))?;
         ends(probe, list, number)?;
-        // The list is static: requests in between do not change it.
+        // The list is static: the requests in between must not change it.
         let again: ObjectCount = probe.read(COM_1, CountObjects::new(list))?;
         let found = || format!("{} objects of {}", again.0, list.parts().index_group());
         probe.check(COM_1, again.0 == number, || format!("{number} as before"), found);
@@ -52,8 +52,8 @@ fn count(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The last object is there, and none beyond it. Whichever of the two is wrong, the number or the list:
-/// they are one statement.
+/// Checks that the last object exists and that no object follows it. A failure does not show whether
+/// the number or the list is wrong.
 fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let rules = [COM_1, COM_2];
     let asked = number.min(OBJECTS_MAX);
@@ -64,7 +64,8 @@ fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let last = ReadDescriptors::new(list, asked, 1)?;
     let there = probe.try_ask(last)?;
     let there = there.is_some_and(|data| DescriptorsRef::decode(&data).is_ok());
-    let expected = || format!("object {asked}, as {} has {number}", list.parts().index_group());
+    let expected =
+        || format!("object {asked}: {} has {number} objects", list.parts().index_group());
     if !probe.check(rules, there, expected, "no descriptor") || asked < number {
         return Ok(());
     }
@@ -88,16 +89,18 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
             let Some(object) = one.as_ref().get(0) else { continue };
             probe.set_subject(object.name());
             let id = object.id();
-            probe.check(COM_2, ids.insert(id), "an ID no other object has", || format!("ID {id}"));
+            probe.check(COM_2, ids.insert(id), "an ID that no other object has", || {
+                format!("ID {id}")
+            });
             check_descriptor(probe, object);
-            // Objects are static.
+            // Objects are static: a second read must return the same descriptor.
             let again = read_descriptors(probe, COM_2, list, first, 1)?;
             let what = |one: DescriptorRef<'_>| {
                 let at = (one.index_group(), one.index_offset());
                 (one.id(), one.size(), at, one.name().to_string(), one.type_name().to_string())
             };
             let same = again.as_ref().get(0).map(what) == Some(what(object));
-            let found = || format!("another for number {first} the second time");
+            let found = || format!("another descriptor for number {first} in the second read");
             probe.check(COM_2, same, || format!("the descriptor of ID {id} again"), found);
         }
     }
@@ -131,17 +134,18 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         singles.insert(first, probe.ask(COM_3, request)?);
     }
     for (first, count) in reads {
-        // The maximum that fits into a frame.
+        // The maximum number that fits into a frame.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask(COM_3, request)?;
-        // What was not read by itself is as it is there.
+        // A descriptor that was not read alone is not compared.
         let mut parts = together.chunks(DESCRIPTOR_LEN);
         let alone = (first..=number).take(usize_of(count)).map(|number| {
             let part = parts.next().unwrap_or_default();
             singles.get(&number).map_or(part, Vec::as_slice)
         });
         let alone: Vec<u8> = alone.flatten().copied().collect();
-        let expected = || format!("{count} descriptors from {first} on, as they read one by one");
+        let expected =
+            || format!("{count} descriptors from {first}, equal to those read one by one");
         let found = if together.len() == alone.len() {
             "other bytes".to_owned()
         } else {
@@ -163,11 +167,11 @@ fn end_of_list(probe: &mut Probe<'_>) -> Step {
     let exchange = probe.send(request)?;
     let data = exchange.success();
     let given = data.and_then(|data| DescriptorsRef::decode(data).ok()).map(|list| list.len());
-    let expected = "the one descriptor there is";
+    let expected = "only the last descriptor";
     probe.check(assumed(COM_3), given == Some(1), expected, &exchange);
     probe.refuses(
         COM_2,
-        "an object behind the last",
+        "an object after the last",
         ReadDescriptors::new(list, number.saturating_add(1), 2)?,
         ReadDescriptors::new(list, number, 1)?,
     )

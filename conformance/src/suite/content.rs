@@ -38,7 +38,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         let read = match object.address.read() {
             Ok(read) => read,
             Err(error) => {
-                // Reading the program stream is not documented.
+                // That the program stream can be read is not documented.
                 let stream = error.kind() == ErrorKind::Function;
                 let found =
                     || format!("{size} bytes of {} at {}: {error}", object.name, at(&object));
@@ -47,14 +47,15 @@ fn content(probe: &mut Probe<'_>) -> Step {
             }
         };
         if let Err(Some(_)) = probe.check_gate(&read)? {
-            let found = || format!("{} at {}, where no query goes", object.name, at(&object));
+            let found =
+                || format!("{} at {}, an address that no query has", object.name, at(&object));
             probe.check(rules, false, "a content that can be read", found);
             continue;
         }
         let place = object.address.content().map(|(group, offset)| (group.get(), offset.get()));
         if PRINTED.iter().any(|&(_, group, offset)| place == Some((group, offset))) {
             let exchange = probe.send(read)?;
-            let expected = || format!("{} at its printed address", object.name);
+            let expected = || format!("{} at the address printed in the manual", object.name);
             probe.check(COM_6, exchange.success().is_some(), expected, &exchange);
         }
         let content = probe.ask(rules, read)?;
@@ -71,7 +72,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// A read length beyond the size may be rejected, but must not return more data.
+/// A read longer than the object may be rejected, but must not return more data.
 fn room(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let Some((group, offset)) = object.address.content() else { continue };
@@ -87,14 +88,14 @@ fn room(probe: &mut Probe<'_>) -> Step {
             }
             let Some(content) = probe.try_ask(read)? else { continue };
             let expected = || format!("the {} bytes of {}", object.size(), object.name);
-            let found = || format!("{} bytes in a room of {size}", content.len());
+            let found = || format!("{} bytes for a read length of {size}", content.len());
             let sized = u32::try_from(content.len()) == Ok(object.size());
             probe.check([COM_2, COM_5], sized, expected, found);
             let is_padded = !sized && u32::try_from(content.len()) == Ok(size);
-            probe.check(ADS_1, !is_padded, "no more bytes than there are", found);
+            probe.check(ADS_1, !is_padded, "no bytes after the data", found);
         }
     }
-    probe.finish("no content is read with more room")
+    probe.finish("no content can be read with a longer read length")
 }
 
 /// The address in an object's descriptor.
@@ -124,9 +125,9 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
 fn places(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();
     for object in probe.objects()? {
-        let found = || format!("{} at {} again", object.name, at(&object));
+        let found = || format!("{} at {}, the address of another object", object.name, at(&object));
         let own = seen.insert((object.list, object.address.content()));
-        probe.check([COM_2, COM_5], own, "a place of its own", found);
+        probe.check([COM_2, COM_5], own, "an address that no other object has", found);
     }
     Ok(())
 }
@@ -143,10 +144,10 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Reads everything as an object browser does: numbers and descriptors of COM, elements of SDA.
+/// Reads everything, like an object browser: numbers and descriptors of COM, elements of SDA.
 fn everything(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
-        // Lists of platform axes are assumed.
+        // That platform axes have lists is assumed.
         let rule = match list.parts().table {
             ComTable::Axis => assumed(OBJ_1),
             ComTable::Channel => OBJ_1.into(),
@@ -157,7 +158,7 @@ fn everything(probe: &mut Probe<'_>) -> Step {
             let one = ReadDescriptors::new(list, first, 1)?;
             let one: Descriptors = probe.read(rule, one)?;
             let id = one.as_ref().get(0).map(|object| object.id());
-            let found = || format!("the object {id:?} again, as number {first} of {count}");
+            let found = || format!("the object {id:?} again, at number {first} of {count}");
             probe.check(rule, id.is_some_and(|id| ids.insert(id)), "another object", found);
         }
     }

@@ -49,7 +49,7 @@ fn extended(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The reply has no data; that it is a success is assumed.
+/// The reply must have no data; that it is a success is assumed.
 fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
     let exchange = probe.send(request)?;
     let data = exchange.answer().and_then(|answer| answer.data.clone());
@@ -57,7 +57,7 @@ fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> 
     let whole = usize::try_from(exchange.read_length).unwrap_or(usize::MAX);
     let padded = |data: &Vec<u8>| data.len() == whole && data.iter().all(|&byte| byte == 0);
     let is_padded = data.as_ref().is_some_and(padded);
-    probe.check(ADS_3, !is_padded, "no more bytes than there are", &exchange);
+    probe.check(ADS_3, !is_padded, "no bytes after the data", &exchange);
     let expected = || format!("no data for {at}");
     probe.check(VAR_16, empty && exchange.answer().is_some(), expected, &exchange);
     let success = exchange.success().is_some();
@@ -77,17 +77,18 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                     probe.refuses(VAR_3, &what, describe(beyond), describe(last))?;
                     continue;
                 }
-                // An index beyond the last has no data either.
+                // An index after the last must have no data either.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
                 let found = || format!("{} bytes", given.len());
-                probe.check(VAR_3, given.is_empty(), || format!("nothing for {what}"), found);
+                probe.check(VAR_3, given.is_empty(), || format!("no data for {what}"), found);
             }
         }
     }
     Ok(())
 }
 
-/// Whether the target has the description by name; if it is optional, a reply in any channel decides.
+/// Whether the target supports the description by name; if it is optional, one reply of any channel
+/// is sufficient.
 fn is_there(probe: &mut Probe<'_>) -> Step {
     if probe.target.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
         return Ok(());
@@ -100,7 +101,7 @@ fn is_there(probe: &mut Probe<'_>) -> Step {
     }
     let clause = Feature::DescriptionByName.requirement();
     let why =
-        format!("the target has no description by name, which comes with a version ({clause})");
+        format!("the target has no description by name, which only some versions have ({clause})");
     Err(Stop::NotApplicable(why))
 }
 

@@ -1,4 +1,4 @@
-//! Cases of device information and state. Both are documented online only and optional.
+//! Cases of device information and state. Both are documented online only, and optional.
 
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;

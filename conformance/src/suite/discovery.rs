@@ -1,4 +1,4 @@
-//! What a target has, by queries before the cases run.
+//! Finds the channels, axes, lists and ports of a target, before the cases run.
 
 use std::time::{Duration, Instant};
 
@@ -17,16 +17,16 @@ use crate::judge::{IfPresent as _, Step, Stop};
 use crate::objects::{List, Walker, active_channels, decoder_of, has_variables};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
-/// Who says which parts of the target are judged.
+/// The source of the claims, which say what parts of the target are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClaimsBy {
     /// The file of `--profile`.
     Profile,
-    /// The answers of the target.
+    /// The replies of the target.
     Queries,
 }
 
-/// What the queries found, and how long they took.
+/// The result of the discovery, and how long its queries took.
 #[derive(Clone, Debug, Default)]
 pub struct Discovery {
     pub found: FoundReport,
@@ -34,7 +34,7 @@ pub struct Discovery {
 }
 
 impl Discovery {
-    /// How long this many requests take, if each takes as long as those of the discovery did.
+    /// Estimates the time for a number of requests from the time of the queries of the discovery.
     pub fn time_for(&self, requests: u64) -> Duration {
         let each = self.time.checked_div(u32::try_from(self.found.requests).unwrap_or(u32::MAX));
         let nanoseconds = each.unwrap_or_default().as_nanos().saturating_mul(requests.into());
@@ -42,8 +42,8 @@ impl Discovery {
     }
 }
 
-/// Finds the channels, axes, lists and ports of a target. Without a file for `--profile` its answers
-/// become claims of its profile; sections and functions stay claimed whether they answer or not.
+/// Finds the channels, axes, lists and ports of a target. Without a file for `--profile`, its replies
+/// become the claims of its profile; sections and functions stay claimed whether they answer or not.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
@@ -61,7 +61,7 @@ pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     Discovery { found, time: begun.elapsed() }
 }
 
-/// Goes on after a step that a wrong reply ended, and notes the first reason.
+/// Continues after a step that a wrong reply ended, and notes the first reason.
 fn go_on<T>(found: &mut FoundReport, step: Step<T>) -> Step<Option<T>> {
     match step {
         Err(Stop::Inconclusive(why)) => {
@@ -100,7 +100,7 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let profile = &probe.target.profile;
     found.platform_axes = match by {
         ClaimsBy::Queries => profile.platform_axes,
-        // A claim is not a finding, and no case needs the requests that would find the axes.
+        // The axes are claimed by the profile, so no request is sent to find them.
         ClaimsBy::Profile => controlled_axes(&instances),
     };
     if by == ClaimsBy::Profile {
@@ -134,11 +134,11 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     Ok(())
 }
 
-/// Number of requests that the cases send for a channel, about, whatever is in its lists.
+/// Approximate number of requests that the cases send for a channel, independent of its lists.
 const PER_CHANNEL: u64 = 2_000;
 
-/// Number of requests that the cases send for a list, about; `tests/large.rs` compares the sum with
-/// the requests that are sent.
+/// Approximate number of requests that the cases send for a list; `tests/large.rs` compares the sum
+/// with the number of requests sent.
 fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     let (list, item) = match kind {
         Some(ItemKind::Object) => (0, 13),
@@ -154,7 +154,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
 }
 
-/// The ports that answer. All stay claimed, so that a case fails for a missing one.
+/// The ports that answer. All of them stay claimed, so that a case fails for a missing port.
 fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     let channel = Channel::new(1)?;
     let mut there = Vec::new();
@@ -167,7 +167,7 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
         let request = RawCall::new(request)?.with(|call| call.port = task.port());
         let answered =
             probe.call(&request)?.answer().is_some_and(|answer| answer.ams_error.is_ok());
-        // An error in the AMS header may also be that of the query.
+        // An error in the AMS header may also be the reply to the query.
         let answered = answered || {
             let inquired = probe.inquire::<DeviceInfoReply>(task)?;
             matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Refused(_)))
@@ -190,8 +190,8 @@ impl Walker for IfClaimed<'_, '_> {
     }
 }
 
-/// Claims the channels that are found; channel 1 if none is. The first number that is not found is
-/// that of an absent channel.
+/// Claims the channels that are found, or channel 1 if no channel is found. The first number that is
+/// not found becomes that of an absent channel.
 fn claim_channels(probe: &mut Probe<'_>) -> Step {
     let (mut absent, mut by_objects) = (None, false);
     let walker = &mut IfClaimed(probe);
@@ -217,8 +217,8 @@ fn claim_channels(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Whether a channel is there. Where channels have objects, a channel has them, or both a decoder and
-/// variables; elsewhere one of these two is enough.
+/// Whether a channel exists. If any channel has objects, a channel must have objects, or both a
+/// decoder and variables; otherwise a decoder or variables are sufficient.
 fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: bool) -> Step<bool> {
     if has_objects && walker.count_objects(channel)?.is_some() {
         return Ok(true);
@@ -234,7 +234,7 @@ fn controlled_axes(instances: &[Instance]) -> u32 {
     all.map(|one| one.axis).max().unwrap_or_default()
 }
 
-/// Claims the axes of the platform that COM or the position controller has, and the spindles.
+/// Claims the platform axes that COM or the position controller has, and the spindles.
 fn claim_axes(probe: &mut Probe<'_>) -> Step {
     let mut listed = 0_u32;
     for axis in (1..=u32::from(u8::MAX)).map_while(|place| PlatformAxis::new(place).ok()) {
@@ -252,8 +252,8 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The places for axes of all channels but the first. Without a profile a run writes nothing to them: no list
-/// says which of them have no axis, and a value written to such a place is lost.
+/// The axis places of all channels but the first. Without a profile, a run does not write to them: no
+/// list says which of them have no axis, and a value written to such a place is lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

@@ -80,23 +80,23 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             (false, 0) => {}
         }
         let found = || format!("{count} elements of {instance}");
-        probe.check(SDA_4, count <= 0xFFFF, "no more than an offset has room for", found);
+        probe.check(SDA_4, count <= 0xFFFF, "at most the number that fits into an offset", found);
         let name: ElementText = attribute(probe, SDA_4, ReadElementName::new(first))?;
         let name = name.text.text.to_string();
         let found = || format!("{name:?} of {instance}");
-        // The name of a place without an axis, or of an instance without further elements, is not
-        // specified.
+        // The name is not specified for a place without an axis, nor for an instance without further
+        // elements.
         let is_bare = count == 0 || probe.is_at_empty_place(&instance);
         let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
         let rule = assumed(SDA_4);
-        // Axes of the platform are in several HLDs.
+        // The HLDs of several channels have the axes of the platform.
         let shared = instance.class == Class::Hld && instance.axis > 0;
         if !shared {
             probe.check(
                 rule,
                 names.insert((instance.channel, name.clone())),
-                "a name of its own",
+                "a name that no other instance has",
                 found,
             );
         }
@@ -105,20 +105,15 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     // Whether the number includes element 0 is assumed, but it must be the same for all instances.
     if let Some((with_first, evidence)) = with_first {
         probe.set_evidence(evidence);
-        let found = || format!("one more for {with_first}");
+        let found = || format!("one more element for {with_first}");
         let rule = if alone.is_some() { SDA_4.into() } else { assumed(SDA_4) };
         let like = alone.map(|alone| format!(", as for {alone}")).unwrap_or_default();
-        probe.check(
-            rule,
-            false,
-            || format!("the number of elements behind the first{like}"),
-            found,
-        );
+        probe.check(rule, false, || format!("the number of elements after the first{like}"), found);
     }
     Ok(())
 }
 
-/// The last element has a name, the one after it has none.
+/// Checks that the last element has a name and the one after it has none.
 fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     let (last, beyond) = (instance.first.nth(count), instance.first.nth(count.saturating_add(1)));
     let (Ok(last), Ok(beyond)) = (last, beyond) else { return Ok(()) };
@@ -126,7 +121,7 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
         attribute::<ElementText>(probe, SDA_4, ReadElementName::new(last))?;
     }
     let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
-    // For a place without an axis the number may be zero, like its contents.
+    // At a place without an axis, the number may be zero like the other contents.
     let rule = if at_place && count == 0 { assumed(SDA_4) } else { SDA_4.into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
@@ -135,7 +130,7 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
             probe.refuses(rule, &what, beyond, last)?;
         }
     }
-    // Some of the decoder's offsets are functions, not all of which are documented.
+    // Some offsets of the decoder are functions, not all of which are documented.
     let Some(length) = probe.length_of(last)?.filter(|_| instance.class != Class::Decoder) else {
         return Ok(());
     };
@@ -200,15 +195,16 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             known = known.saturating_add(usize::from(is_known));
             units.push((element, unit));
         }
-        // What was read before does not change a text.
+        // Earlier reads must not change a text.
         for (element, unit) in units.iter().rev() {
             let again = probe.try_read::<ElementText>(ReadElementUnit::new(*element))?;
             let same = again.is_none_or(|again| again.text.text == unit.text.text);
-            let found = || format!("another at element {} of {instance}", element.index_offset());
+            let found =
+                || format!("another unit of element {} of {instance}", element.index_offset());
             probe.check(SDA_6, same, "the unit as before", found);
         }
     }
-    // If no type at all is known, the texts are wrong rather than the types.
+    // If no type is known, the texts are wrong rather than the types.
     let found = || format!("{types} types, none of the manual");
     probe.check(SDA_6, types == 0 || known > 0, "texts", found);
     Ok(())
@@ -226,7 +222,12 @@ fn attributes_of(
     let found = || format!("{:?} of {at}", text(&name));
     probe.check(SDA_6, !text(&name).is_empty(), "a name", found);
     let is_own = of_instance.is_none_or(|of_instance| text(of_instance) != text(&name));
-    probe.check(SDA_4, is_own, "another name than the instance's, which element 0 has", found);
+    probe.check(
+        SDA_4,
+        is_own,
+        "a name other than that of element 0, which is the instance's",
+        found,
+    );
     let of_name = probe.evidence();
     let ty: ElementText = attribute(probe, SDA_7, ReadElementType::new(element))?;
     let of_type = probe.evidence();
@@ -267,20 +268,25 @@ fn content(probe: &mut Probe<'_>) -> Step {
                 // Some offsets of the decoder are functions (SDA-12).
                 let function = error.kind() == ErrorKind::Function;
                 let found = || format!("{length} bytes of {at}");
-                probe.check(SDA_8, function, "no more bytes than a frame carries", found);
+                probe.check(
+                    SDA_8,
+                    function,
+                    "at most the number of bytes that fits into a frame",
+                    found,
+                );
                 return Ok(());
             }
         };
         let content = probe.ask([SDA_8, ADR_6], read)?;
         let found = || format!("{} bytes of {at}", content.len());
         let sized = u32::try_from(content.len()) == Ok(length);
-        probe.check(SDA_8, sized, || format!("the {length} bytes it says to have"), found);
+        probe.check(SDA_8, sized, || format!("the {length} bytes of its length attribute"), found);
         if type_name == "BOOLEAN" {
             let bit = matches!(*content, [0 | 1]);
             let found = || format!("{content:?} of {at}");
             probe.check(assumed(GEN_5), bit, "a BOOLEAN of 0 or 1", found);
         }
-        // A longer read may be rejected, but must not return more.
+        // A longer read may be rejected, but must not return more data.
         if let Ok(longer) = ReadElement::new(element, length.saturating_add(1))
             && let Some(content) = probe.try_ask(longer)?
         {

@@ -1,5 +1,4 @@
-//! Cases of rules for all streams: tasks and ports, start of numbering, sizes of types, code page
-//! of texts.
+//! Cases of rules for all streams: tasks and ports, numbering, sizes of types, code page of texts.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -47,7 +46,7 @@ fn ports_answer(probe: &mut Probe<'_>) -> Step {
         let nobody = exchange.answer().is_some_and(|answer| {
             [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
         });
-        // A claimed port must exist even if its number is not stated in a manual.
+        // A claimed port must exist even if the manuals do not state its number.
         probe.check(GEN_4, !nobody, || format!("a task at port {}", port.0), &exchange);
     }
     Ok(())
@@ -71,7 +70,7 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
     probe.finish("neither COM nor SDA is claimed")
 }
 
-/// The size of BOOLEAN is printed, those of other types are documented online.
+/// The size of BOOLEAN is printed in the manual; those of other types are documented online.
 fn rule_of(var_type: VariableType) -> Rule {
     if var_type == VariableType::BOOLEAN { GEN_5.into() } else { online(GEN_5) }
 }
@@ -84,10 +83,10 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let whole = variable.dimensions.iter().fold(size, |all, &n| all.saturating_mul(n));
             let (rule, name) = (rule_of(variable.var_type), &variable.name.text);
             let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
-            // Another case judges whether it can be read.
+            // Another case judges whether the value can be read.
             let Some(value) = probe.try_ask(read)? else { continue };
-            // Where only one of the two differs, the description or the value is wrong, and not the size
-            // of the type.
+            // If only one of the two sizes differs, the description or the value is wrong, not the
+            // size of the type.
             let read = u32::try_from(value.len()).unwrap_or(u32::MAX);
             let sized = [variable.size, read].contains(&whole);
             let expected = || format!("{whole} bytes for {}", variable.var_type);
@@ -109,15 +108,15 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
     {
         let zero = find(probe, Class::Decoder, 0)?;
         let none = zero.is_none_or(|zero| zero == ObjectAddress::NONE);
-        let found = || format!("{zero:?}, that of channel {first} being {there:?}");
-        probe.check(GEN_6, none, "no decoder of a channel 0", found);
+        let found = || format!("{zero:?}; channel {first} has {there:?}");
+        probe.check(GEN_6, none, "no decoder in channel 0", found);
     }
     if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
         // Not applicable if elements are not claimed.
         if let Some(zero) = probe.address_of(Class::Spindle, 0, 0).if_applicable()? {
             let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
             let found = || format!("{zero:?}");
-            probe.check([GEN_6, ADR_2], there, "a first spindle with the index 0", found);
+            probe.check([GEN_6, ADR_2], there, "a first spindle at index 0", found);
         }
     }
     probe.finish("the target names no instance")
@@ -142,20 +141,20 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
     probe.refuses(GEN_6, "a name at place 0", good.with(|call| call.index_offset = offset), &good)
 }
 
-/// Whether a name has characters that a wrong code page or 7 bits would change.
-fn is_telling(name: &[u8]) -> bool {
+/// Whether a name has characters that a wrong code page or 7-bit text would change.
+fn depends_on_code_page(name: &[u8]) -> bool {
     name.iter().any(|byte| !byte.is_ascii() || *byte == b'?')
 }
 
-/// Whether the text is UTF-8 with characters beyond ASCII.
+/// Whether the text is UTF-8 with non-ASCII characters.
 fn is_utf_8(text: &[u8]) -> bool {
     !text.is_ascii() && std::str::from_utf8(text).is_ok()
 }
 
-/// Whether a name of the channel that any code page leaves as it is has a handle: without one, no name
-/// shows anything about the code page.
+/// Whether a name with only ASCII characters has a handle in the channel. Otherwise, no name shows
+/// anything about the code page.
 fn finds_plain_names(probe: &mut Probe<'_>, channel: Channel, all: &[Description]) -> Step<bool> {
-    let plain = all.iter().find(|one| !is_telling(one.name.text.as_bytes()));
+    let plain = all.iter().find(|one| !depends_on_code_page(one.name.text.as_bytes()));
     let Some(plain) = plain else { return Ok(true) };
     Ok(probe.try_ask(HandleByName { channel, name: name_of(plain) })?.is_some())
 }
@@ -168,7 +167,7 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
         }
         for variable in variables {
             let name = variable.name.text.as_bytes();
-            if !is_telling(name) {
+            if !depends_on_code_page(name) {
                 continue;
             }
             let by_name = HandleByName { channel, name: name_of(&variable) };
@@ -177,10 +176,10 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             probe.check(GEN_3, found, expected, "the name is not found");
             // Bytes that look like UTF-8 may be intended.
             let text = Hex(name.to_vec());
-            probe.check(assumed(GEN_3), !is_utf_8(name), "one byte a character", text);
+            probe.check(assumed(GEN_3), !is_utf_8(name), "one byte per character", text);
         }
     }
-    probe.finish("no name has a character beyond ASCII")
+    probe.finish("no name has a non-ASCII character")
 }
 
 #[cfg(test)]
@@ -191,6 +190,10 @@ mod tests {
     fn characters_of_several_bytes_are_seen() {
         assert!(is_utf_8("Länge".as_bytes()));
         assert!(!is_utf_8(b"L\xE4nge") && !is_utf_8(b"Lange") && !is_utf_8(b"\xB0C"));
-        assert!(is_telling(b"L?nge") && is_telling(b"L\xE4nge") && !is_telling(b"Lange"));
+        assert!(
+            depends_on_code_page(b"L?nge")
+                && depends_on_code_page(b"L\xE4nge")
+                && !depends_on_code_page(b"Lange")
+        );
     }
 }

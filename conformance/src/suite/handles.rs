@@ -14,7 +14,7 @@ use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    // The first case that reads values: the handle was not requested by name before.
+    // The first case that reads values: no handle was requested by name before.
     case("var-described-handle", &[VAR_4, VAR_9, VAR_10], Needs::Queries, described,
         "The name and the handle in a description read the variable"),
     case("var-handle-by-name", &[VAR_9, VAR_10], Needs::Queries, by_name,
@@ -38,14 +38,14 @@ fn described(probe: &mut Probe<'_>) -> Step {
             let by_handle = whole(channel, variable.handle);
             let by_name = ReadByName { channel, name: name_of(&variable) };
             let answered = probe.try_ask(by_handle)?.is_some();
-            // Another case judges a variable that is not read by any handle.
+            // Another case judges a variable that no handle reads.
             if answered || reads_by_own_handle(probe, channel, &variable)? {
-                let expected = || format!("an answer to the handle {what} is described with");
+                let expected = || format!("a success for the handle in the description of {what}");
                 probe.check([VAR_4, VAR_10], answered, expected, "an error");
             }
             let exchange = probe.send(by_name)?;
             let named = exchange.success().is_some();
-            let expected = || format!("an answer to the name {what}");
+            let expected = || format!("a success for the name {what}");
             probe.check([VAR_4, VAR_9], named, expected, &exchange);
             if answered && named {
                 steady.same(probe, [VAR_4, VAR_10], &what, by_handle, by_name)?;
@@ -55,7 +55,7 @@ fn described(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// Whether the variable is read by the handle that its name has.
+/// Whether the handle requested by the name of the variable reads it.
 fn reads_by_own_handle(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -69,7 +69,7 @@ fn reads_by_own_handle(
     }
 }
 
-/// The handle of a name, which must have one.
+/// The handle of a name. The name must have a handle.
 fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
     let rules = [VAR_9, VAR_10];
     let data = probe.ask(rules, HandleByName { channel, name })?;
@@ -86,13 +86,14 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let name = name_of(variable);
             probe.set_subject(name.text());
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
-            // No manual states that a variable has only one handle, so the values are compared.
+            // The manuals do not state that a variable has only one handle, so the values are
+            // compared.
             let expected =
                 || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);
             probe.check(rule, handle == variable.handle, expected, || format!("{handle:?}"));
-            let found = || format!("{handle:?} of {} again", name.text());
-            probe.check(rule, handles.insert(handle), "a handle of its own", found);
+            let found = || format!("{handle:?} for {} too", name.text());
+            probe.check(rule, handles.insert(handle), "a handle that no other name has", found);
             if handle == variable.handle {
                 continue;
             }
@@ -100,7 +101,12 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let sized = u32::try_from(read.len()) == Ok(variable.size)
                 || variable.var_type.element_size().is_none();
             let found = || format!("{} bytes of {}", read.len(), name.text());
-            probe.check(VAR_10, sized, || format!("its {} bytes", variable.size), found);
+            probe.check(
+                VAR_10,
+                sized,
+                || format!("the {} bytes of its description", variable.size),
+                found,
+            );
         }
     }
     Ok(())
@@ -139,13 +145,15 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let mut taken = HashSet::new();
     for channel in probe.channels()? {
         let Some(all) = probe.all_variables(channel)? else {
-            return Err(Stop::not_applicable("not all handles are known: there are too many"));
+            return Err(Stop::not_applicable(
+                "the target has too many variables to know all handles",
+            ));
         };
         taken.extend(all.into_iter().map(|variable| variable.handle.0));
     }
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    // Handles of an axis variable may belong to places without an axis.
+    // Handles of axis variables may belong to places without an axis.
     let is_of_axis = |variable: &&Description| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str());
         path.is_ok_and(|path| path.kind() == Kind::V_A)

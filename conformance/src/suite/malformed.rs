@@ -1,7 +1,7 @@
 //! Malformed requests: each must be answered with an error.
 //!
-//! That a CNC rejects requests that the manuals do not permit is assumed. That it answers is
-//! stated, and that a success means that the request was executed (ADS-4).
+//! That a CNC rejects requests that the manuals do not permit is assumed. Stated are that it replies,
+//! and that a success means that the request was executed (ADS-4).
 
 use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -34,7 +34,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length shorter than the reply returns an error"),
 ];
 
-/// A valid request, to be sent with a fault.
+/// A valid request, and its variants with a fault.
 struct MalformedRequest<'p, 's> {
     probe: &'p mut Probe<'s>,
     good: RawCall,
@@ -45,18 +45,18 @@ impl<'p, 's> MalformedRequest<'p, 's> {
         Ok(Self { probe, good: RawCall::new(request)? })
     }
 
-    /// Sends other data.
+    /// Sends the request with other data.
     fn data(&mut self, rules: impl Rules, what: &str, data: &[u8]) -> Step {
         self.call(rules, what, |call| call.data = data.to_vec())
     }
 
-    /// Sends data whose count and indices contradict each other, of the length that the count
-    /// requires.
+    /// Sends data whose count and indices contradict each other; its length is that required by the
+    /// count.
     fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
         self.data([VAR_24, VAR_11], what, data)
     }
 
-    /// Sends the data with another address, service or length.
+    /// Sends the request with another address, service or length.
     fn call(&mut self, rules: impl Rules, what: &str, spoil: impl FnOnce(&mut RawCall)) -> Step {
         self.probe.refuses(rules, what, self.good.with(spoil), &self.good)
     }
@@ -69,9 +69,9 @@ fn bad_kind(probe: &mut Probe<'_>) -> Step {
     for (what, data) in [
         ("a kind with a final dot", &b"V.E.\0"[..]),
         ("a kind without NUL", b"V.E"),
-        ("bytes behind the NUL", b"V.E\0x"),
+        ("bytes after the NUL", b"V.E\0x"),
         ("an unknown kind", b"V.X\0"),
-        ("a kind in small letters", b"v.e\0"),
+        ("a kind in lower case", b"v.e\0"),
         ("a kind of 257 bytes", &long),
     ] {
         malformed.data(assumed(VAR_1), what, data)?;
@@ -89,7 +89,7 @@ fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
     }
     let with_dot = [good.get(..7).unwrap_or_default(), &b".\0"[..]].concat();
     malformed.data(assumed(VAR_3), "a kind with a final dot", &with_dot)?;
-    malformed.data(assumed(VAR_3), "no kind", b"\0\0\0\0\0")
+    malformed.data(assumed(VAR_3), "an empty kind", b"\0\0\0\0\0")
 }
 
 fn bad_name(probe: &mut Probe<'_>) -> Step {
@@ -107,15 +107,15 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
         let behind = [&good, &b"x"[..]].concat();
         let long = [&good[..], &vec![0; 257_usize.saturating_sub(good.len())]].concat();
         for (what, data) in [
-            ("no byte", Vec::new()),
+            ("no data", Vec::new()),
             ("a name without NUL", open),
-            ("bytes behind the NUL", behind),
+            ("bytes after the NUL", behind),
             ("a name of 257 bytes", long),
         ] {
             malformed.data(assumed(VAR_9), what, &data)?;
         }
     }
-    // A longer name than any variable has.
+    // Longer than the name of any variable.
     let longest = variables.iter().max_by_key(|one| one.name.text.as_bytes().len());
     for known in [Some(known), longest].into_iter().flatten() {
         let field = TextRef::from(known.name.text.as_cnc_str());
@@ -168,8 +168,7 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
         let mut data = handle.to_vec();
         data.extend(count.to_le_bytes());
         data.resize(indices.saturating_mul(4).saturating_add(8), 0);
-        malformed
-            .of_other_length(&format!("a count of {count} beside {indices} indices"), &data)?;
+        malformed.of_other_length(&format!("a count of {count} with {indices} indices"), &data)?;
     }
     for more in 1..4 {
         let mut data = good.clone();

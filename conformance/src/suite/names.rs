@@ -31,9 +31,14 @@ fn paths(probe: &mut Probe<'_>) -> Step {
                 Ok(_) => name.to_string(),
                 Err(error) => format!("{name}: {error}"),
             };
-            probe.check(VAR_20, path.is_ok(), "a name of structures and indices", found);
+            probe.check(
+                VAR_20,
+                path.is_ok(),
+                "a name that consists of structures, indices and a variable",
+                found,
+            );
             let Ok(path) = path else { continue };
-            // An array at a leaf is a single variable: its elements are not listed.
+            // An array at a leaf is a single variable; its elements are not listed.
             let whole = path.elements().is_empty();
             probe.check(VAR_20, whole, "the name of the variable, not of an element", found);
         }
@@ -53,7 +58,7 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let names = probe.target.profile.by_name_only.clone();
     if names.is_empty() {
         return Err(Stop::not_applicable(
-            "no variable is known that is by name only; a profile can name one",
+            "no variable is known that has only a name; a profile can name one",
         ));
     }
     let (channel, known) = (probe.channel()?, known(probe)?);
@@ -87,7 +92,7 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         steady.judge(probe, VAR_19, &name.text(), compared, |probe, rules, (before, read, _)| {
             let (expected, found) = (|| Hex(before.clone()), || Hex(read.clone()));
             probe.check(rules, false, expected, found);
-            // Either value may be the wrong one.
+            // Either of the two values may be wrong.
             probe.check([DYN_3, VAR_14], false, expected, found);
             let (low, high) = before.split_at(before.len() / 2);
             let is_reversed = before.iter().rev().eq(&read) || [high, low].concat() == read;
@@ -111,7 +116,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             let Some(value) = value else { continue };
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);
             let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
-            let expected = || format!("at most the {} bytes it is described with", variable.size);
+            let expected = || format!("at most the {} bytes of its description", variable.size);
             probe.check(assumed(VAR_22), fits, expected, found);
             let text = until_nul(&value);
             let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');

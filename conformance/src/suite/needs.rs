@@ -1,11 +1,11 @@
-//! Decides which cases a target is not asked.
+//! Decides which cases are not run on a target.
 
 use crate::gate::Gate;
 use crate::judge::{Needs, Verdict};
 use crate::profile::Profile;
 
 impl Needs {
-    /// The verdict and the reason if a case with this need is not run.
+    /// The verdict and the reason if a case with this need cannot be run; `None` if it can.
     pub fn unmet(self, gate: &Gate, profile: &Profile) -> Option<(Verdict, &'static str)> {
         let not_run = |why| Some((Verdict::NotRun, why));
         match self {
@@ -13,10 +13,10 @@ impl Needs {
                 not_run("malformed requests are sent only with --malformed")
             }
             Self::Writes if !gate.may_let_writes_pass() => {
-                not_run("writes: only what a file for --allow-write names")
+                not_run("writes are sent only with --allow-write, for the values in its file")
             }
             Self::MalformedWrites if gate.simulated().is_none() => {
-                not_run("writes what no client should: to the simulated CNC only")
+                not_run("malformed writes are sent only to the simulated CNC")
             }
             Self::PrintedExamples if !profile.printed_examples => Some((
                 Verdict::NotApplicable,

@@ -14,7 +14,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Descriptors and descriptions have no padding between the fields"),
 ];
 
-/// Whether the type in a descriptor is one of the manual's.
+/// Whether the type in a descriptor is one that the manual names.
 fn has_type(object: DescriptorRef<'_>) -> bool {
     object.type_size().is_some() || object.type_name() == "STRING"
 }
@@ -33,7 +33,7 @@ fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
     all
 }
 
-/// By how much a field may be wider or narrower than printed, smallest first.
+/// The differences in width between a field and its printed size that are tried, smallest first.
 const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
 
 fn packed(probe: &mut Probe<'_>) -> Step {
@@ -56,14 +56,14 @@ fn packed(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    probe.finish("nothing is described")
+    probe.finish("the target has no descriptor and no description")
 }
 
 fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
-    // A type that the manual does not print is still a type.
+    // A type that the manual does not name is still a type.
     let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
     let makes_sense = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
@@ -71,8 +71,9 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
         object(&bytes, |one| has_type(one) && !one.name().is_empty())
     };
     let shift = if is_unpacked { unpacked(bytes, 52, makes_sense) } else { None };
-    let found = || format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check(GEN_2, shift.is_none(), "name and type at bytes 20 and 52", found);
+    let found =
+        || format!("{} additional bytes before the name or the type", shift.unwrap_or_default());
+    probe.check(GEN_2, shift.is_none(), "name at byte 20, type at byte 52", found);
 }
 
 fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
@@ -85,13 +86,8 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
     };
     let is_of_kind = Description::decode(bytes).is_ok_and(|one| of_kind(&one));
     let shift = if is_of_kind { None } else { unpacked(bytes, bytes.len(), makes_sense) };
-    let found = || format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check(
-        GEN_2,
-        shift.is_none(),
-        || format!("a name of {kind} behind the dimensions"),
-        found,
-    );
+    let found = || format!("{} additional bytes between the fields", shift.unwrap_or_default());
+    probe.check(GEN_2, shift.is_none(), || format!("a name of {kind} after the dimensions"), found);
 }
 
 /// The number of padding bytes before `end` whose removal makes the stream plausible; negative if
@@ -114,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_between_fields_is_found() {
+    fn padding_between_fields_is_detected() {
         for (at, by) in [(4, 4), (8, 2), (24, 4), (24, 1)] {
             let other = shifted(DESCRIPTION, at, by);
             assert_eq!(unpacked(&other, DESCRIPTION.len(), sense), Some(by), "{at} {by}");

@@ -29,8 +29,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "The contents are at the addresses printed in the manuals"),
 ];
 
-/// Channel 1, which the manuals name for the platform's objects; `None` if the first channel has another
-/// number.
+/// Channel 1, which the manuals name for the objects of the platform; `None` if the first channel has
+/// another number.
 fn platform_channel(probe: &Probe<'_>) -> Step<Option<Channel>> {
     Ok(Some(probe.channel()?).filter(|channel| channel.number() == 1))
 }
@@ -43,7 +43,7 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
     let platform = match platform {
         // Other cases judge the content of the list.
         Err(Stop::Judged) => {
-            probe.check(COM_4, false, "the platform's list under channel 0", "none");
+            probe.check(COM_4, false, "the platform's list in channel 0", "no list");
             return Err(Stop::Judged);
         }
         other => other?,
@@ -59,7 +59,7 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
     for object in own.as_ref().iter() {
         let name = object.name().to_string();
         let expected = "each of the platform's objects in the list of channel 1";
-        let found = || format!("{name} is not in it");
+        let found = || format!("{name} is missing there");
         probe.check(COM_4, names.contains(&name), expected, found);
         let com = matches!(object.index_group().parts(), Some(Group::Com(_)));
         probe.check(assumed(ADR_3), com, "a group of COM", || object.index_group());
@@ -87,7 +87,7 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
         let ids: Vec<u32> = objects.as_ref().iter().map(|object| object.id()).collect();
         let own = ids.iter().all(|&id| seen.insert(id));
         let found = || format!("IDs {ids:?}, some of them of another axis");
-        probe.check(assumed(COM_7), own, || format!("objects of axis {place} alone"), found);
+        probe.check(assumed(COM_7), own, || format!("objects of axis {place} only"), found);
         for object in objects.as_ref().iter() {
             let group = object.index_group();
             let of_axes =
@@ -99,8 +99,8 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Channel 1 has the platform's objects: objects that both lists name must have the same content
-/// under either channel.
+/// Channel 1 has the platform's objects: an object in both lists must have the same content under
+/// both channels.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = platform_channel(probe)?.map(ObjectList::from);
@@ -118,7 +118,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         if let Some(other) = other.and_then(|other| other.address.read().ok()) {
             steady.same(probe, COM_4, &what, one, other)?;
         }
-        // Also at the object's offset in the groups of both.
+        // The content must also be at the object's offset in the groups of both.
         for list in iter::once(ObjectList::PLATFORM).chain(first) {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
             let there = ReadObject::new(group, offset, object.size())?;
@@ -132,7 +132,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// The printed objects.
+/// The objects printed in the manuals.
 pub(super) const PRINTED: [(&str, u32, u32); 4] = [
     ("platform", 0x12_0100, 0x251),
     ("axis", 0x12_0200, 0x1_0001),
@@ -145,7 +145,7 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         let objects = probe.objects()?;
         let named = objects.iter().find(|one| one.address.content() == Some((group, offset)));
-        // An object with another form of address has its content here too.
+        // An object with another form of address has its content at the printed address too.
         let read = |size| ReadObject::new(group, offset, size);
         let described = named.and_then(|object| read(object.size()).ok());
         let read = described.map_or_else(|| read(8), Ok)?;
@@ -162,7 +162,7 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
     let object = listed.as_ref().iter().find(|object| object.name() == printed);
     let address = object.map(|object| (object.index_group(), object.index_offset()));
     let found = || match address {
-        Some((group, offset)) => format!("it at ({group}, {offset})"),
+        Some((group, offset)) => format!("the object at ({group}, {offset})"),
         None => "no such object".to_owned(),
     };
     let is_printed =

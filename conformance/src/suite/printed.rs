@@ -1,4 +1,4 @@
-//! Cases made of the manuals' printed examples, byte for byte.
+//! Cases made from the manuals' printed examples, compared byte for byte.
 
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
@@ -10,7 +10,7 @@ use super::kit::{Probe, RawCall};
 use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
 use crate::text::hex::spaced;
 
-/// An example that contradicts another of the same variable (E-27): no CNC can satisfy both.
+/// An example that contradicts another example of the same variable (E-27): no CNC can satisfy both.
 const CONTRADICTED: &str = "value-printed-name-element";
 
 /// One case for each printed reply.
@@ -30,7 +30,7 @@ pub(super) fn cases() -> Vec<Case> {
 pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     if reply.id == CONTRADICTED {
         return Err(Stop::not_applicable(
-            "The manual has two contradicting examples (E-27); this CNC answers the other one.",
+            "the manual has two contradictory examples (E-27); this CNC returns the other one",
         ));
     }
     let lacks = |what: &str| Stop::Harness(format!("{} has no {what}", reply.id));
@@ -75,11 +75,11 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     Ok(())
 }
 
-/// Requirements that consist of a printed example: a difference in any field breaks them.
+/// Requirements that consist of a printed example: a difference in any field violates them.
 const EXAMPLES: [ClauseId; 3] = [SDA_3, SDA_10, DYN_7];
 
 /// The requirements of the fields in which a reply differs from the printed one, and those of the
-/// example as a whole; all of the vector's if none is about these fields.
+/// whole example; all requirements of the vector if none is about these fields.
 fn wrong_requirements<'v>(
     reply: &'v Vector,
     stream: Stream,
@@ -88,7 +88,7 @@ fn wrong_requirements<'v>(
 ) -> Vec<&'v str> {
     let received = received.unwrap_or_default();
     let mut clauses = Vec::new();
-    // A printed reply decodes completely.
+    // A printed reply always decodes completely.
     let _walked = stream.walk(expected, |segment| {
         let at = usize::try_from(segment.offset).unwrap_or(usize::MAX);
         let same = received.get(at..at.saturating_add(segment.bytes.len())) == Some(segment.bytes);

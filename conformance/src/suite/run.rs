@@ -24,7 +24,7 @@ use crate::testee::{self, Terms};
 static TRIES: LazyLock<HashMap<&str, Try>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
-/// Runs the cases: those of the codec against the codec, all others against a target.
+/// Runs the cases: those of the codec on the codec, all others on a target.
 ///
 /// `defect` changes the codec's input and output, to show that its cases can fail.
 pub fn run(
@@ -55,13 +55,13 @@ pub fn run(
     }
     attribute(&mut outcomes);
     if let Some(target) = target {
-        // Values that this leaves changed after a panic are reported.
+        // Values that are still changed after a panic are reported.
         let _panic = caught(|| Probe::new(target).restore_rest());
     }
     outcomes
 }
 
-/// The case of the frames, if it is not selected and a frame was wrong.
+/// The case of the frames, which is added if a frame was wrong and the case was not selected.
 fn broken_frames(target: &mut TargetState) -> Option<CaseOutcome> {
     let is_wrong = target.broken.checks > 0;
     let row = rows().find(|row| row.id == "ads-every-frame").filter(|_| is_wrong)?;
@@ -75,9 +75,13 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
     if interrupt::is_requested() {
         return CaseOutcome::interrupted(case);
     }
-    // Cases about frames judge the frames so far, even if the target is gone.
+    // Cases about frames judge the frames so far, even if the target no longer answers.
     if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
-        return CaseOutcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
+        return CaseOutcome::untried(
+            case,
+            Verdict::Inconclusive,
+            format!("the target no longer answers: {why}"),
+        );
     }
     let late = target.deadline.filter(|_| case.needs != Needs::Frames);
     if let Some(deadline) = late.filter(Deadline::is_over) {
@@ -88,14 +92,14 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
     }
     let writes = matches!(case.needs, Needs::Writes | Needs::MalformedWrites);
     if writes && target.changes.any_given_up() {
-        let note = "writes: nothing more is written when a value could not be restored";
+        let note = "no more writes are sent after a value could not be restored";
         return CaseOutcome::untried(case, Verdict::NotRun, note);
     }
     // A case that began before the deadline restores its values after it.
     let mut probe = Probe::new(target).with_deadline(late);
     let begun = caught(|| match (case.body, run) {
         (Body::Probe, Some(run)) => run(&mut probe),
-        (Body::Probe, None) => Err(Stop::Harness(format!("no function tries {}", case.id))),
+        (Body::Probe, None) => Err(Stop::Harness(format!("{} has no function", case.id))),
         (Body::Printed(vector), _) => printed::ask(&mut probe, vector),
         (Body::Traffic, _) => {
             let record = probe.target.rules.records.take_of_replies(&case.id);
@@ -159,7 +163,7 @@ mod tests {
         })
     }
 
-    /// A CNC with a defect, if there is an ID of one, of which this variable may be written.
+    /// A CNC, optionally with a defect, on which the variable `name` may be written.
     fn target(defect: Option<&str>, name: &str) -> (Server, TargetState) {
         let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
         let defect = defect.map(|id| faults::by_id(id).unwrap());
@@ -174,10 +178,10 @@ mod tests {
         (server, TargetState::new(client, Profile::DEVICE))
     }
 
-    /// A value of 2048 bytes cannot be written by name, so that nothing is observed of writes; but not
-    /// applicable is only what the target has nothing for.
+    /// A value of 2048 bytes cannot be written by name, so the case is not observed; it is not
+    /// applicable only if the target has no such variable.
     #[test]
-    fn not_applicable_is_only_what_cannot_be_tried() {
+    fn a_case_without_a_subject_is_not_applicable() {
         let padded = Some("cnc.var.value-2048");
         for (defect, name, verdict) in [
             (None, NAME, Verdict::Pass),
@@ -191,9 +195,9 @@ mod tests {
         }
     }
 
-    /// A case that panics restores its values, and the next case runs.
+    /// The values that a panicking case has changed are restored, and the next case runs.
     #[test]
-    fn what_a_panic_leaves_is_restored() {
+    fn values_are_restored_after_a_panic() {
         let (_server, mut target) = target(None, NAME);
         let before = Probe::new(&mut target).value_at(&place()).unwrap();
         let case = || Case {

@@ -24,7 +24,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A packet of 992 bytes with a line of 990 characters is accepted"),
     case("stream-lengths", &[STM_2, STM_4], Needs::Writes, lengths,
         "Packets of any length up to 992 bytes are accepted"),
-    case("stream-refused-for-now", &[STM_6], Needs::Writes, refused_for_now,
+    case("stream-refused-for-now", &[STM_6], Needs::Writes, rejected_as_busy,
         "A packet that is rejected as busy is accepted when it is sent again"),
     case("stream-too-long", &[STM_2], Needs::Malformed, too_long,
         "A packet of 993 bytes is rejected"),
@@ -36,8 +36,7 @@ const OFFSET: u32 = 0x90;
 /// The name of the object.
 const NAME: &str = "mc_program_stream_w";
 
-/// Looks for the object in the lists of channels by name and address. That it is listed is not
-/// required.
+/// Looks for the object in the lists of channels by name and address. It need not be listed.
 fn object(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let List::Channel(number) = object.list else { continue };
@@ -51,12 +50,12 @@ fn object(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{} at {group}, {offset}", object.name);
         let expected =
             || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
-        // The object or its descriptor is wrong.
+        // The object or its descriptor may be wrong.
         let rules = [STM_1, COM_2];
         probe.check(rules, here && named, expected, found);
         probe.check(rules, object.is_writable(), "write access", "none");
     }
-    probe.finish(&format!("no list names {NAME}"))
+    probe.finish(&format!("no object list has {NAME}"))
 }
 
 /// How long a device may take to empty its buffer.
@@ -72,8 +71,8 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     Err(Stop::not_applicable("no stream may be written"))
 }
 
-/// Writes until the packet is accepted; returns the last rejection if it never is, and how often it
-/// was rejected before.
+/// Writes until the packet is accepted; returns the last rejection if the timeout expires, and the
+/// number of rejections before.
 fn repeat(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -95,11 +94,11 @@ fn repeat(
 }
 
 /// Writes a packet that must be accepted; returns how often it was rejected before, or `None` if it
-/// never is.
+/// is never accepted.
 ///
-/// An error number does not show whether a rejection is temporary, nor whether the buffer of a device
-/// is emptied at all. But if as many bytes are accepted in two packets, by the number of the same
-/// channel, there is room for the one.
+/// An error number does not show whether a rejection is temporary, nor whether the device empties its
+/// buffer at all. But if two packets with the same total length are accepted by the channel's number,
+/// the buffer has space for this packet.
 fn write(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -107,14 +106,14 @@ fn write(
     data: &[u8],
 ) -> Step<Option<u32>> {
     let half = comment(data.len().div_ceil(2).max(4));
-    // Twice: the device may have read its buffer meanwhile.
+    // Twice, because the device may have emptied its buffer meanwhile.
     for _ in 0..2 {
         let (rejection, refused) = repeat(probe, channel, data)?;
         let Some(rejection) = rejection else { return Ok(Some(refused)) };
         for _ in 0..2 {
             if !send(probe, by_number, &half)?.is_taken() {
                 let seconds = BUSY_TIMEOUT.as_secs();
-                let why = format!("still refused after {seconds} s: {rejection}");
+                let why = format!("still rejected after {seconds} s: {rejection}");
                 return Err(Stop::Inconclusive(why));
             }
         }
@@ -124,8 +123,8 @@ fn write(
 
 fn write_accepted(probe: &mut Probe<'_>, rules: &[ClauseId], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, at, data)?;
-    let expected = || format!("{} bytes of whole lines taken", data.len());
-    probe.check(rules, taken.is_some(), expected, "refused while there is room");
+    let expected = || format!("{} bytes of whole lines accepted", data.len());
+    probe.check(rules, taken.is_some(), expected, "rejected, although the buffer has space");
     Ok(())
 }
 
@@ -137,7 +136,7 @@ fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
         let taken = write(probe, by_index, channel, lines)?.is_some();
-        probe.check(STM_1, taken, "lines taken by the rank of the channel", "refused");
+        probe.check(STM_1, taken, "lines accepted by the rank of the channel", "rejected");
     }
     Ok(())
 }
@@ -158,35 +157,35 @@ fn lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-fn refused_for_now(probe: &mut Probe<'_>) -> Step {
+fn rejected_as_busy(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let packet = comment(STREAM_PACKET_MAX);
     for _ in 0..8 {
         let taken = write(probe, channel, channel, &packet)?;
-        let found = "refused while there is room";
-        probe.check(STM_6, taken.is_some(), "taken, or refused for now", found);
+        let found = "rejected, although the buffer has space";
+        probe.check(STM_6, taken.is_some(), "accepted, or rejected temporarily", found);
         if taken != Some(0) {
             return Ok(());
         }
     }
-    // Without a rejection the repetition could not be tested.
+    // Without a rejection, the repetition cannot be tested.
     Ok(())
 }
 
 fn too_long(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
-    // A target that rejects every packet says nothing of the length.
+    // A target that rejects every packet says nothing about the maximum length.
     write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
     for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
         let sent = send(probe, channel, &comment(len))?;
-        probe.check(STM_2, sent.is_refused(), || format!("{len} bytes refused"), &sent);
+        probe.check(STM_2, sent.is_refused(), || format!("{len} bytes rejected"), &sent);
         let good = sent.assumed() == Ack::Rejected;
-        probe.check(assumed(STM_2), good, "refused for good", &sent);
+        probe.check(assumed(STM_2), good, "a permanent rejection", &sent);
     }
     Ok(())
 }
 
-/// A comment with this number of bytes, including its line end.
+/// A comment of this number of bytes, including its line end.
 fn comment(len: usize) -> Vec<u8> {
     let mut line = vec![b'('];
     line.resize(len.saturating_sub(3), b'-');

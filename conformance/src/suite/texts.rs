@@ -33,7 +33,7 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
                 && variable.dimensions.is_empty()
                 && variable.access == ads_cnc::VariableAccess::READ_WRITE;
             let name = variable.name.text;
-            // The texts of the Service Interface are read by an NC program.
+            // An NC program reads the texts of the Service Interface.
             let own = !name.to_string().starts_with("V.G.SERVICE.");
             let what = name.to_string();
             (is_text && own).then_some((ValueAddress::Name { channel, name }, what))
@@ -67,13 +67,13 @@ fn written(probe: &mut Probe<'_>) -> Step {
     probe.finish("no text may be written")
 }
 
-/// Writes all characters, as many as fit at a time.
+/// Writes all characters, as many at a time as fit into the text.
 fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
     for (bytes, rule) in [(&all[..], Rule::from(GEN_3)), (&UNASSIGNED, assumed(GEN_3))] {
         // The last byte is the NUL.
         for piece in bytes.chunks(size.saturating_sub(1)) {
-            // As long as the old text, because another length may be rejected.
+            // As long as the original text, because another length may be rejected.
             let mut value = piece.to_vec();
             value.resize(size, 0);
             is_read_again(probe, (address, what), rule, &value)?;

@@ -50,13 +50,13 @@ fn compare_with_whole<'r>(
         let dimensions: &[u32] = if expected == whole { &variable.dimensions } else { &[] };
         let values = value_type(variable, dimensions);
         probe.set_evidence(evidence.map(|evidence| Evidence { values, ..*evidence }));
-        let words = || format!("{} of the whole of {name}", spaced(&expected));
+        let words = || format!("{} in the whole value of {name}", spaced(&expected));
         probe.check_reply(rules, false, &expected, words, || Hex(read));
     });
     Ok(())
 }
 
-/// The type of a variable's value for a report.
+/// The format of a variable's value, for the report.
 fn value_type(variable: &Description, dimensions: &[u32]) -> ValueFormat {
     let ty = variable.var_type.name().and_then(|name| type_by_name(name).ok());
     ValueFormat { ty, dimensions: dimensions.to_vec() }
@@ -124,8 +124,7 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// Whatever the layout of texts in an array, an index must select the same element by handle and by
-/// name.
+/// Checks that an index selects the same text of an array by handle and by name, whatever the layout.
 fn text_by_name(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -144,7 +143,7 @@ fn text_by_name(
     match compared {
         Compared::Same => probe.pass(VAR_11),
         Compared::Differs(named, handled, _) => {
-            let expected = || format!("{} of {name}, by handle too", Hex(named));
+            let expected = || format!("{} of {name}, also by handle", Hex(named));
             probe.check(VAR_11, false, expected, || Hex(handled));
         }
         Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}

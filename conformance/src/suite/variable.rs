@@ -63,7 +63,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec));
         let same = data.as_deref() == Some(&all.to_le_bytes());
-        probe.check(assumed(VAR_1), same, || format!("{all} as for one NUL"), &exchange);
+        probe.check(assumed(VAR_1), same, || format!("{all}, as for a single NUL"), &exchange);
     }
     Ok(())
 }
@@ -75,7 +75,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
             let chosen = probe.sample(ItemKind::Variable, 0..number);
             let mut names = HashSet::new();
             let mut all = Vec::new();
-            // Names are unique among all variables, not only among those chosen.
+            // Names must be unique among all variables, not only among those chosen.
             let last = chosen.iter().copied().filter(|index| *index >= VARIABLES_MAX);
             for index in (0..number.min(VARIABLES_MAX)).chain(last) {
                 let is_chosen = chosen.binary_search(&index).is_ok();
@@ -88,7 +88,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
                 check_description(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
                 let found = || format!("{} again at index {index}", variable.name.text);
-                probe.check(VAR_3, unique, "another variable at each index", found);
+                probe.check(VAR_3, unique, "a different variable at each index", found);
                 all.extend(is_chosen.then_some((index, variable)));
             }
             probe.end_subject();
@@ -99,7 +99,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Reads the descriptions from the last index to the first. An axis may move to another place
-/// meanwhile, so a difference counts only against two equal readings.
+/// meanwhile, so only a difference in two readings counts.
 fn descriptions_backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -126,13 +126,13 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             let number = number(probe, channel, kind)?;
             let Some(last) = number.checked_sub(1) else {
                 let first = DescribeByIndex::new(channel, 0, kind);
-                probe.refuses_alone(VAR_2, "index 0 of no variable", first)?;
+                probe.refuses_alone(VAR_2, "index 0 of an empty list", first)?;
                 continue;
             };
             for index in probe.beyond(number) {
                 probe.refuses(
                     VAR_2,
-                    "an index behind the last",
+                    "the index after the last",
                     DescribeByIndex::new(channel, index, kind),
                     DescribeByIndex::new(channel, last, kind),
                 )?;
@@ -145,7 +145,7 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
 fn other_channel(probe: &mut Probe<'_>) -> Step {
     let Some(absent) = probe.target.profile.absent_channel else {
         return Err(Stop::not_applicable(
-            "no channel is known that is not there; a profile can name one",
+            "no channel is known to be absent; a profile can name one",
         ));
     };
     let (channel, absent) = (probe.channel()?, Channel::new(absent)?);
@@ -167,7 +167,7 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     probe.refuses(VAR_14, &what, read(absent), read(channel))
 }
 
-/// The structures around a leaf: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
+/// The structures that contain a leaf: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
 fn structures(name: &str) -> Vec<&str> {
     let mut all = Vec::new();
     let mut rest = name;
@@ -194,7 +194,7 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
         let mut tried = HashSet::new();
         for leaf in &variables {
             let name = leaf.name.text.to_string();
-            // Names of axis variables end with the axis's name; the part before it is not a
+            // The name of an axis variable ends with the axis's name; the part before it is not a
             // structure.
             if name.starts_with("V.A.") {
                 continue;
@@ -231,7 +231,7 @@ fn padded_name(probe: &mut Probe<'_>) -> Step {
     same(probe, VAR_1, plain.into(), CountVariables::new(channel, kind).into())
 }
 
-/// Sends the same request twice, the second time in an assumed form.
+/// Sends the same request twice, the second time in a form that is assumed to be permitted.
 fn same(probe: &mut Probe<'_>, rule: ClauseId, plain: Request<'_>, odd: Request<'_>) -> Step {
     let expected = probe.send(plain)?;
     let exchange = probe.send(odd)?;
@@ -239,7 +239,7 @@ fn same(probe: &mut Probe<'_>, rule: ClauseId, plain: Request<'_>, odd: Request<
         exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec))
     };
     let passed = data(&exchange).is_some() && data(&exchange) == data(&expected);
-    probe.check(assumed(rule), passed, "the same answer as without padding", &exchange);
+    probe.check(assumed(rule), passed, "the same reply as without padding", &exchange);
     Ok(())
 }
 

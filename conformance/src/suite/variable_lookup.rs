@@ -42,7 +42,7 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
             [VAR_9, VAR_10],
             none,
             || format!("no handle for {what}"),
-            || format!("{} for it", found()),
+            || format!("{} for this name", found()),
         );
     }
     Ok(())
@@ -51,7 +51,8 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
 /// Maximum number of names of a channel that are tried, the longest first.
 const NAMES_MAX: usize = 64;
 
-/// Similar names: a character more, one less, another last one, and another one in the middle.
+/// Similar names: with a character more, with one less, with another last one or another one in the
+/// middle.
 fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     let other = |at: usize| {
         let mut other = name.to_vec();
@@ -62,13 +63,13 @@ fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     };
     let Some((_, shorter)) = name.split_last() else { return Vec::new() };
     let longer = [name, &b"q"[..]].concat();
-    // After the kind, without which there is no variable.
+    // After the kind, because a name without a kind has no variable.
     let middle =
         name.len().saturating_sub(4).checked_div(2).map_or(4, |half| half.saturating_add(4));
     vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
 }
 
-/// Names with an index far beyond the bounds, with and without the lower bytes of a valid one.
+/// Names with an index far out of bounds, with and without the lower bytes of a valid one.
 fn other_structures(name: &str) -> Vec<String> {
     let mut all = Vec::new();
     for (at, _) in name.match_indices('[') {
@@ -106,7 +107,7 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    probe.finish("not all names are known: there are too many variables")
+    probe.finish("the target has too many variables to know all names")
 }
 
 fn apart(
@@ -134,5 +135,5 @@ fn known_types(probe: &mut Probe<'_>) -> Step {
             probe.check(VAR_5, variable.var_type == of_service.var_type(), expected, found);
         }
     }
-    probe.finish("no variable has a type that is documented")
+    probe.finish("no variable has a documented type")
 }

@@ -57,10 +57,10 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let named = probe.value_at(&address)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
             let is_text = variable.var_type == VariableType::STRING;
-            let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
+            let expected = || format!("{} of {name}, read by its handle", Hex(new.to_vec()));
             let passed = same(&read, new, is_text);
             probe.check(VAR_13, passed, expected, || Hex(read.clone()));
-            // The value by name and by handle must be equal.
+            // The values by name and by handle must be equal.
             let passed = passed || !same(&named, new, is_text);
             probe.check(VAR_14, passed, expected, || Hex(read));
             Ok(())
@@ -69,7 +69,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Every axis variable with this access, at the place to which its described handle belongs.
+/// Calls a function for every axis variable with this access, at the place of its described handle.
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,

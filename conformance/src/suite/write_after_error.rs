@@ -33,24 +33,24 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
             let other = changed_value(value, false);
             let (good, back) = (address.write(&other), address.write(value));
             let (good, back) = (good?, back?);
-            // Whether a write is accepted that does not follow a rejected one.
+            // Whether the target accepts a write that does not follow a rejected one.
             let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
             };
             if !probe.may(back)? || !taken(probe, back)? || !taken(probe, back)? {
                 continue;
             }
-            // Continues only if the unknown name is rejected.
+            // Continues only if the write to the unknown name is rejected.
             if probe.try_ask(unknown)?.is_some() {
                 continue;
             }
             let exchange = probe.send(good)?;
             let done = exchange.success().is_some();
             let name = &variable.name.text;
-            let expected = || format!("{name} written behind a refusal");
+            let expected = || format!("{name} written after a rejected write");
             probe.check([id, ADS_2, ADS_4], done, expected, &exchange);
             let after = probe.value_at(&address)?.unwrap_or_default();
-            // Another case judges values that never accept a change.
+            // Another case judges values that cannot be changed.
             let (again, read) = (taken(probe, good)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
@@ -88,7 +88,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
                 let passed = after == value || !after.starts_with(there);
                 let expected = || {
                     format!(
-                        "{} of {name}, as {} bytes were refused",
+                        "{} of {name}, because {} bytes were rejected",
                         Hex(value.clone()),
                         data.len()
                     )
@@ -154,5 +154,5 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
             probe.send(address.write(&blank)?)?;
         }
     }
-    probe.finish("no place is known to be empty")
+    probe.finish("no axis place without an axis is known")
 }

@@ -1,5 +1,5 @@
-//! Cases that write at one address and read at another: by number and by rank, with a channel and
-//! without.
+//! Cases that write at one address and read at another: by number and by rank, with and without a
+//! channel.
 
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
@@ -45,7 +45,8 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         probe.try_write(&write_check, &address, |probe, _, _| {
             let (read, number) = (probe.value_at(&address)?, probe.value_at(logical)?);
             let same = number == read || probe.value_at(&address)? != read;
-            let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
+            let expected =
+                || format!("{} of {what}, also by number", Hex(read.unwrap_or_default()));
             probe.check(ADR_12, same, expected, || Hex(number.unwrap_or_default()));
             Ok(())
         })?;
@@ -76,7 +77,8 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         probe.try_write(&write_check, address, |probe, _, new| {
             let (before, read) = (probe.value_at(address)?, probe.value_at(&twin)?);
             let stood = probe.value_at(address)? == before && before.as_deref() == Some(new);
-            let expected = || format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
+            let expected =
+                || format!("{} of {what}, also in the HLD of {other}", Hex(new.to_vec()));
             let found = || Hex(read.clone().unwrap_or_default());
             probe.check(SDA_13, !stood || read == before, expected, found);
             Ok(())

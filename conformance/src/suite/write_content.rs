@@ -29,7 +29,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write to the element count of an instance is rejected"),
 ];
 
-/// Objects whose descriptors say that they are writable, or not.
+/// The objects that are writable, or not writable, according to their descriptors.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
@@ -57,8 +57,8 @@ fn objects(probe: &mut Probe<'_>) -> Step {
                 let after = probe.value_at(&other.address)?.unwrap_or_default();
                 let passed =
                     after != new || after == *before || probe.moves(&other.address, false)?;
-                let expected = || format!("{what} in a group of its own");
-                let found = || format!("written at {} too", at(other));
+                let expected = || format!("{what} changed in its own group only");
+                let found = || format!("also changed at {}", at(other));
                 probe.check([COM_5, ADR_3], passed, expected, found);
             }
             Ok(())
@@ -67,7 +67,7 @@ fn objects(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// The objects with the same offset and name of other channels or platform axes, with their values.
+/// The objects of other channels or platform axes with the same offset and name, and their values.
 fn of_other_instances(probe: &mut Probe<'_>, object: &Object) -> Step<Vec<(Object, Vec<u8>)>> {
     let mut all = Vec::new();
     for other in probe.objects()? {
@@ -80,7 +80,7 @@ fn of_other_instances(probe: &mut Probe<'_>, object: &Object) -> Step<Vec<(Objec
 }
 
 /// Whether an object has the same offset in the group of another channel or platform axis. The platform
-/// is addressed as channel 0 and as channel 1.
+/// can be addressed as channel 0 and as channel 1.
 fn is_elsewhere(object: &Object, other: &Object) -> bool {
     let parts = |object: &Object| {
         let (group, offset) = object.address.content()?;
@@ -124,14 +124,14 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             }
             Ok(())
         })?;
-        // A content that first had the new value and then the old one has accepted both writes.
+        // An address that had the new value and then the old one has accepted both writes.
         let is_own = taken.is_empty();
         for (rules, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
             probe.set_evidence(evidence);
             let passed = again.as_ref() != Some(before);
-            let expected = || format!("{} at a place of its own", one.what);
-            probe.check(&rules[..], passed, expected, || format!("written in {sibling} too"));
+            let expected = || format!("{} changed at its own address only", one.what);
+            probe.check(&rules[..], passed, expected, || format!("also changed at {sibling}"));
         }
         if is_own && !siblings.is_empty() {
             probe.pass(SDA_1);
@@ -144,11 +144,11 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Another value that a wrong write might reach: rules, name, address, current value.
+/// Another value that a faulty write might change: rules, name, address, current value.
 type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
-/// The same element of the other instances of its class, and the other elements of its instance.
-/// The latter may depend on each other.
+/// The same element of the other instances of its class, and the other elements of its instance. The
+/// latter may depend on each other.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
@@ -181,7 +181,7 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     Ok(all)
 }
 
-/// A rejected write has no effect.
+/// A rejected write must have no effect.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
@@ -197,7 +197,7 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
             probe.check(assumed(SDA_8), refused, expected, &exchange);
             let after = probe.value_at(address)?.unwrap_or_default();
             let passed = !refused || after == value;
-            let expected = || format!("{} of {what} still", Hex(value.clone()));
+            let expected = || format!("{} of {what}, unchanged", Hex(value.clone()));
             probe.check(SDA_8, passed, expected, || Hex(after));
             probe.send(address.write(&value)?)?;
         }

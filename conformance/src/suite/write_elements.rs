@@ -18,8 +18,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write with a name and [index] changes the element at that position, and no other"),
 ];
 
-/// The indices of the first and the last element; for several dimensions also those at one edge,
-/// whose indices are asymmetric.
+/// The indices of the first and the last element; for several dimensions also those of an element
+/// at an edge, whose indices differ from each other.
 fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let last = |count: &u32| count.saturating_sub(1);
     let mut places = vec![vec![0; dimensions.len()]];
@@ -35,7 +35,7 @@ fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
     places
 }
 
-/// The position of an element in the whole, the last index running fastest.
+/// The position of an element in the array, with the last index running fastest.
 fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
     let number = place
         .iter()
@@ -65,8 +65,8 @@ fn elements(
             let rules = rules(variable);
             let write_check = write_check(variable, &name, &rules);
             probe.try_write(&write_check, &place, |probe, old, new| {
-                // In any layout, and whichever entry allows it, an accepted value must be read
-                // back.
+                // In any layout, and whichever entry of the file permits it, an accepted value must
+                // be read back.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let passed = same(&read, new, is_text);
@@ -74,7 +74,7 @@ fn elements(
                 let stated: Vec<Rule> =
                     write_check.rules.iter().map(|rule| Rule::of(rule.id)).collect();
                 probe.check(&stated, passed, expected, || Hex(read.clone()));
-                // The whole has changed in this element only.
+                // The array must have changed in this element only.
                 let mut expected = before.clone();
                 let size = old.len();
                 let start = number.saturating_mul(size);

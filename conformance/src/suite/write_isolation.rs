@@ -1,4 +1,4 @@
-//! Cases that write all values one after the other and check the effect on the others.
+//! Cases that write all values one after another and check the effect on the others.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -27,12 +27,12 @@ struct WatchedVariable {
     variable: Description,
     start: Vec<u8>,
     value: Vec<u8>,
-    /// Another address for writing it.
+    /// Another address for writing the variable.
     at: Option<ValueAddress>,
     seen: Vec<Reading>,
 }
 
-/// A variable as read at some time.
+/// The values of a variable at one time.
 struct Reading {
     expected: Vec<u8>,
     read: Vec<u8>,
@@ -50,7 +50,7 @@ impl WatchedVariable {
     }
 }
 
-/// All variables with a steady value: a write is not the cause of other changes.
+/// All variables whose value does not change by itself, so that a change is the effect of a write.
 fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
@@ -64,19 +64,19 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
         }
     }
     // Read again after all others were read.
-    let mut still = Vec::new();
+    let mut steady = Vec::new();
     for one in all {
         if probe.value_at(&one.by_handle())?.as_ref() == Some(&one.start) {
-            still.push(one);
+            steady.push(one);
         }
     }
-    if still.is_empty() {
-        return Err(Stop::inconclusive("no variable stands still"));
+    if steady.is_empty() {
+        return Err(Stop::inconclusive("every variable changes by itself"));
     }
-    Ok(still)
+    Ok(steady)
 }
 
-/// Another value that differs in every byte if the type permits it.
+/// A value that differs in every byte, if the type permits that.
 fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     let mixed = (0_usize..).zip(value).map(|(place, byte)| {
         let mixed = place.wrapping_mul(37).wrapping_add(salt.wrapping_mul(101)) & 0xFF;
@@ -109,7 +109,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     }
 }
 
-/// Writes all in this order, or in reverse order if `backwards`, and then reads all.
+/// Writes all variables in order, or in reverse order if `backwards`, and then reads all of them.
 fn write_and_read_all(
     probe: &mut Probe<'_>,
     all: &mut [WatchedVariable],
@@ -146,7 +146,7 @@ fn write_and_read_all(
     Ok(())
 }
 
-/// Whether it may be the same variable as in another channel: same name, and always the same value.
+/// Whether a variable may be shared by channels: same name, and always the same value.
 fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     let reads = |one: &WatchedVariable| -> Vec<Vec<u8>> {
         one.seen.iter().map(|seen| seen.read.clone()).chain([one.start.clone()]).collect()
@@ -159,7 +159,7 @@ fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     all.iter().any(same)
 }
 
-/// Each variable has the value written last.
+/// Checks that each variable has the value written last.
 fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     for one in all {
         let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
@@ -189,14 +189,14 @@ fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -
             }
         }
         let (name, passed) = (&one.variable.name.text, one.value == one.start);
-        let expected = || format!("{} of {name} again", Hex(one.start.clone()));
+        let expected = || format!("{} of {name}, restored", Hex(one.start.clone()));
         probe.check(rule, passed, expected, "another value");
     }
     Ok(())
 }
 
-/// In both directions, to detect effects of a write on earlier ones; values written by one address
-/// are read by the other.
+/// Writes in both directions, to detect effects of a write on variables written earlier. Values
+/// written by one kind of address are read by the other.
 fn both_ways(
     probe: &mut Probe<'_>,
     rule: Rule,
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn every_byte_of_a_number_is_another() {
+    fn every_byte_of_a_number_changes() {
         for salt in 0..300 {
             let old = [0, 1, 255, 37, 74, 111, 148, 185];
             for var_type in [VariableType::UNS32, VariableType::SGN08] {
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_end_and_truth_stays_truth() {
+    fn texts_are_terminated_and_booleans_stay_0_or_1() {
         let new = other_value(&of_type(VariableType::STRING, &[2]), &[0; 6], 27);
         assert_eq!(new, *b"bb\0bb\0");
         assert_eq!(other_value(&of_type(VariableType::BOOLEAN, &[2]), &[0, 1], 5), [1, 0]);

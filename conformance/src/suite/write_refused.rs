@@ -36,7 +36,7 @@ fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
     first.or_not_applicable("no number may be written")
 }
 
-/// Each address of every READ_ONLY variable.
+/// Calls a function for each address of every READ_ONLY variable.
 fn each_read_only(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
@@ -82,7 +82,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
         if after != before && (moved || probe.moves(address, false)?) {
             return Ok(());
         }
-        let expected = || format!("{} of {} as before", Hex(before.clone()), write_check.what);
+        let expected = || format!("{} of {}, unchanged", Hex(before.clone()), write_check.what);
         probe
             .check(VAR_6, after == before, expected, || Hex(after))
             .then_some(())
@@ -90,7 +90,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Sends a write that must be rejected without an effect on `watched`; then the valid one again.
+/// Sends a write that must be rejected without an effect on `watched`, and then the valid one again.
 fn refused(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -125,7 +125,7 @@ fn refused_call(
     }
     let same = after == before;
     let found = || Hex(after.clone().unwrap_or_default());
-    probe.check(rules, same, || format!("the value of before {what}"), found);
+    probe.check(rules, same, || format!("the value before {what}"), found);
     probe.send(good).map(drop)
 }
 
@@ -134,7 +134,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let (channel, watched, value) = (known.channel, known.address(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
-    // With the current value a write to the watched variable would not show.
+    // Another value: a write of the current value to the watched variable would not show.
     let other = changed_value(value, false);
     let good = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
@@ -143,7 +143,13 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         refused(probe, &[ADS_4, VAR_12], &what, (bad, good), &watched)?;
     }
     let bad = known.by_handle((&[0]).into(), &other);
-    refused(probe, &[VAR_12], "an index of no array", (bad, good), &watched)?;
+    refused(
+        probe,
+        &[VAR_12],
+        "an index of a variable that is not an array",
+        (bad, good),
+        &watched,
+    )?;
     let good = known.by_name(value);
     let text = known.name().to_string();
     let (longer, shorter) = (format!("{text}x"), text.get(..text.len().saturating_sub(1)));
@@ -164,7 +170,13 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let element: CncString = format!("{text}[0]").parse()?;
     let value = other.as_slice().into();
     let bad = WriteByName { channel, name: element.as_cnc_str(), value }.into();
-    refused(probe, &[VAR_13], "an element of no array", (bad, good), &watched)
+    refused(
+        probe,
+        &[VAR_13],
+        "an element of a variable that is not an array",
+        (bad, good),
+        &watched,
+    )
 }
 
 /// Writes to an element, an object and an axis variable of a channel that is not configured.
@@ -223,7 +235,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
         let named = by_name(0)?;
         let good_by_name = ValueAddress::Name { channel, name: named };
         for beyond in probe.beyond(count) {
-            let what = format!("a write to {}[{beyond}] of {count}", name.text);
+            let what = format!("a write to {}[{beyond}] of {count} elements", name.text);
             let bad = ValueAddress::Handle { channel, handle: *handle, indices: vec![beyond] };
             let bad = bad.write(&other)?;
             refused(probe, &[VAR_12], &what, (bad, good), &whole)?;
@@ -239,7 +251,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
         let watched = known.address();
-        // Without its NUL the name is not terminated, and no value follows.
+        // Without its NUL, the name extends to the end of the data and no value follows.
         let good = known.by_name(&known.value);
         let call = RawCall::new(good)?;
         let name: Vec<u8> = known.name().bytes().collect();

@@ -19,7 +19,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write with a wrong size returns an error, or the variable has the value sent"),
 ];
 
-/// An address of a value, and the requirement of writes to it.
+/// An address of a value, and the requirement for writes to it.
 struct WriteAddress {
     id: ClauseId,
     address: ValueAddress,
@@ -80,14 +80,14 @@ fn of_address(
         return Ok(());
     };
     let whole = ValueAddress::of_handle(channel, variable.handle);
-    // All bytes differ from the old ones, so that a partial write is detected.
+    // All bytes differ from the original ones, so that a partial write is detected.
     let other = if is_text { vec![b'x'; value.len()] } else { changed_value(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
     let one = size.unwrap_or(1);
     let longer = |more: usize| [&other[..], &vec![1; more]].concat();
     let shorter = |fewer: usize| other.get(..other.len().saturating_sub(fewer));
     let mut all = vec![longer(1), longer(one), longer(64)];
-    // A text may be shorter than its variable, and empty.
+    // A text may be shorter than its variable, or empty.
     if !is_text {
         all.push(Vec::new());
         all.extend([1, one].into_iter().filter_map(shorter).map(<[u8]>::to_vec));
@@ -97,15 +97,19 @@ fn of_address(
         if data.len() != value.len() && !sizes.contains(&data.len()) {
             sizes.push(data.len());
             let sent = WrongSizeWrite { at, watched: &whole, is_text, value: &value, other: &data };
-            let what =
-                format!("{} bytes for {} of {}", data.len(), value.len(), variable.name.text);
+            let what = format!(
+                "{} bytes instead of {} for {}",
+                data.len(),
+                value.len(),
+                variable.name.text
+            );
             sent.judge(probe, &what)?;
         }
     }
     Ok(())
 }
 
-/// A write of another size to an address.
+/// A write of a wrong size to an address.
 struct WrongSizeWrite<'a> {
     at: &'a WriteAddress,
     watched: &'a ValueAddress,
@@ -115,9 +119,9 @@ struct WrongSizeWrite<'a> {
 }
 
 impl WrongSizeWrite<'_> {
-    /// That it is rejected is assumed. After an error the value must be unchanged; after a success
-    /// it must be the sent one, up to the size of the variable. The maximum length of a text is
-    /// documented online only.
+    /// That the write is rejected is assumed. After an error, the value must be unchanged; after a
+    /// success, it must be the value sent, up to the size of the variable. The maximum length of a
+    /// text is documented online only.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { at, watched, is_text, value, other } = *self;
         let (bad, good) = (at.address.write(other), at.address.write(value));
@@ -143,7 +147,7 @@ impl WrongSizeWrite<'_> {
             if after != before && probe.moves(watched, false)? {
                 return probe.send(good).map(drop);
             }
-            let expected = || format!("the value of before {what}");
+            let expected = || format!("the value before {what}");
             let shown = || Hex(after.clone().unwrap_or_default());
             probe.check(at.id, after == before, expected, shown);
         }

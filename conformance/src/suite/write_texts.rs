@@ -45,7 +45,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                     // Without a reply the value is unknown.
                     let Some(after) = probe.value_at(&address)? else { return Ok(false) };
                     let passed = until_nul(&after) == until_nul(&before);
-                    let expected = || format!("{} of {name} again", Hex(before.clone()));
+                    let expected = || format!("{} of {name}, restored", Hex(before.clone()));
                     Ok(probe.check(id, passed, expected, || Hex(after)))
                 },
             )?;
@@ -68,7 +68,7 @@ fn of_lengths(
         // Padded to the described size: that fewer bytes are accepted is assumed.
         value.resize(size.max(1), 0);
         let taken = probe.write_value(address, &value)?;
-        let expected = || format!("{name} takes a text of {len} characters");
+        let expected = || format!("{name} accepts a text of {len} characters");
         probe.check(online(VAR_25), taken, expected, "an error");
         if !taken {
             continue;
@@ -83,8 +83,8 @@ fn of_lengths(
     shorter(probe, id, address, (name, size))
 }
 
-/// Writes a text that is shorter than its variable: that it is accepted is assumed. Then it must
-/// end where the sent one ends.
+/// Writes a text that is shorter than its variable: that it is accepted is assumed. If so, it must
+/// end where the sent text ends.
 fn shorter(
     probe: &mut Probe<'_>,
     id: ClauseId,

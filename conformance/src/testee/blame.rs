@@ -1,7 +1,8 @@
-//! Assigns a failed vector to the requirements of its wrong fields.
+//! Attributes a failed vector to the requirements of its wrong fields.
 //!
-//! A vector cites the requirements of all its fields, and of bytes and texts in general. If one field is wrong,
-//! the others only follow from it.
+//! A vector cites the requirements of all its fields, and those about bytes and texts in general.
+//! If one field is wrong, only some of these requirements are violated; the others fail as a
+//! consequence.
 
 use std::collections::BTreeSet;
 
@@ -12,12 +13,12 @@ use serde_json::Value as Json;
 
 use super::compare;
 
-/// The fields of a stream that an answer has wrong.
+/// The fields of a stream that are wrong in an answer.
 pub(super) struct WrongFields {
     stream: Stream,
-    /// By the rows of the table.
+    /// One entry for each field in the stream's table.
     is_wrong: Vec<bool>,
-    /// Whether a number has the expected bytes in the other order.
+    /// Whether any number has the expected bytes in reverse order.
     is_reversed: bool,
 }
 
@@ -26,8 +27,8 @@ impl WrongFields {
         Self { stream, is_wrong: vec![false; stream.layout().fields.len()], is_reversed: false }
     }
 
-    /// Those of a decoded value; `None` if it has other fields than expected. Unless `strict`, the bytes after
-    /// a text may be omitted.
+    /// The wrong fields of a decoded value; `None` if it has other fields than expected. Unless
+    /// `strict`, the bytes after a text may be omitted.
     pub(super) fn of_value(
         stream: Stream,
         expected: &Fields,
@@ -44,7 +45,7 @@ impl WrongFields {
         self.wrong().map(|row| row.clause)
     }
 
-    /// Those of encoded bytes; `None` if they are more or fewer than expected.
+    /// The wrong fields of encoded bytes; `None` if their number differs from the expected one.
     pub(super) fn of_bytes(stream: Stream, expected: &[u8], found: &[u8]) -> Option<Self> {
         let mut wrong = Self::none(stream);
         if expected.len() != found.len() {
@@ -109,15 +110,17 @@ impl WrongFields {
         self.rows().zip(&self.is_wrong).filter(|(_, is_wrong)| **is_wrong).map(|(row, _)| row)
     }
 
-    /// Whether all fields after the first wrong one are wrong too: as if bytes were missing or inserted.
+    /// Whether all fields after the first wrong one are also wrong, as if bytes were missing or
+    /// inserted.
     fn is_shifted(&self) -> bool {
         let first = self.is_wrong.iter().position(|is_wrong| *is_wrong).unwrap_or_default();
         let from_first = self.is_wrong.get(first..).unwrap_or_default();
         from_first.len() > 1 && from_first.iter().all(|is_wrong| *is_wrong)
     }
 
-    /// The clause that is broken, if the requirement only follows from it. `cited` are the requirements of
-    /// the vector, `broken` those of fields by which other vectors fail.
+    /// The violated clause that makes a requirement fail, if the requirement itself is not
+    /// violated. `cited` are the requirements of the vector, `broken` those of fields by which
+    /// other vectors fail.
     pub(super) fn cause_of(
         &self,
         requirement: &str,
@@ -141,7 +144,7 @@ impl WrongFields {
             !self.is_shifted() && !has(&[Type::Boolean, Type::Unsigned, Type::Bytes])
         } else {
             let layout = self.stream.layout();
-            // In a stream of records that of the stream is about their order.
+            // In a stream of records, the clause of the stream is about the order of its fields.
             layout.clause == requirement && !layout.repeats
                 || self.rows().any(|row| row.clause == requirement)
         };
@@ -149,7 +152,7 @@ impl WrongFields {
     }
 }
 
-/// Whether a number is the expected one with its bytes in the other order.
+/// Whether a number has the bytes of the expected one in reverse order.
 fn is_reversed(expected: &Value, found: &Json) -> bool {
     let Value::One(expected) = expected else { return false };
     let bits = |text: Option<&str>| u64::from_str_radix(text?.strip_prefix("0x")?, 16).ok();
@@ -194,18 +197,18 @@ mod tests {
     }
 
     #[test]
-    fn bytes_in_the_other_order_fail_by_that_too() {
+    fn reversed_bytes_also_violate_the_byte_order() {
         assert_eq!(failing(|bytes| bytes[12..16].reverse()), ["VAR-8", "GEN-1", "VAR-24"]);
     }
 
     #[test]
-    fn texts_fail_by_the_code_page_too() {
+    fn wrong_texts_also_violate_the_code_page() {
         let failing = failing(|bytes| bytes[24] = b'b');
         assert!(failing.contains(&"GEN-3") && !failing.contains(&"GEN-1"), "{failing:?}");
     }
 
     #[test]
-    fn a_vector_that_cites_other_fields_alone_follows_from_another_vector() {
+    fn a_vector_without_its_wrong_field_fails_by_another_vector() {
         let found = [&BYTES[..12], &[5], &BYTES[13..]].concat();
         let wrong = WrongFields::of_bytes(Stream::VariableDescription, BYTES, &found).unwrap();
         assert_eq!(wrong.cause_of("VAR-5", &["VAR-5"], &BTreeSet::new()), None);
@@ -213,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_in_no_field_has_no_cause() {
+    fn an_unknown_field_has_no_cause() {
         let found = serde_json::json!({ "else": 1 });
         let expected = Fields::new();
         assert!(WrongFields::of_value(Stream::VariableHandle, &expected, &found, false).is_none());

@@ -1,4 +1,4 @@
-//! Checks each step of the protocol, for the author of an adapter.
+//! Tries each step of the protocol, for the author of an adapter.
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
@@ -8,17 +8,17 @@ use super::{Testee, TesteeProcess, TesteeReaction, compare};
 use crate::codec::message::{Answer, Capabilities, Output, Question};
 use crate::text::{escape, hex::compact};
 
-/// The result of a step of the protocol.
+/// The result of one step of the protocol.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     pub what: String,
     pub sent: Option<String>,
     pub received: Option<String>,
-    /// The fault and the expected behaviour.
+    /// What is wrong and what would be right; `None` if the step passed.
     pub fault: Option<String>,
 }
 
-/// Vectors for the test: one for each kind of field, and the first that is claimed.
+/// Vectors for the test, one for each kind of field. The first one that the testee claims is used.
 const SAMPLES: [&str; 8] = [
     "handle-printed",
     "object-count",
@@ -30,10 +30,10 @@ const SAMPLES: [&str; 8] = [
     "descriptor-printed",
 ];
 
-/// Either edition is suitable: the samples are the same in both.
+/// Either edition is suitable, because the samples are the same in both.
 const EDITION: &str = "en-1.05";
 
-/// Tries every step of the protocol.
+/// Tries every step of the protocol with a testee.
 pub fn check_protocol(process: &mut TesteeProcess) -> Vec<Finding> {
     let mut steps = Steps { process, findings: Vec::new() };
     let hello = steps.process.hello();
@@ -55,7 +55,10 @@ pub fn check_protocol(process: &mut TesteeProcess) -> Vec<Finding> {
     if claimed.is_empty() {
         let streams: Vec<&str> =
             SAMPLES.into_iter().filter_map(vector).map(|vector| vector.stream.as_str()).collect();
-        let fault = format!("none of {} is claimed: nothing to try it with", streams.join(", "));
+        let fault = format!(
+            "none of the streams {} is claimed, so no request can be tried",
+            streams.join(", ")
+        );
         steps.note("a stream to try", Some(fault));
     }
     for vector in &claimed {
@@ -65,8 +68,8 @@ pub fn check_protocol(process: &mut TesteeProcess) -> Vec<Finding> {
     if let Some(vector) = claimed.first() {
         steps.cut(vector, &capabilities);
     }
-    steps.unknown("an op that nobody has", "melt", "object-count");
-    steps.unknown("a stream that nobody has", "decode", "no-such-stream");
+    steps.unknown("an unknown op", "melt", "object-count");
+    steps.unknown("an unknown stream", "decode", "no-such-stream");
     let end = steps.process.bye();
     steps.note("bye ends it with exit code 0", end.err());
     steps.findings
@@ -136,7 +139,7 @@ impl Steps<'_> {
         self.note(format!("{} is encoded", vector.stream), fault);
     }
 
-    /// A stream that is one byte too short.
+    /// Sends a stream that is one byte too short.
     fn cut(&mut self, vector: &Vector, capabilities: &Capabilities) {
         if !capabilities.claim("decode", &vector.stream) {
             return;
@@ -152,7 +155,7 @@ impl Steps<'_> {
                 Some(format!("{}; {hint}", describe(&other)))
             }
         };
-        self.note(format!("{} without its last byte is refused", vector.stream), fault);
+        self.note(format!("{} without its last byte is rejected", vector.stream), fault);
     }
 
     fn unknown(&mut self, what: &str, op: &str, stream: &str) {
@@ -169,7 +172,7 @@ impl Steps<'_> {
     }
 }
 
-/// The question of this op for a vector.
+/// The question with this op for a vector.
 fn question_of(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
 }

@@ -10,14 +10,14 @@ use crate::codec::message::{
 use crate::codec::{self, Refused};
 use crate::faults::{FieldDefect, Seed};
 
-/// The codec's answers, with a defect if one is set.
+/// Answers questions with this project's codec, optionally with a defect.
 #[derive(Clone, Debug, Default)]
 pub struct CodecTestee {
     pub defect: Option<Seed>,
 }
 
 impl CodecTestee {
-    /// Its capabilities: all streams and ops of the vectors.
+    /// The capabilities: all streams and ops of the vectors.
     pub fn hello(&self) -> TesteeHello {
         let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
         streams.sort();
@@ -57,7 +57,7 @@ impl CodecTestee {
 
     fn try_answer(&self, question: &Question) -> Result<Output, Answer> {
         let Question { op, stream, hex, value, packets, .. } = question;
-        let lacks = |what: &str| Answer::Error { message: format!("a {op} without {what}") };
+        let lacks = |what: &str| Answer::Error { message: format!("{op} requires {what}") };
         let context = question.context.context().ok_or_else(|| unsupported("context"))?;
         match op.as_str() {
             "decode" => {
@@ -114,7 +114,7 @@ fn refusal(refused: Refused) -> Answer {
     }
 }
 
-/// NC text in packets, as written to a CNC.
+/// Splits NC text into packets, as they are written to a CNC.
 fn split(text: &[u8]) -> Result<Output, Answer> {
     let text = NcText::new(text).map_err(|error| {
         let class = match error.kind() {
@@ -139,7 +139,7 @@ fn split(text: &[u8]) -> Result<Output, Answer> {
     Ok(Output { packets: Some(all), ..Output::default() })
 }
 
-/// The rules of streaming, checked packet by packet as by a CNC.
+/// Checks packets one after another by the rules of streaming, like a CNC.
 fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
     let mut checker = Checker::new();
     let mut found = None;

@@ -1,4 +1,4 @@
-//! Compares a value with the expected one by the fields that are significant.
+//! Compares the significant fields of a value with the expected ones.
 
 use std::str::FromStr as _;
 
@@ -9,19 +9,19 @@ use serde_json::Value as Json;
 use crate::text::hex::compact;
 use crate::values::until_nul;
 
-/// A difference between values.
+/// A difference between two values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
     Other(String),
-    /// A text has the expected characters, and ends otherwise.
+    /// A text has the expected characters, but another end.
     End(String),
     /// The testee omits the bytes after a text.
     Omitted(String),
 }
 
 /// The first difference between the expected and the actual value.
-pub(super) fn compare(meant: &Fields, found: &Json) -> Option<Difference> {
-    record("", meant, found)
+pub(super) fn compare(reference: &Fields, found: &Json) -> Option<Difference> {
+    record("", reference, found)
 }
 
 fn other(place: &str, what: impl std::fmt::Display) -> Option<Difference> {
@@ -33,15 +33,15 @@ fn within(place: &str, name: &str) -> String {
     if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") }
 }
 
-fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
+fn record(place: &str, reference: &Fields, found: &Json) -> Option<Difference> {
     let Some(given) = found.as_object() else {
         return other(place, format_args!("an object with fields is expected, not {found}"));
     };
-    if let Some(surplus) = given.keys().find(|name| !meant.contains_key(*name)) {
+    if let Some(surplus) = given.keys().find(|name| !reference.contains_key(*name)) {
         return other(&within(place, surplus), "no such field");
     }
     let mut slight = None;
-    for (name, value) in meant {
+    for (name, value) in reference {
         let place = within(place, name);
         let difference = match given.get(name) {
             None => other(&place, "is missing"),
@@ -55,7 +55,7 @@ fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
     slight
 }
 
-/// The difference that weighs more; of two that weigh the same, the first.
+/// The more severe of two differences; the first if they are equal.
 fn worse(one: Option<Difference>, other: Option<Difference>) -> Option<Difference> {
     let weight = |difference: &Option<Difference>| match difference {
         None => 0,
@@ -66,8 +66,8 @@ fn worse(one: Option<Difference>, other: Option<Difference>) -> Option<Differenc
     if weight(&other) > weight(&one) { other } else { one }
 }
 
-pub(super) fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference> {
-    match meant {
+pub(super) fn one(place: &str, reference: &Value, found: &Json) -> Option<Difference> {
+    match reference {
         Value::One(tagged) => single(place, tagged, found),
         Value::Record(fields) => record(place, fields, found),
         Value::List(items) => {
@@ -81,16 +81,17 @@ pub(super) fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference
                 );
             }
             let pairs = items.iter().zip(given).enumerate();
-            let differences = pairs
-                .map(|(index, (meant, found))| one(&format!("{place}[{index}]"), meant, found));
+            let differences = pairs.map(|(index, (reference, found))| {
+                one(&format!("{place}[{index}]"), reference, found)
+            });
             differences.fold(None, worse)
         }
     }
 }
 
-fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
+fn single(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let text = |name: &str| found.get(name).and_then(Json::as_str);
-    let kind = meant.kind.name();
+    let kind = reference.kind.name();
     match text("type") {
         Some(given) if given == kind => {}
         Some(given) => return other(place, format_args!("type {kind} is expected, not {given}")),
@@ -101,72 +102,72 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     let mut given =
         ["value", "hex", "bits"].iter().filter_map(|name| Some((name, found.get(name)?)));
     if let Some((name, value)) = given.find(|(_, value)| !value.is_string()) {
-        return other(place, format_args!("{name} is the JSON {value}, not a string"));
+        return other(place, format_args!("{name} must be a string, not the JSON {value}"));
     }
-    match meant.kind {
+    match reference.kind {
         Type::String => {
-            let expected = meant.hex.as_deref().unwrap_or_default();
+            let expected = reference.hex.as_deref().unwrap_or_default();
             match hex(place, expected, text("hex")) {
-                Some(Difference::Other(what)) if has_other_end(meant, text("hex")) => {
+                Some(Difference::Other(what)) if has_other_end(reference, text("hex")) => {
                     Some(Difference::End(what))
                 }
-                None => end(place, meant, found),
+                None => end(place, reference, found),
                 characters => characters,
             }
         }
-        Type::Bytes => hex(place, meant.hex.as_deref().unwrap_or_default(), text("hex")),
+        Type::Bytes => hex(place, reference.hex.as_deref().unwrap_or_default(), text("hex")),
         Type::Real32 | Type::Real64 | Type::Real | Type::Lreal => {
             let bits = |text: &str| {
                 u64::from_str_radix(text.strip_prefix("0x").unwrap_or_default(), 16).ok()
             };
             let given = text("bits");
-            let same = given.and_then(bits).is_some_and(|bits| Some(bits) == meant.real_bits());
-            let expected = meant.bits.as_deref().unwrap_or_default();
+            let same = given.and_then(bits).is_some_and(|bits| Some(bits) == reference.real_bits());
+            let expected = reference.bits.as_deref().unwrap_or_default();
             let found = given.unwrap_or("none");
             if same {
                 None
             } else {
-                other(place, format_args!("bits {found} where {expected} is expected"))
+                other(place, format_args!("bits {expected} is expected, not {found}"))
             }
         }
         Type::NetId | Type::Name => {
-            let expected = meant.value.as_deref().unwrap_or_default();
+            let expected = reference.value.as_deref().unwrap_or_default();
             let given = text("value").unwrap_or("none");
             if expected == given {
                 None
             } else {
-                other(place, format_args!("{given} where {expected} is expected"))
+                other(place, format_args!("{expected} is expected, not {given}"))
             }
         }
         _ => {
             let given = text("value");
             let number = given.and_then(|text| text.parse::<i128>().ok());
-            let expected = meant.value.as_deref().unwrap_or_default();
-            if number.is_some() && number == meant.integer() {
+            let expected = reference.value.as_deref().unwrap_or_default();
+            if number.is_some() && number == reference.integer() {
                 None
             } else {
                 other(
                     place,
-                    format_args!("{} where {expected} is expected", given.unwrap_or("nothing")),
+                    format_args!("{expected} is expected, not {}", given.unwrap_or("nothing")),
                 )
             }
         }
     }
 }
 
-fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
-    let expected = compact::show(meant);
+fn hex(place: &str, reference: &[u8], given: Option<&str>) -> Option<Difference> {
+    let expected = compact::show(reference);
     let Some(given) = given else {
-        return other(place, format_args!("hex {expected}, and none is given"));
+        return other(place, format_args!("hex {expected} is expected, but hex is missing"));
     };
     match compact::parse(given) {
-        Ok(bytes) if bytes == meant => None,
+        Ok(bytes) if bytes == reference => None,
         Ok(bytes) => {
             let is_utf8 = std::str::from_utf8(&bytes).is_ok_and(|text| {
-                CncString::from_str(text).is_ok_and(|text| text.as_bytes() == meant)
+                CncString::from_str(text).is_ok_and(|text| text.as_bytes() == reference)
             });
             let hint = if is_utf8 { ", the text in UTF-8," } else { "" };
-            let expected = if meant.is_empty() { "no byte" } else { &expected };
+            let expected = if reference.is_empty() { "no byte" } else { &expected };
             let given = if bytes.is_empty() { "no byte".to_owned() } else { compact::show(&bytes) };
             other(place, format_args!("hex {given}{hint} where {expected} is expected"))
         }
@@ -174,29 +175,30 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     }
 }
 
-/// Whether a text has the characters up to its first NUL, or all but the last of a text that no NUL ends.
-fn has_other_end(meant: &Tagged, given: Option<&str>) -> bool {
-    let meant_text = meant.hex.as_deref().unwrap_or_default();
+/// Whether a text has the expected characters, but another end: characters up to its first NUL, or
+/// all but the last one of a text without NUL.
+fn has_other_end(reference: &Tagged, given: Option<&str>) -> bool {
+    let reference_text = reference.hex.as_deref().unwrap_or_default();
     let Some(Ok(given)) = given.map(compact::parse) else { return false };
-    until_nul(&given) == until_nul(meant_text)
-        || meant.open && meant_text.split_last().is_some_and(|(_, most)| most == given)
+    until_nul(&given) == until_nul(reference_text)
+        || reference.open && reference_text.split_last().is_some_and(|(_, most)| most == given)
 }
 
-/// Compares the bytes after a text. A testee may omit them.
-fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
+/// Compares the bytes after a text, which a testee may omit.
+fn end(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);
     let is_told = open || tail.is_some();
-    let meant_tail = meant.tail.as_deref().unwrap_or_default();
+    let reference_tail = reference.tail.as_deref().unwrap_or_default();
     let given_tail = match &tail {
         None => &[],
         Some(Ok(bytes)) => bytes.as_slice(),
         Some(Err(why)) => return other(place, why),
     };
-    if open == meant.open && given_tail == meant_tail {
+    if open == reference.open && given_tail == reference_tail {
         return None;
     }
-    let expected = match (meant.open, meant_tail) {
+    let expected = match (reference.open, reference_tail) {
         (true, _) => "no NUL".to_owned(),
         (false, []) => "one NUL after it".to_owned(),
         (false, tail) => format!("{} after its NUL", compact::show(tail)),
@@ -204,7 +206,7 @@ fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     if is_told {
         Some(Difference::End(format!("{place}: {expected} is expected")))
     } else {
-        Some(Difference::Omitted(format!("{place}: {expected}, which is not told")))
+        Some(Difference::Omitted(format!("{place}: {expected} is omitted")))
     }
 }
 
@@ -213,9 +215,9 @@ mod tests {
     use super::*;
 
     fn of_text(hex: &str, found: &str) -> String {
-        let meant = format!(r#"{{"name":{{"type":"STRING","hex":"{hex}"}}}}"#);
-        let meant: Fields = serde_json::from_str(&meant).unwrap();
-        match compare(&meant, &serde_json::from_str(found).unwrap()) {
+        let reference = format!(r#"{{"name":{{"type":"STRING","hex":"{hex}"}}}}"#);
+        let reference: Fields = serde_json::from_str(&reference).unwrap();
+        match compare(&reference, &serde_json::from_str(found).unwrap()) {
             Some(Difference::Other(what) | Difference::End(what) | Difference::Omitted(what)) => {
                 what
             }
@@ -224,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_likely_mistake_is_named() {
+    fn likely_mistakes_are_named() {
         assert_eq!(of_text("e4", r#"{"name":{"type":"STRING","hex":"e4"}}"#), "");
         assert_eq!(
             of_text("e4", r#"{"name":{"type":"STRING","hex":"c3a4"}}"#),
@@ -236,7 +238,7 @@ mod tests {
         );
         assert_eq!(
             of_text("e4", r#"{"name":{"type":"STRING","hex":7}}"#),
-            "name: hex is the JSON 7, not a string"
+            "name: hex must be a string, not the JSON 7"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Questions and answers of a testee as text.
+//! Describes the questions and answers of a testee in words.
 
 use super::TesteeReaction;
 use crate::codec::message::{Answer, Output, Question};
@@ -6,7 +6,7 @@ use crate::judge::{Evidence, TEXT_MAX};
 use crate::show::show;
 use crate::text::{hex::compact, shorten};
 
-/// The beginning of what is found instead of an answer that the protocol defines.
+/// The start of the description of a line that is not an answer of the protocol.
 pub(super) const NO_ANSWER: &str = "no answer of the protocol: ";
 
 pub(super) fn describe(reaction: &TesteeReaction) -> String {
@@ -35,10 +35,10 @@ fn described(reaction: &TesteeReaction) -> String {
             text
         }
         TesteeReaction::Answer(Answer::Unsupported { what }) => {
-            format!("unsupported: {what}, which it claims to support")
+            format!("unsupported: {what}, although it is claimed")
         }
         TesteeReaction::Answer(Answer::Error { message }) => {
-            format!("an error of its own: {message}")
+            format!("an internal error: {message}")
         }
         TesteeReaction::Garbled(why) => format!("{NO_ANSWER}{why}"),
         TesteeReaction::Died(how) => format!("a crash: {how}"),

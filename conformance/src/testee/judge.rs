@@ -12,23 +12,23 @@ use crate::codec::message::{Answer, TesteeHello};
 use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Stop, Verdict, caught};
 use crate::process::{interrupt, progress};
 
-/// Maximum number of consecutive questions without an answer of the protocol; after them no more are asked.
+/// Maximum number of consecutive invalid or missing answers; after them no more questions are asked.
 const UNANSWERED_MAX: usize = 12;
 
-/// Maximum memory of all answers in bytes; those to vectors may take a part of it.
+/// Maximum memory for all answers in bytes; those to vectors may use only a part of it.
 const ANSWERS_MAX: usize = 32 << 20;
 
 #[derive(Debug)]
 pub struct JudgedTestee {
     pub hello: Option<TesteeHello>,
-    /// Of each case, and of the protocol.
+    /// The outcomes of the cases, and of the protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
-    /// How often it was started again.
+    /// How often the process was restarted.
     pub restarts: usize,
 }
 
-/// Asks a testee all questions of these cases.
+/// Asks a testee all questions of these cases and judges the answers.
 pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> JudgedTestee {
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
@@ -59,8 +59,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         let outcomes = cases.into_iter().map(untried).collect();
         return JudgedTestee { hello: Some(hello), outcomes, asked: 0, restarts: 0 };
     }
-    // Rejections are judged together with their accepted siblings, so these are asked even if they
-    // are not selected.
+    // Rejections are judged together with their accepted siblings, so the siblings are asked even if
+    // they are not selected.
     let wanted = cases.len();
     let missing = crate::judge::siblings_of(&cases);
     cases.extend(missing);
@@ -99,7 +99,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             let time = times.entry(*case).or_default();
             *time = time.saturating_add(begin.elapsed());
         }
-        // Whether an answer is right is judged with all others, after the last question.
+        // The answers are judged together, after the last question.
         let is_lost = matches!(
             reaction,
             TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)
@@ -112,7 +112,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             kept = kept.saturating_add(output.weight());
         }
         if kept > ANSWERS_MAX {
-            let why = format!("its answers take more than {} MiB", ANSWERS_MAX >> 20);
+            let why = format!("the answers take more than {} MiB", ANSWERS_MAX >> 20);
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
@@ -127,8 +127,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             Purpose::MadeUp => protocol.made_up(&question, &reaction),
         }
         if lost >= UNANSWERED_MAX {
-            let why =
-                format!("{UNANSWERED_MAX} questions in a row without an answer of the protocol");
+            let why = format!("{UNANSWERED_MAX} consecutive questions without a valid answer");
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
@@ -184,8 +183,7 @@ fn without_hello(
 ) -> JudgedTestee {
     let mut protocol = ProtocolRules::default();
     protocol.fault(HELLO, describe(reaction));
-    let untried =
-        |case| CaseOutcome::untried(case, Verdict::NotRun, "there was no answer to hello");
+    let untried = |case| CaseOutcome::untried(case, Verdict::NotRun, "hello was not answered");
     let mut outcomes: Vec<CaseOutcome> = cases.into_iter().map(untried).collect();
     outcomes.push(protocol.outcome(subject));
     JudgedTestee { hello: None, outcomes, asked: 0, restarts: 0 }
@@ -196,7 +194,7 @@ mod tests {
     use super::super::{CodecTestee, Question};
     use super::*;
 
-    /// The codec, with an op that panics.
+    /// The codec, which panics at the op check.
     struct PanickingTestee(CodecTestee);
 
     impl Testee for PanickingTestee {
@@ -215,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_case_that_panics_is_a_harness_error() {
+    fn a_panic_is_a_harness_error_of_its_case_only() {
         let cases = crate::judge::codec_cases();
         let terms = Terms { seed: 1, subject: CaseSubject::Codec, edition: None, strict: true };
         let judged = judge(&mut PanickingTestee(CodecTestee::default()), cases, terms);

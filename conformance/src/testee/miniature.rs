@@ -1,4 +1,4 @@
-//! Testees that misbehave in general, each of which the suite must detect.
+//! Small testees that misbehave, each of which the suite must detect, and a few correct ones.
 
 use super::CodecTestee;
 use crate::codec::message::{
@@ -14,7 +14,7 @@ pub enum Miniature {
     RefusesAll,
     /// Returns its input.
     Echoes,
-    /// Does not answer every fortieth case.
+    /// Leaves every fortieth case unanswered.
     Hangs,
     /// Crashes at every tenth case.
     Crashes,
@@ -22,21 +22,21 @@ pub enum Miniature {
     Boasts,
     /// Answers ops that do not exist.
     KnowsAll,
-    /// Answers every fault with an error class of its own.
+    /// Answers every faulty input with an error class of its own.
     Excuses,
     /// Answers with the number of another case.
     Miscounts,
     /// Answers with invalid JSON.
     Mumbles,
-    /// Answers wrongly after a hundred cases.
+    /// Gives wrong answers after a hundred cases.
     Tires,
-    /// Does not end after bye.
+    /// Does not exit after bye.
     Stays,
-    /// Writes much to stderr. Right otherwise.
+    /// Writes much to stderr. Otherwise correct.
     Noisy,
-    /// Implements only decode, and says so. Right.
+    /// Implements only decode, and claims only that. Correct.
     DecodesOnly,
-    /// Omits all fields that are not significant. Right.
+    /// Omits all fields that are not significant. Correct.
     Terse,
 }
 
@@ -48,7 +48,7 @@ named! { Miniature:
 }
 
 impl Miniature {
-    /// Whether its behaviour is right.
+    /// Whether the miniature is correct.
     pub const fn is_right(self) -> bool {
         matches!(self, Self::Noisy | Self::DecodesOnly | Self::Terse)
     }
@@ -56,7 +56,7 @@ impl Miniature {
     /// The miniature with this name.
     ///
     /// # Errors
-    /// The valid names.
+    /// If no miniature has this name; the error lists the valid names.
     pub fn by_name(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
             let names: Vec<&str> = Self::ALL.iter().map(|one| one.name()).collect();
@@ -74,7 +74,7 @@ impl Miniature {
         hello
     }
 
-    /// Its reaction to a line, the `seq`th case.
+    /// The reaction to a line, which is case `seq`.
     pub fn act(self, own: &CodecTestee, line: &str, seq: u64) -> MiniatureAction {
         let Ok(TesteeCommand::Case { question, .. }) = serde_json::from_str(line) else {
             return MiniatureAction::Say(
@@ -126,15 +126,15 @@ impl Miniature {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MiniatureAction {
-    /// Prints a line.
+    /// Print a line.
     Say(String),
-    /// Hangs.
+    /// Hang.
     Hang,
-    /// Crashes.
+    /// Crash.
     Crash,
 }
 
-/// Keeps the significant fields: of a text and of bytes the hex, of a float the bits.
+/// Keeps only the significant fields: the hex of texts and bytes, the bits of floats.
 fn strip(value: &mut serde_json::Value) {
     match value {
         serde_json::Value::Array(items) => items.iter_mut().for_each(strip),

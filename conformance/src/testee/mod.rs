@@ -1,9 +1,7 @@
-//! Other codecs under test: a command that answers questions over stdin and stdout, one line of
-//! JSON each.
+//! Tests other codecs: a command answers questions over stdin and stdout, each a line of JSON.
 //!
-//! The protocol is described in `adapters/README.md`. [`CodecTestee`] answers with this project's codec,
-//! [`TesteeProcess`] runs another one. [`judge`] asks either of them all questions of the golden
-//! vectors.
+//! `adapters/README.md` specifies the protocol. [`CodecTestee`] answers with this project's codec;
+//! [`TesteeProcess`] runs another one. [`judge`] asks a testee all questions of the golden vectors.
 
 mod blame;
 mod check;
@@ -32,27 +30,27 @@ pub use verdicts::Terms;
 
 /// A codec that is judged by the golden vectors.
 pub trait Testee {
-    /// Starts it and asks for its capabilities.
+    /// Starts the codec and returns its capabilities.
     fn hello(&mut self) -> Result<TesteeHello, TesteeReaction>;
 
-    /// Asks a question; a process that has ended is started again.
+    /// Asks a question. A process that has ended is restarted.
     fn ask(&mut self, question: &Question) -> TesteeReaction;
 
-    /// Tells it to end.
+    /// Tells the codec to end.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// The reason why no further question may be asked.
+    /// Why no more questions may be asked; `None` if they may.
     fn over(&self) -> Option<String> {
         None
     }
 
-    /// Its output to stderr.
+    /// The output to stderr.
     fn stderr(&self) -> String {
         String::new()
     }
 }
 
-/// How a testee reacts to a question.
+/// The reaction of a testee to a question.
 pub type TesteeReaction = crate::process::Reaction<Answer>;
 
 impl Testee for CodecTestee {

@@ -10,28 +10,28 @@ use crate::judge::{Body, Case, order};
 pub(super) enum Purpose {
     /// To judge the case with this index.
     Case(usize),
-    /// Asked at the start and at the end, to detect a change.
+    /// To detect a change: asked both at the start and at the end.
     Sanity {
         case: usize,
-        /// At the start.
+        /// Whether it is asked at the start.
         first: bool,
     },
-    /// An op that does not exist.
+    /// To try an op that does not exist.
     MadeUp,
 }
 
-/// One question.
+/// A question and its purpose.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedQuestion {
     pub(super) purpose: Purpose,
     pub(super) question: Question,
 }
 
-/// Number of cases asked at the start and again at the end.
+/// Number of cases that are asked at the start and again at the end.
 const SANITY: usize = 6;
 
-/// All questions of these cases that the testee claims to answer, shuffled; with sanity questions
-/// at both ends, and nonexistent ops in between.
+/// All questions of these cases that the testee claims to answer, shuffled, with sanity questions
+/// at both ends and nonexistent ops in between.
 pub(super) fn plan(
     cases: &[Case],
     capabilities: &Capabilities,
@@ -116,7 +116,7 @@ pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
     }
 }
 
-/// A vector is decoded and, if it is accepted, encoded from its value.
+/// The questions for a vector: it is decoded and, if it is accepted, encoded from its value.
 pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     let of = |op: &str| Question {
         context: Known::from(&vector.context),
@@ -131,7 +131,7 @@ pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     }
 }
 
-/// The permitted encodings of a value: the bytes of the vector, or those in canonical form.
+/// The permitted encodings of a value: the bytes of the vector, or the canonical form.
 pub(super) fn forms(vector: &Vector, accept: &Accept) -> Vec<Vec<u8>> {
     let canonical = accept.canonical.as_ref().map(|hex| hex.to_vec());
     std::iter::once(vector.bytes()).chain(canonical).collect()

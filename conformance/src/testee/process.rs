@@ -1,4 +1,4 @@
-//! A testee in a process of its own.
+//! A testee in its own process.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use crate::deadline::Deadline;
 use crate::process::{START, Subprocess, not_json};
 use crate::text::shorten;
 
-/// Maximum number of characters of a shown line.
+/// Maximum number of characters of a line in a message.
 const SHOWN: usize = 400;
 
 /// A testee that is started by a command.
@@ -18,12 +18,12 @@ pub struct TesteeProcess {
     seq: u64,
     sent: Option<String>,
     received: Option<String>,
-    /// How often it was started.
+    /// How often the process was started.
     pub starts: usize,
 }
 
 impl TesteeProcess {
-    /// A testee that is started by a command line, with a time limit for each answer.
+    /// Creates a testee with its command line and a time limit for each answer.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self {
             process: Subprocess::new(line, timeout),
@@ -40,12 +40,12 @@ impl TesteeProcess {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// The end of its stderr.
+    /// The last part of the output to stderr.
     pub fn stderr(&self) -> String {
         self.process.stderr()
     }
 
-    /// The lines sent and received last, each truncated.
+    /// The last lines sent and received, each truncated.
     pub fn last(&self) -> (Option<String>, Option<String>) {
         (self.sent.clone(), self.received.clone())
     }
@@ -55,8 +55,9 @@ impl TesteeProcess {
         command: &TesteeCommand,
         timeout: Duration,
     ) -> Result<String, TesteeReaction> {
-        let line = serde_json::to_vec(command)
-            .map_err(|error| TesteeReaction::Broken(format!("the question: {error}")))?;
+        let line = serde_json::to_vec(command).map_err(|error| {
+            TesteeReaction::Broken(format!("the question could not be sent: {error}"))
+        })?;
         (self.sent, self.received) = (Some(shorten(&String::from_utf8_lossy(&line), SHOWN)), None);
         self.process.send(line);
         let line = self.process.recv(timeout)?;
@@ -95,7 +96,9 @@ impl Testee for TesteeProcess {
 
     fn bye(&mut self) -> Result<(), String> {
         match self.process.bye(serde_json::to_vec(&TesteeCommand::Bye).unwrap_or_default()) {
-            (_, Some(unasked)) => Err(format!("it sent {unasked}, which no request asked for")),
+            (_, Some(unasked)) => {
+                Err(format!("it sent {unasked}, which is not a reply to a request"))
+            }
             (end, None) => end,
         }
     }
@@ -112,24 +115,26 @@ impl Testee for TesteeProcess {
 /// Parses the answer to `hello`.
 ///
 /// # Errors
-/// If it is not one.
+/// If the line is not an answer to `hello`, or has another protocol version.
 pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     let hello: TesteeHello = serde_json::from_str(line).map_err(|error| {
-        TesteeReaction::Garbled(format!("the answer to hello: {}", not_json(line, &error)))
+        TesteeReaction::Garbled(format!(
+            "the answer to hello is invalid: {}",
+            not_json(line, &error)
+        ))
     })?;
     match hello.protocol {
         PROTOCOL => match hello.capabilities.misspelt() {
             None => Ok(hello),
             Some(why) => Err(TesteeReaction::Garbled(why)),
         },
-        other => {
-            Err(TesteeReaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}")))
-        }
+        other => Err(TesteeReaction::Garbled(format!("it uses protocol {other}, not {PROTOCOL}"))),
     }
 }
 
-/// The reaction of a testee in a line received for the case `seq`; and whether the next line may be
-/// the answer to the next case. After an answer to another case the next one may be late too.
+/// Parses the line received for the case `seq`. Returns the reaction, and whether the next line can
+/// be trusted to answer the next case: after an answer to another case, the next one may be late
+/// too.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

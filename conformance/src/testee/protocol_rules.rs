@@ -33,23 +33,23 @@ impl ProtocolRules {
         }
         let before = self.first.get(&(case, question.op.clone()));
         let is_same = before == Some(&reaction);
-        let expected = before.map_or_else(|| "nothing".to_owned(), describe);
+        let expected = before.map_or_else(|| "no answer".to_owned(), describe);
         let expected = || format!("the same answer at the end as at the start: {expected}");
         self.check(is_same, &question, &reaction, expected);
     }
 
     pub(super) fn made_up(&mut self, question: &Question, reaction: &TesteeReaction) {
         let passed = matches!(reaction, TesteeReaction::Answer(Answer::Unsupported { .. }));
-        let expected = || format!("unsupported, for the op {}", question.op);
+        let expected = || format!("unsupported for the unknown op {}", question.op);
         self.check(passed, question, reaction, expected);
     }
 
-    /// A line that is no answer of the protocol.
+    /// Records a line that is not an answer of the protocol.
     pub(super) fn garbled(&mut self, question: &Question, reaction: &TesteeReaction) {
         let found = describe(reaction);
         let found = found.strip_prefix(NO_ANSWER).unwrap_or(&found);
         let evidence = || Some(evidence(question, reaction, "", None));
-        self.record.add_all(RULE, false, "an answer as the protocol defines it", found, evidence);
+        self.record.add_all(RULE, false, "an answer that the protocol defines", found, evidence);
     }
 
     fn check(
@@ -74,7 +74,7 @@ impl ProtocolRules {
     pub(super) fn outcome(mut self, subject: CaseSubject) -> CaseOutcome {
         let case = Case {
             id: "testee-manners".to_owned(),
-            title: "It keeps to the protocol, and does at the end what it did at the start"
+            title: "It follows the protocol, and gives the same answers at the end as at the start"
                 .to_owned(),
             subject,
             requirements: vec![TESTEE],

@@ -20,7 +20,7 @@ use crate::show::show;
 use crate::text::hex::compact;
 use crate::values::until_nul;
 
-/// The conditions of a judgement.
+/// The conditions of the judgement.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
     pub seed: u32,
@@ -28,7 +28,7 @@ pub struct Terms<'t> {
     pub subject: CaseSubject,
     /// The edition to judge by, if selected.
     pub edition: Option<&'t str>,
-    /// Whether assumed requirements can fail too, as for this project's codec.
+    /// Whether an assumed requirement can fail too, as for this project's codec.
     pub strict: bool,
 }
 
@@ -44,11 +44,11 @@ pub(super) struct Verdicts<'v> {
     pub(super) terms: Terms<'v>,
     /// Why not all questions were asked.
     pub(super) gone: Option<Stop>,
-    /// The clauses of fields that are wrong, and by which a vector fails.
+    /// The clauses of wrong fields by which a vector fails.
     pub(super) broken: BTreeSet<&'static str>,
 }
 
-/// How an answer differs from what was expected.
+/// How an answer differs from the expected one.
 struct Deviation {
     verdict: Verdict,
     expected: String,
@@ -161,7 +161,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Records what came of a question for each requirement of its case.
+    /// Records the result of a question for each requirement of its case.
     fn record(
         &self,
         record: &mut Record,
@@ -218,7 +218,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// The most that an answer with this verdict can mean.
+    /// The highest level at which an answer with this verdict can be judged.
     fn level(
         &self,
         case: &Case,
@@ -226,7 +226,7 @@ impl Verdicts<'_> {
         reaction: &TesteeReaction,
         verdict: Verdict,
     ) -> Level {
-        // Only an answer can differ: a crash is a fault in any case.
+        // Only an answer can be a mere difference; a crash is always a fault.
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
@@ -239,7 +239,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether the selected edition states what a case expects.
+    /// Whether the selected edition states the behaviour that a case expects.
     fn is_of_edition(&self, body: &Body) -> bool {
         let documents = match body {
             Body::Vector(one) => &one.editions,
@@ -299,7 +299,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether something was rejected, and its sibling accepted.
+    /// Checks that something was rejected and its sibling accepted.
     fn rejected(
         &self,
         reaction: &TesteeReaction,
@@ -309,22 +309,22 @@ impl Verdicts<'_> {
     ) -> Option<Deviation> {
         match reaction {
             TesteeReaction::Answer(Answer::Reject(_)) => {
-                // Without an accepted sibling the rejection may have any reason.
+                // Without an accepted sibling, the rejection may have any reason.
                 let why = match self.sibling(sibling, op) {
                     Some(TesteeReaction::Answer(Answer::Ok(_))) => return None,
                     Some(other) => describe(other),
                     None => "not asked".to_owned(),
                 };
                 let sibling = sibling.as_deref().unwrap_or_default();
-                let found = format!("rejected, but {sibling}, which lacks this fault: {why}");
+                let found = format!("rejected; but {sibling}, which is valid: {why}");
                 Some(Deviation::new(Verdict::Vacuous, expected, found))
             }
             other => Some(Deviation::fail(expected, || describe(other))),
         }
     }
 
-    /// Whether a failure shows a fault of the protocol alone: the answer, or that to the accepted sibling
-    /// of a rejection, is none of the protocol.
+    /// Whether a failure only shows a fault of the protocol: the answer, or that to the accepted
+    /// sibling of a rejection, is not defined by the protocol.
     fn is_of_protocol(
         &self,
         case: &Case,
@@ -365,7 +365,8 @@ impl Verdicts<'_> {
                 let given = output.packets.as_deref().unwrap_or_default();
                 let found = packets_fault(&text, given)?;
                 let len = text.len();
-                let expected = || format!("{len} bytes of whole lines in packets of at most 992");
+                let expected =
+                    || format!("{len} bytes of whole lines in packets of at most 992 bytes");
                 Some(Deviation::fail(expected, found))
             }
             (SequenceExpect::Accept(_), other) => {
@@ -383,7 +384,7 @@ impl Verdicts<'_> {
     }
 }
 
-/// The level of a case's expectation; if the sibling's was missed, its level counts too.
+/// The level of a case's expectation; if the sibling failed, its level counts too.
 fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> Level {
     let (own, sibling) = match body {
         Body::Vector(one) if one.is_accepted() => (accepted_level(one, op, reaction), None),
@@ -401,7 +402,7 @@ fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> 
     }
 }
 
-/// The level of the answer to an accepted vector, if it is wrong.
+/// The level at which a wrong answer to an accepted vector is judged.
 fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level {
     let Expect::Accept(accept) = &vector.expect else { return vector.level() };
     let TesteeReaction::Answer(Answer::Ok(output)) = reaction else { return vector.level() };
@@ -417,7 +418,7 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
         }
         (None, None) => false,
     };
-    // A number of another width has other bytes in another number.
+    // A number of another width also changes the number of bytes.
     let has_other_length = || {
         let same =
             |bytes: &Vec<u8>| forms(vector, accept).iter().any(|one| one.len() == bytes.len());
@@ -435,8 +436,8 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
     }
 }
 
-/// Whether bytes are the expected ones but for the ends of texts: what follows the first NUL of a field, and NULs
-/// at the end of the stream.
+/// Whether bytes differ from the expected ones only in the ends of texts: the bytes after the first
+/// NUL of a field, and NULs at the end of the stream.
 fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
     let trimmed = |bytes: &[u8]| {
         let len =
@@ -457,7 +458,7 @@ fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
     walked.is_ok() && is_same
 }
 
-/// A fault in the packets for this text.
+/// A fault in the packets of this text.
 fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
     let max = ads_cnc::limits::STREAM_PACKET_MAX;
     for (place, packet) in packets.iter().enumerate() {
@@ -474,6 +475,6 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
         None
     } else {
         let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
-        Some(format!("{} bytes in all, another one at offset {same}", all.len()))
+        Some(format!("{} bytes in total, different from the text at offset {same}", all.len()))
     }
 }

@@ -1,10 +1,10 @@
-//! Times on the command line and in models: a number and its unit.
+//! Durations on the command line and in models: a number with a unit.
 
 use std::time::Duration;
 
-/// Parses a time: `500ms`, `2s`, `1.5min`.
+/// Parses a duration such as `500ms`, `2s` or `1.5min`.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
-    let odd = || "a number and its unit are needed, ms, s or min: 500ms".to_owned();
+    let odd = || "expected a number with the unit ms, s or min, such as 500ms".to_owned();
     let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(odd)?;
     let (number, unit) = text.split_at_checked(end).ok_or_else(odd)?;
     let number: f64 = number.parse().map_err(|_| odd())?;
@@ -14,19 +14,20 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
         "min" => number * 60.0,
         _ => return Err(odd()),
     };
-    let too_much = || "at most 24 hours are taken".to_owned();
+    let too_much = || "the maximum is 24 hours".to_owned();
     Duration::try_from_secs_f64(seconds).ok().filter(|time| *time <= MAX).ok_or_else(too_much)
 }
 
 /// Like [`duration`], but rejects zero.
 pub(crate) fn some_time(text: &str) -> Result<Duration, String> {
     match duration(text)? {
-        none if none < Duration::from_millis(1) => Err("at least 1ms is needed".to_owned()),
+        none if none < Duration::from_millis(1) => Err("the minimum is 1ms".to_owned()),
         time => Ok(time),
     }
 }
 
-/// A number of seconds in the largest unit that needs no fraction: `4 h`, `90 min`, `100 s`.
+/// Formats a number of seconds with the largest unit that needs no fraction: `4 h`, `90 min`, `100
+/// s`.
 pub(crate) fn shown_time(seconds: u64) -> String {
     match seconds {
         0 => "0 s".to_owned(),
@@ -49,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_has_a_unit() {
+    fn a_duration_needs_a_unit() {
         for (text, millis) in
             [("500ms", 500), ("2s", 2000), ("1.5s", 1500), ("1min", 60_000), ("0s", 0)]
         {

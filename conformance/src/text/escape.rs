@@ -11,7 +11,7 @@ pub(crate) fn escape_lines(text: &str) -> String {
 }
 
 /// Whether a character controls a terminal or the reading direction: control characters, line and
-/// paragraph separators, bidirectional controls.
+/// paragraph separators, and bidirectional controls.
 pub(crate) fn is_escaped(one: char) -> bool {
     one.is_control() || matches!(one, '\u{2028}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }

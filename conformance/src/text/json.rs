@@ -1,5 +1,5 @@
-//! JSON that cannot control a terminal: DEL, C1 and bidirectional controls are escaped too, and
-//! parsed back as the same characters.
+//! JSON that cannot control a terminal: DEL, C1 and bidirectional controls are also escaped. It
+//! parses to the same characters.
 
 use std::io::{self, Write};
 
@@ -18,7 +18,7 @@ pub(crate) fn write(value: &impl Serialize, out: &mut dyn Write) -> io::Result<(
 
 struct Escaping<'a>(PrettyFormatter<'a>);
 
-/// Like [`PrettyFormatter`], except for string fragments.
+/// Formats like [`PrettyFormatter`], except for string fragments.
 impl Formatter for Escaping<'_> {
     fn write_string_fragment<W: ?Sized + Write>(
         &mut self,
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_same_json_and_nothing_acts() {
+    fn escaped_json_has_the_same_value() {
         let value = serde_json::json!({
             "k\u{9b}": ["a\u{1b}b\u{7f}\u{90}\u{9d}\u{202e}", "é\u{1f600}\"\\\n", [], {}, 1.5],
         });

@@ -1,4 +1,4 @@
-//! Text: hex, escapes, times, JSON. Without I/O; imports no other module of this crate.
+//! Text: hex, escapes, durations, JSON. No I/O, and no imports from other modules of this crate.
 
 mod duration;
 mod escape;
@@ -12,36 +12,40 @@ pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};
 
-/// A text, or its first `most` characters with an ellipsis.
+/// The text, or its first `most` characters with an ellipsis.
 pub(crate) fn shorten(text: &str, most: usize) -> String {
     let shown: String = text.chars().take(most).collect();
     if shown.len() < text.len() { shown + "…" } else { shown }
 }
 
-/// Whether a file begins with the mark of UTF-16, as Windows PowerShell 5 writes with `>`.
+/// Whether a file starts with the byte order mark of UTF-16, which Windows PowerShell 5 writes with
+/// `>`.
 pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF])
 }
 
 pub(crate) const UTF16: &str = "the file is UTF-16; save it as UTF-8";
 
-/// The text of a file, without the mark of UTF-8; or why it is not UTF-8.
+/// The text of a file without the byte order mark of UTF-8. The error says where it is not UTF-8.
 pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
     if is_utf16(&bytes) {
         return Err(UTF16.to_owned());
     }
     let text = String::from_utf8(bytes).map_err(|error| {
-        format!("the file is not UTF-8, from byte {} on", error.utf8_error().valid_up_to())
+        format!(
+            "the file is not UTF-8: invalid byte at offset {}",
+            error.utf8_error().valid_up_to()
+        )
     })?;
     Ok(text.strip_prefix('\u{FEFF}').map(str::to_owned).unwrap_or(text))
 }
 
-/// A number and its noun, with an s unless it is one.
+/// A number and its noun, with an s unless the number is 1.
 pub(crate) fn plural(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
-/// The lines of a text, broken at spaces. A longer word has a line of its own.
+/// The lines of a text, broken at spaces. A word longer than `width` has its own line.
 pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -56,7 +60,7 @@ pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Declares the variants of an enum in this order, and their names.
+/// Declares the variants of an enum in order, and their names.
 macro_rules! named {
     ($enum:ident: $($variant:ident $name:literal,)+) => {
         impl $enum {

@@ -1,4 +1,4 @@
-//! A point in time. Only [`Moment::now`] reads a clock.
+//! Points in time. Only [`Moment::now`] reads a clock.
 
 use std::fmt;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -21,40 +21,42 @@ pub struct Moment(i64);
 const DAY: i64 = 86_400;
 
 impl Moment {
-    /// The beginning of 1970.
+    /// The start of 1970.
     pub const EPOCH: Self = Self(0);
 
-    /// The time of the system clock.
+    /// The current time of the system clock.
     pub fn now() -> Self {
-        // A clock before 1970 gives the latest moment, so that all permissions have expired.
+        // For a clock before 1970, the latest moment is returned, so that all permissions have
+        // expired.
         let since = SystemTime::now().duration_since(UNIX_EPOCH);
         Self(since.map_or(i64::MAX, |time| i64::try_from(time.as_secs()).unwrap_or(i64::MAX)))
     }
 
-    /// The moment this much later; fractions of a second are rounded up.
+    /// This moment plus a duration; fractions of a second are rounded up.
     #[must_use]
     pub fn after(self, time: Duration) -> Self {
         let seconds = time.as_secs().saturating_add(u64::from(time.subsec_nanos() > 0));
         Self(self.0.saturating_add(i64::try_from(seconds).unwrap_or(i64::MAX)))
     }
 
-    /// A date and a time with an offset from UTC, as in RFC 3339.
+    /// Parses a date and time with an offset from UTC, as in RFC 3339.
     pub fn from_rfc3339(text: &str) -> Option<Self> {
         Self::from_datetime(text.parse().ok()?)
     }
 
-    /// Seconds since 1970.
+    /// Seconds since 1970-01-01T00:00:00Z.
     pub(crate) const fn seconds(self) -> i64 {
         self.0
     }
 
-    /// The beginning of a day in UTC.
+    /// The start of a day in UTC.
     pub(crate) fn from_date(date: Date) -> Option<Self> {
         let Date { year, month, day } = date;
         days(year.into(), month.into(), day.into())?.checked_mul(DAY).map(Self)
     }
 
-    /// Fractions of a second are dropped, so that a permission expires slightly earlier.
+    /// Converts a date and time. Fractions of a second are dropped, so that a permission expires
+    /// slightly earlier.
     pub(crate) fn from_datetime(datetime: Datetime) -> Option<Self> {
         let Date { year, month, day } = datetime.date?;
         let Time { hour, minute, second, .. } = datetime.time?;
@@ -71,7 +73,7 @@ impl Moment {
     }
 }
 
-/// In UTC.
+/// The moment in UTC.
 impl fmt::Display for Moment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (days, seconds) = (self.0.div_euclid(DAY), self.0.rem_euclid(DAY));
@@ -82,8 +84,8 @@ impl fmt::Display for Moment {
     }
 }
 
-/// Days since 1970-01-01 in the Gregorian calendar, with years that begin in March so that the leap
-/// day is the last.
+/// Days since 1970-01-01 in the Gregorian calendar. The years start in March, so that the leap day
+/// is the last day.
 fn days(year: i64, month: i64, day: i64) -> Option<i64> {
     let year = if month <= 2 { year.checked_sub(1)? } else { year };
     let shifted = month.checked_add(9)?.rem_euclid(12);
@@ -95,7 +97,7 @@ fn days(year: i64, month: i64, day: i64) -> Option<i64> {
     before.checked_add(day)?.checked_sub(1)?.checked_sub(719_468)
 }
 
-/// The date of a day: the estimated year is off by at most one.
+/// The date of a day. The estimated year is off by at most one.
 fn date(day: i64) -> Option<(i64, i64, i64)> {
     let mut year = day.checked_mul(400)?.div_euclid(146_097).checked_add(1970)?;
     while days(year, 1, 1)? > day {
@@ -116,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dates_are_what_a_calendar_says() {
+    fn dates_match_the_calendar() {
         // As printed by `date -u -d @…`.
         for (seconds, text) in [
             (0, "1970-01-01T00:00:00Z"),

@@ -1,13 +1,13 @@
-//! The nearest of several names to a misspelt one.
+//! Finds the names that are most similar to a misspelt one.
 
-/// The names nearest to a word, at most this many.
+/// Maximum number of names that are returned.
 const NEAREST_MAX: usize = 3;
 
 /// Maximum number of characters of words that are compared.
 const COMPARED_MAX: usize = 256;
 
-/// The names that the word may stand for, the nearest first: without regard to case they differ in a
-/// third of their characters at most, or contain the word.
+/// The names that are most similar to a word, the most similar first. A name is similar if it
+/// contains the word, or differs in at most a third of the characters; case is ignored.
 pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<&'n str> {
     let lower: Vec<char> = word.to_lowercase().chars().take(COMPARED_MAX).collect();
     if lower.is_empty() {
@@ -19,7 +19,7 @@ pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) 
         .into_iter()
         .filter_map(|name| {
             let other = name.to_lowercase();
-            // A part of a name is farther than any misspelling.
+            // A name that contains the word ranks after any misspelling.
             let is_part = lower.len() > 2 && other.contains(&text);
             let chars: Vec<char> = other.chars().take(COMPARED_MAX).collect();
             let far = chars.len().abs_diff(lower.len()) > limit;
@@ -36,7 +36,7 @@ pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) 
     found.into_iter().take(NEAREST_MAX).map(|(_, name)| name).collect()
 }
 
-/// ` - did you mean …?` with the nearest names; empty without one.
+/// ` - did you mean …?` with the most similar names; empty if there are none.
 pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     match nearest(word, names).as_slice() {
         [] => String::new(),
@@ -44,9 +44,10 @@ pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n s
     }
 }
 
-/// The number of characters to insert, delete, replace or swap with the next.
+/// The number of characters to insert, delete, replace or swap with the next one.
 fn distance(one: &[char], other: &[char]) -> usize {
-    // The distances of the parts of `other` to the part of `one` two characters ago and one ago.
+    // The distances of the prefixes of `other` to the prefix of `one` two characters ago, and one
+    // ago.
     let (mut before, mut last): (Vec<usize>, Vec<usize>) =
         (Vec::new(), (0..=other.len()).collect());
     let mut previous = None;

@@ -5,8 +5,8 @@ use serde_json::Value;
 
 use super::{Type, printable};
 
-/// The value as JSON: a number, a boolean, a string, or nested arrays of them, one level for each
-/// dimension. A REAL that is not a JSON number is a string such as `NaN`.
+/// Converts a value to JSON: a number, a boolean, a string, or nested arrays of these with one
+/// level for each dimension. A REAL that is not a JSON number becomes a string such as `NaN`.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -16,7 +16,7 @@ use super::{Type, printable};
 /// assert_eq!(value_of(&matrix, &[1, 2, 3, 4]).unwrap().to_string(), "[[1,2],[3,4]]");
 /// ```
 ///
-/// `None` if the type is not known or the bytes do not match it.
+/// Returns `None` if the type is unknown or the bytes do not match it.
 pub fn value_of(ty: &Type, bytes: &[u8]) -> Option<Value> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let mut values: Vec<Value> = elements.iter().map(element).collect();

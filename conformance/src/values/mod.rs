@@ -1,4 +1,4 @@
-//! Typed values: parsing and formatting, by a description, a descriptor or an element's attributes.
+//! Typed values: parsed and formatted by a description, a descriptor or the attributes of an element.
 
 mod format;
 mod json;
@@ -18,7 +18,7 @@ use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
 use crate::text::escape;
 
-/// The text of a STRING up to the first NUL.
+/// The text of a STRING, up to the first NUL.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
@@ -41,9 +41,9 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Type {
-    /// Its name on the CNC.
+    /// The name of the type on the CNC.
     pub name: String,
-    /// The type, if the manuals have it.
+    /// The data type, if the manuals have it.
     pub data_type: Option<DataType>,
     /// Number of elements in each dimension; empty for a single element.
     pub dimensions: Vec<u32>,
@@ -56,7 +56,7 @@ impl Type {
     pub const UNKNOWN: Self =
         Self { name: String::new(), data_type: None, dimensions: Vec::new(), size: None };
 
-    /// From a variable's description.
+    /// The type in a variable's description.
     pub fn of_variable(var_type: VariableType, dimensions: U32List<'_>, size: u32) -> Self {
         let data_type = var_type.data_type();
         let name = match data_type {
@@ -66,7 +66,8 @@ impl Type {
         Self { name, data_type, dimensions: dimensions.iter().collect(), size: Some(size) }
     }
 
-    /// Of the content of an object or an element: an array if the size is a multiple of the type's.
+    /// The type of the content of an object or an element: an array if the size is a multiple of
+    /// the type's.
     pub fn of_content(name: CncStr<'_>, size: u32) -> Self {
         let data_type = DataType::by_name(name);
         let ty =
@@ -74,20 +75,20 @@ impl Type {
         ty.fitted(size)
     }
 
-    /// With a known type and dimensions.
+    /// A known data type with dimensions.
     pub fn known(data_type: DataType, dimensions: Vec<u32>) -> Self {
         let count = dimensions.iter().try_fold(1_u32, |count, &len| count.checked_mul(len));
         let size = data_type.size().zip(count).and_then(|(each, count)| each.checked_mul(count));
         Self { name: data_type.name().to_owned(), data_type: Some(data_type), dimensions, size }
     }
 
-    /// With a known type, but unknown dimensions and size.
+    /// A known data type whose dimensions and size are unknown.
     pub fn hinted(data_type: DataType) -> Self {
         let name = data_type.name().to_owned();
         Self { name, data_type: Some(data_type), dimensions: Vec::new(), size: None }
     }
 
-    /// Sets the number of elements from a length, if there are no dimensions.
+    /// Sets the number of elements according to a length, if the type has no dimensions.
     #[must_use]
     pub fn fitted(mut self, len: u32) -> Self {
         let each = self.data_type.and_then(DataType::size);
@@ -104,7 +105,7 @@ impl Type {
     /// The type of the element that these indices select.
     ///
     /// # Errors
-    /// Why the indices are invalid.
+    /// If the indices do not select an element.
     pub fn element(&self, indices: U32List<'_>) -> Result<Self, String> {
         let one = Self { dimensions: Vec::new(), size: None, ..self.clone() };
         let dimensions = &self.dimensions;
@@ -112,13 +113,17 @@ impl Type {
             let given: String = indices.iter().map(|index| format!("[{index}]")).collect();
             let needed = dimensions.len();
             return Err(match needed {
-                0 => format!("{self} is not an array and has no element {given}"),
-                _ => format!("{given} is not an element of {self}, which has {needed} indices"),
+                0 => format!("{self} is not an array, so it has no element {given}"),
+                _ => {
+                    format!("{given} is not an element of {self}, which requires {needed} indices")
+                }
             });
         }
         for (index, &len) in indices.iter().zip(dimensions) {
             if index >= len {
-                return Err(format!("index {index} is beyond {self}, counted from 0"));
+                return Err(format!(
+                    "index {index} is out of bounds for {self}; indices start at 0"
+                ));
             }
         }
         let shape = self.shape().map(|shape| shape.element_shape().size());
@@ -130,7 +135,7 @@ impl Type {
         Shape::new(self.data_type?, U32List::from(self.dimensions.as_slice()), self.size?).ok()
     }
 
-    /// The elements of a value; `None` if the type is not known.
+    /// The elements of a value; `None` if the type is unknown.
     ///
     /// # Errors
     /// If the bytes are not a value of this type.
@@ -140,7 +145,7 @@ impl Type {
     }
 }
 
-/// The name, with the dimensions in brackets.
+/// The name of the type, with the dimensions in brackets.
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&escape(&self.name))?;

@@ -7,24 +7,24 @@ use ads_cnc::{CncStr, U32List};
 
 use super::Type;
 
-/// Why a text is not a value of a type.
+/// The error for a text that is not a value of its type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct InvalidValue(String);
 
-/// Parses a value: a number, decimal or with 0x, `TRUE` or `FALSE`, or a text; for an array all
-/// elements separated by commas or blanks, also in brackets, the last index running fastest. In an array of texts one with a
-/// comma is quoted, with quotes in it doubled.
+/// Parses a value: a number in decimal or with 0x, `TRUE` or `FALSE`, or a text. For an array, all
+/// elements are separated by commas or blanks, optionally in brackets, with the last index running
+/// fastest. In an array of texts, a text with a comma is quoted, and quotes in it are doubled.
 ///
 /// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
 /// variable.
 ///
 /// # Errors
-/// Why the text is not a value of the type, and what is permitted.
+/// Why the text is not a value of the type, and what would be.
 pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, InvalidValue> {
     let Some(data_type) = ty.data_type else {
         let name = if ty.name.is_empty() { "its type" } else { ty.name.as_str() };
-        return Err(InvalidValue(format!("{name} is not known; --type says what to take it for")));
+        return Err(InvalidValue(format!("{name} is unknown; specify it with --type")));
     };
     match data_type {
         DataType::Boolean => items(ty, text, boolean),
@@ -45,7 +45,7 @@ pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, InvalidValue> {
             within(number.is_finite(), number, text, (f64::MIN, f64::MAX), data_type)
         }),
         DataType::String => texts(ty, text),
-        other => Err(InvalidValue(format!("{other:?} cannot be written here"))),
+        other => Err(InvalidValue(format!("values of type {other:?} cannot be written"))),
     }
 }
 
@@ -89,7 +89,7 @@ fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T,
             ty.name()
         ))
     };
-    // Without words such as "inf": an axis must not be sent to infinity.
+    // Words such as "inf" are rejected: an axis must not be sent to infinity.
     let in_digits = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
     let number = if in_digits { text.parse().map_err(|_| no())? } else { return Err(no()) };
     let digits = text.split(['e', 'E']).next().unwrap_or(text);
@@ -118,7 +118,7 @@ fn within<T: std::fmt::Debug>(
     }
 }
 
-/// Checks the number of elements; any number is accepted if the dimensions are unknown.
+/// Checks the number of elements. Any number is accepted if the dimensions are unknown.
 fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
     let count = u32::try_from(given).unwrap_or(u32::MAX);
     if ty.size.is_none() && ty.dimensions.is_empty() {
@@ -130,9 +130,9 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
     } else if needed == 1 {
         let is_real = matches!(ty.data_type, Some(DataType::Real32 | DataType::Real64));
         let hint = if is_real && count == 2 { "; the decimal separator is a point" } else { "" };
-        Err(InvalidValue(format!("{ty} is one element, {count} are given{hint}")))
+        Err(InvalidValue(format!("{ty} is a single element, but {count} are given{hint}")))
     } else {
-        Err(InvalidValue(format!("{ty} has {needed} elements, {count} given")))
+        Err(InvalidValue(format!("{ty} has {needed} elements, but {count} are given")))
     }
 }
 
@@ -141,7 +141,7 @@ fn items<T: Scalar>(
     text: &str,
     one: impl Fn(&str) -> Result<T, InvalidValue>,
 ) -> Result<Vec<u8>, InvalidValue> {
-    // As people type arrays: in brackets, and with blanks alone between the elements.
+    // Arrays are also accepted in brackets, and with only blanks between the elements.
     let text = text.trim();
     let flat = flat(ty, text)?;
     let text = flat.as_deref().unwrap_or(text);
@@ -157,14 +157,14 @@ fn items<T: Scalar>(
     items.as_slice().value_to_vec().map_err(|error| InvalidValue(error.to_string()))
 }
 
-/// The elements of an array in brackets for each dimension, as JSON has them, without the brackets;
-/// `None` for any other text. The brackets have to match the dimensions.
+/// The elements of an array that has brackets for each dimension like JSON, without the brackets;
+/// `None` for any other text. The brackets must match the dimensions.
 fn flat(ty: &Type, text: &str) -> Result<Option<String>, InvalidValue> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     if !text.starts_with("[[") {
         return Ok(None);
     }
-    // Elements of a row, of a plane, …: each begins and ends with a bracket.
+    // Elements of a row, of a plane, …: each starts and ends with a bracket.
     let rows = ty.dimensions.iter().rev().scan(1_usize, |size, &len| {
         *size = size.saturating_mul(usize::try_from(len).unwrap_or(usize::MAX));
         Some(*size)
@@ -202,7 +202,7 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
     if longest > each {
         let (most, given) = (each.saturating_sub(1), longest.saturating_sub(1));
         return Err(InvalidValue(format!(
-            "a STRING of {each} bytes has at most {most} characters and its NUL, {given} are given"
+            "a STRING of {each} bytes has at most {most} characters and its NUL, but {given} are given"
         )));
     }
     let shape = Shape::new(DataType::String, U32List::from(dimensions.as_slice()), size);
@@ -211,7 +211,7 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
     done.map_err(|error| InvalidValue(error.to_string()))
 }
 
-/// The texts between commas.
+/// Splits texts at the commas.
 fn split(given: &str) -> Result<Vec<String>, InvalidValue> {
     let (mut all, mut rest) = (Vec::new(), given);
     loop {
@@ -230,11 +230,11 @@ fn split(given: &str) -> Result<Vec<String>, InvalidValue> {
     }
 }
 
-/// A text up to its closing quote, and the text after the comma.
+/// Splits off a text at its closing quote. Also returns the rest after the comma.
 fn quoted_text(given: &str) -> Result<(String, Option<&str>), InvalidValue> {
     let (mut text, mut rest) = (String::new(), given);
     loop {
-        let open = || InvalidValue("a text in quotes does not end".to_owned());
+        let open = || InvalidValue("a quoted text has no closing quote".to_owned());
         let (before, after) = rest.split_once('"').ok_or_else(open)?;
         text.push_str(before);
         if let Some(more) = after.strip_prefix('"') {
@@ -246,7 +246,9 @@ fn quoted_text(given: &str) -> Result<(String, Option<&str>), InvalidValue> {
         return match after.strip_prefix(',') {
             Some(after) => Ok((text, Some(after))),
             None if after.is_empty() => Ok((text, None)),
-            None => Err(InvalidValue(format!("after a quote a comma is expected, not {after}"))),
+            None => {
+                Err(InvalidValue(format!("expected a comma after the closing quote, not {after}")))
+            }
         };
     }
 }
@@ -278,7 +280,7 @@ mod tests {
         }
     }
 
-    /// As JSON has them; another nesting would write elements elsewhere.
+    /// Nested brackets as in JSON; another nesting would write elements to other positions.
     #[test]
     fn nested_brackets_match_the_dimensions() {
         let cube = Type::known(DataType::Uns08, vec![2, 2, 2]);
@@ -298,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_says_what_would() {
+    fn an_error_says_what_the_type_permits() {
         for (ty, text, why) in [
             (DataType::Sgn08, "128", "128 is not of type SGN08, which has -128 to 127"),
             (DataType::Uns32, "-1", "-1 is not of type UNS32, which has 0 to 4294967295"),
@@ -335,20 +337,20 @@ mod tests {
                 "2",
                 "2 is not of type BOOLEAN, which has TRUE and FALSE, or 1 and 0",
             ),
-            (DataType::Uns08, "1,2", "UNS08 is one element, 2 are given"),
+            (DataType::Uns08, "1,2", "UNS08 is a single element, but 2 are given"),
         ] {
             assert_eq!(parse(&single(ty), text).unwrap_err().to_string(), why);
         }
     }
 
     #[test]
-    fn texts_have_room_or_are_refused() {
+    fn texts_that_do_not_fit_are_rejected() {
         let ty = Type { size: Some(4), ..Type::hinted(DataType::String) };
         assert_eq!(parse(&ty, "a,b").unwrap(), b"a,b\0");
         assert_eq!(parse(&ty, "").unwrap(), b"\0");
         assert_eq!(
             parse(&ty, "abcd").unwrap_err().to_string(),
-            "a STRING of 4 bytes has at most 3 characters and its NUL, 4 are given"
+            "a STRING of 4 bytes has at most 3 characters and its NUL, but 4 are given"
         );
         assert!(parse(&ty, "Ω").unwrap_err().to_string().contains("CP1252"));
         let two = Type { dimensions: vec![2], size: Some(12), ..ty };
@@ -361,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_read_back_as_it_was_given() {
+    fn a_parsed_value_is_formatted_as_given() {
         for (ty, text) in [
             (Type::known(DataType::Sgn16, vec![2, 2]), "1,-2,3,-4"),
             (Type::known(DataType::Real64, vec![]), "0.1"),

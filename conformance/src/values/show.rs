@@ -8,7 +8,7 @@ use crate::text::escape;
 
 /// Maximum width of a line.
 const WIDTH: usize = 72;
-/// Maximum number of numbers on a line.
+/// Maximum number of elements on a line.
 const PER_LINE: usize = 10;
 
 /// A text with control characters escaped.
@@ -16,8 +16,8 @@ pub fn printable(text: &str) -> String {
     escape(text)
 }
 
-/// The whole value on one line, in the form that [`parse`](super::parse()) accepts; `None` if the
-/// type is not known or the bytes do not match it.
+/// Formats the whole value on one line, in the form that [`parse`](super::parse()) accepts; `None`
+/// if the type is unknown or the bytes do not match it.
 pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let several = !ty.dimensions.is_empty();
@@ -29,7 +29,7 @@ pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     Some(items.collect::<Vec<_>>().join(","))
 }
 
-/// A text in a list: quoted if it would be taken for two.
+/// Formats a text in a list: quoted if it would be parsed as two texts.
 fn listed(text: &str) -> String {
     if text.contains([',', '"']) || text != text.trim() {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -38,7 +38,7 @@ fn listed(text: &str) -> String {
     }
 }
 
-/// An element that is not a text, in the form that `parse` accepts.
+/// Formats an element that is not a text, in the form that `parse` accepts.
 pub(crate) fn number(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.is_true() => "TRUE".to_owned(),
@@ -57,7 +57,7 @@ pub(crate) fn number(element: Element<'_>) -> String {
     }
 }
 
-/// The value of an element as text. A STRING is quoted, with the text after its first NUL if there is any; a
+/// Formats an element for a reader. A STRING is quoted, and any text after its first NUL is added; a
 /// BOOLEAN other than 0 and 1 is followed by its byte.
 fn display(element: Element<'_>) -> String {
     match element {
@@ -72,7 +72,7 @@ fn display(element: Element<'_>) -> String {
                 Some(tail) if tail.iter().any(|&byte| byte != 0) => {
                     let end = tail.iter().rposition(|&byte| byte != 0).unwrap_or(0);
                     let tail = tail.get(..=end).unwrap_or(tail);
-                    format!("{} and after its end {}", quoted(&bytes), quoted(tail))
+                    format!("{} and after its NUL {}", quoted(&bytes), quoted(tail))
                 }
                 _ => quoted(&bytes),
             }
@@ -81,8 +81,8 @@ fn display(element: Element<'_>) -> String {
     }
 }
 
-/// The value on several lines: a single element without indices; for an array as many elements per
-/// line as fit, after the indices of the first.
+/// Formats the value on several lines: a single element without indices; for an array, as many
+/// elements per line as fit, after the indices of the first one.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -93,7 +93,7 @@ fn display(element: Element<'_>) -> String {
 /// assert_eq!(shown, ["[0][0]   1   2   3", "[1][0]  40   5   6"]);
 /// ```
 ///
-/// `None` if the type is not known or the bytes do not match it.
+/// Returns `None` if the type is unknown or the bytes do not match it.
 pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let texts: Vec<String> = elements.iter().map(display).collect();
@@ -116,7 +116,7 @@ pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     Some(all.into_iter().map(|(label, items)| format!("{label:<width$}  {items}")).collect())
 }
 
-/// The indices of an element; the last runs fastest (VAR-21, assumed).
+/// The indices of an element, with the last one running fastest (VAR-21, assumed).
 fn indices(at: usize, dimensions: &[u32]) -> String {
     let (mut left, mut all) = (at, Vec::new());
     for &len in dimensions.iter().rev() {
@@ -134,10 +134,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_keep_what_is_odd_about_them() {
+    fn unusual_texts_are_shown_completely() {
         let ty = Type::hinted(DataType::String);
         assert_eq!(lines(&ty, b"L\xE4nge\0\0").unwrap(), ["\"Länge\""]);
-        assert_eq!(lines(&ty, b"a\0b\0").unwrap(), ["\"a\" and after its end \"b\""]);
+        assert_eq!(lines(&ty, b"a\0b\0").unwrap(), ["\"a\" and after its NUL \"b\""]);
         assert_eq!(plain(&ty, b"\x1B[2J\0").unwrap(), "\\u{1b}[2J");
         let two = Type { dimensions: vec![2], ..ty };
         assert_eq!(plain(&two, b"a,b\0c\0\0\0").unwrap(), "\"a,b\",c");
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_of_no_value_are_none() {
+    fn invalid_bytes_have_no_lines() {
         assert_eq!(lines(&Type::known(DataType::Uns32, vec![]), &[1, 2]), None);
         assert_eq!(plain(&Type::UNKNOWN, &[1, 2]), None);
         let odd = Type::hinted(DataType::Boolean);

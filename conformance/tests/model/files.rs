@@ -204,10 +204,14 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("\"P1\", value = 4711", "\"P\", value = 4711", "begins with P, V.L., V.P. or V.S."),
     ("name = \"V.P.offset\"", "name = \"V.P.count\"", "there twice"),
     ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no object \"nobody\""),
-    ("value = 4711 },\n  # While", "comes = \"2\" },\n  # While", "a number and its unit"),
+    (
+        "value = 4711 },\n  # While",
+        "comes = \"2\" },\n  # While",
+        "a number with the unit ms, s or min",
+    ),
     ("value = 4711 },\n  # While", "goes = 2 },\n  # While", "expected a string"),
     ("value = 4711 },\n  # While", "goes = \"0s\" },\n  # While", "goes before it comes"),
-    ("value = 4711 },\n  # While", "goes = \"25000min\" },\n  # While", "at most 24 hours"),
+    ("value = 4711 },\n  # While", "goes = \"25000min\" },\n  # While", "the maximum is 24 hours"),
     ("value = 4711 },\n  # While", "period = \"2s\" },\n  # While", "all the period"),
     (
         "value = 4711 },\n  # While",

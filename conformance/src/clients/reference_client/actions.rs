@@ -1,4 +1,4 @@
-//! Executes each word of the vocabulary.
+//! Executes the actions of the vocabulary.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, ElementAddress, Spindle};
 use ads_cnc::dynamic::DynamicKind;
@@ -23,7 +23,7 @@ use crate::values::{self, Type};
 /// Maximum number of descriptors in one request.
 const AT_ONCE: u32 = 64;
 
-/// An iterator over the arguments of an action.
+/// Iterates over the arguments of an action.
 struct Arguments<'a>(std::slice::Iter<'a, String>);
 
 impl<'a> Arguments<'a> {
@@ -43,7 +43,7 @@ impl<'a> Arguments<'a> {
         Ok(ChannelAxis::new(self.number()?)?)
     }
 
-    /// `SGN32`, `SGN16[2,3]`.
+    /// Parses a type such as `SGN32` or `SGN16[2,3]`.
     fn data_type(&mut self) -> Result<Type, ActionError> {
         let text = self.text()?;
         let (name, dimensions) = match text.strip_suffix(']').and_then(|text| text.split_once('['))
@@ -94,7 +94,8 @@ fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, ActionEr
             other => other,
         });
     }
-    values::value_of(&ty, bytes).ok_or_else(|| format!("{} bytes are no {ty}", bytes.len()).into())
+    values::value_of(&ty, bytes)
+        .ok_or_else(|| format!("{} bytes are not a {ty}", bytes.len()).into())
 }
 
 pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, ActionError> {
@@ -141,7 +142,9 @@ pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, Actio
                 (args.channel()?, args.number()?, Kind::new(args.text()?)?);
             let found = wire.call(&DescribeExtended::new(channel, index, kind), &mut reply)?;
             match found.0 {
-                None if wire.has(ClientFault::NothingIsError) => return Err("it is empty".into()),
+                None if wire.has(ClientFault::NothingIsError) => {
+                    return Err("the extended description is empty".into());
+                }
                 None => Value::Null,
                 Some(found) => json!({
                     "synchronisation": found.synchronisation.0,
@@ -254,7 +257,7 @@ fn list(wire: &mut Connection, channel: Channel) -> Result<Vec<Descriptor>, Acti
         let before = all.len();
         all.extend(found.iter().map(|object| object.to_owned()));
         match u32::try_from(all.len().saturating_sub(before))? {
-            0 => return Err("no descriptors where there should be some".into()),
+            0 => return Err("no descriptors, although the list has more objects".into()),
             more => next = next.saturating_add(more),
         }
     }
@@ -282,8 +285,8 @@ fn content(object: &Descriptor) -> Type {
     Type::of_content(object.type_name(), object.size())
 }
 
-/// The address of an instance: calculated for channels, axis places and spindles, requested for
-/// others.
+/// The address of an instance: calculated for channels, axis places and spindles, requested for other
+/// instances.
 fn element(
     wire: &mut Connection,
     action: &Action,
@@ -324,7 +327,7 @@ fn element(
         }
         "read-element" => {
             let ty = args.data_type()?;
-            let length = ty.size.ok_or("the length of a text is not known")?;
+            let length = ty.size.ok_or("the length of a text is unknown")?;
             let bytes = wire.call(&ReadElement::new(at, length)?, &mut reply)?.bytes;
             to_json(wire, &ty, bytes)?
         }
@@ -333,6 +336,6 @@ fn element(
             wire.call(&WriteElement::new(at, &bytes)?, &mut reply)?;
             DONE
         }
-        other => return Err(format!("no word of the vocabulary: {other}").into()),
+        other => return Err(format!("unknown action: {other}").into()),
     })
 }

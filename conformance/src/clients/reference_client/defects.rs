@@ -8,9 +8,9 @@ use crate::judge::CLIENT;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClientDefect {
-    /// For example `client.no-nul`.
+    /// The ID, for example `client.no-nul`.
     pub id: &'static str,
-    /// The requirement that has to fail; empty for a valid variant.
+    /// The requirement that must fail; empty for a valid variant.
     pub requirement: &'static str,
     /// What the client does differently.
     pub what: &'static str,
@@ -53,7 +53,7 @@ macro_rules! client_faults {
 
 client_faults! {
     defects {
-    // Frames it sends.
+    // Frames that the client sends.
     TcpLength "client.tcp-length" ADS_5 "says one byte more in the AMS/TCP header";
     AmsLength "client.ams-length" ADS_5 "says one byte less in the AMS header";
     ResponseFlag "client.response-flag" ADS_5 "marks its requests as responses";
@@ -64,7 +64,7 @@ client_faults! {
     WriteLength "client.write-length" ADS_2 "says one byte more in a Write";
     BothLength "client.read-write-length" ADS_3 "says one byte less written in a ReadWrite";
     ReadForBoth "client.read-for-read-write" ADS_3 "reads where a ReadWrite is taken";
-    // Addresses it uses.
+    // Addresses that the client uses.
     Port "client.port" GEN_4 "asks the COM task for what the SDA task has";
     NoChannel "client.no-channel" ADR_5 "leaves the channel out of the group";
     OtherChannel "client.other-channel" ADR_5 "asks channel 1 for what is of another";
@@ -95,7 +95,7 @@ client_faults! {
     ValuePlace "client.value-place" VAR_14 "reads by name where handles are taken";
     ExtendedPlace "client.extended-place" VAR_15 "asks for what is extended one place beside";
     AxisFromZero "client.axis-from-zero" VAR_26 "counts axes from 0";
-    // Data it sends.
+    // Data that the client sends.
     NoNul "client.no-nul" VAR_9 "sends names without NUL";
     KindOpen "client.kind-open" VAR_1 "sends kinds without NUL";
     KindDot "client.kind-dot" VAR_1 "sends kinds with a final dot";
@@ -105,7 +105,7 @@ client_faults! {
     WriteNoCount "client.write-no-count" VAR_12 "leaves it out of writes";
     NoSeparator "client.no-separator" VAR_13 "sends no NUL between name and value";
     ValueSwapped "client.value-swapped" GEN_1 "writes contents in big-endian";
-    // Replies it accepts.
+    // Replies that the client accepts.
     AnyInvokeId "client.any-invoke-id" ADS_5 "takes replies to any invoke ID";
     AnyCommand "client.any-command" ADS_5 "takes replies to any command";
     AnyFlags "client.any-flags" ADS_5 "takes requests for replies";
@@ -172,7 +172,7 @@ pub const fn defects() -> &'static [ClientDefect] {
     ALL
 }
 
-/// Valid variants: the client acts differently, but no requirement may fail.
+/// All valid variants: the client behaves differently, but no requirement may fail.
 pub const fn variants() -> &'static [ClientDefect] {
     VARIANTS
 }

@@ -1,8 +1,8 @@
-//! How an action of this project's client fails.
+//! The errors of an action of this project's client.
 
 use ads_cnc::ads::AdsError;
 
-/// The reason why an action has no result.
+/// Why an action has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ActionError {
     /// An ADS error of the CNC.

@@ -1,4 +1,4 @@
-//! Applies a defect or valid variant to the bytes of requests and replies.
+//! Applies a defect or a valid variant to the bytes of requests and replies.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -29,7 +29,7 @@ impl OutgoingRequest {
         }
     }
 
-    /// Whether it is the function of the decoder with this offset.
+    /// Whether the request is that of the decoder's function with this offset.
     const fn is(&self, offset: u32) -> bool {
         self.group & 0xFF00 == 0x2300 && self.offset == offset
     }
@@ -167,7 +167,7 @@ impl OutgoingRequest {
     fn apply_variant(&mut self, variant: ClientFault) {
         let class = self.group & 0xF000;
         match variant {
-            // Channel 6 has another rank.
+            // Channel 6 has a rank that differs from its number.
             ClientFault::ByIndex if self.group & 0xFF <= 2 => self.group &= !0x10_0000,
             ClientFault::ByIndex if self.group & 0xFF == 6 => {
                 self.group = (self.group & !0x10_00FF) | 3
@@ -209,7 +209,7 @@ pub(super) fn apply_to_frame(fault: ClientFault, bytes: &mut Vec<u8>) {
     }
 }
 
-/// Skips a check of a reply by correcting the field that it would check.
+/// Skips a check of a reply by correcting the field that the check reads.
 pub(super) fn skip_check(fault: ClientFault, received: &mut [u8]) -> Result<(), ActionError> {
     let word = |received: &[u8], at: usize| {
         let bytes = received.get(at..at.checked_add(4)?)?;
@@ -235,7 +235,7 @@ pub(super) fn skip_check(fault: ClientFault, received: &mut [u8]) -> Result<(), 
     Ok(())
 }
 
-/// Interprets reply data of a wrong length or type.
+/// Misinterprets reply data of a wrong length or type.
 pub(super) fn misread(fault: ClientFault, asked: &OutgoingRequest, reply: &mut Vec<u8>) {
     match fault {
         ClientFault::FillsUp if asked.is(0x44) => reply.resize(4, 0),

@@ -1,5 +1,5 @@
-//! This project's client, with or without a defect: an example of the client protocol, and a client
-//! to test the suite with.
+//! This project's client, optionally with a defect. It is an example of the client protocol, and
+//! tests the suite.
 
 mod actions;
 mod defects;
@@ -19,7 +19,7 @@ use crate::codec::message::Identity;
 use error::ActionError;
 use wire::Connection;
 
-/// This project's client, in this process.
+/// This project's client, run in this process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReferenceClient {
     pub fault: Option<ClientFault>,
@@ -54,7 +54,7 @@ impl ClientUnderTest for ReferenceClient {
     }
 }
 
-/// The reaction to an action. A crash or a hang is only returned, so that the process can go on.
+/// Executes an action. A crash or a hang is only returned, so that this process continues.
 pub fn answer(fault: Option<ClientFault>, place: &CncAddress, action: &Action) -> ClientReaction {
     if fault == Some(ClientFault::Garbles) {
         return ClientReaction::Garbled("done!".to_owned());
@@ -65,9 +65,9 @@ pub fn answer(fault: Option<ClientFault>, place: &CncAddress, action: &Action) -
         Ok(value) => ClientReaction::Answer(ActionResult::Result(value)),
         Err(ActionError::Error(why)) => ClientReaction::Answer(ActionResult::Error(why)),
         Err(ActionError::Refused(error)) => ClientReaction::Answer(ActionResult::Error(format!(
-            "the CNC refuses it, ADS error {error:#x}"
+            "the CNC returned ADS error {error:#x}"
         ))),
-        Err(ActionError::Dies) => ClientReaction::Died("it would have ended here".to_owned()),
+        Err(ActionError::Dies) => ClientReaction::Died("it crashed".to_owned()),
         Err(ActionError::Hangs) => ClientReaction::Silent(Duration::MAX),
     }
 }

@@ -1,4 +1,4 @@
-//! Both sides of the Service Interface: a service, and an NC program that uses one.
+//! Both sides of the Service Interface: a service, and an NC program that uses it.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -34,7 +34,7 @@ fn write(
     wire.call(&write, &mut Vec::new()).map(drop)
 }
 
-/// Answers each request with the text of the request.
+/// Answers each request with its own text.
 pub(super) fn serve(
     wire: &mut Connection,
     channel: Channel,
@@ -79,7 +79,7 @@ pub(super) fn serve(
     Ok(answered.into())
 }
 
-/// Sends a request to a service, as an NC program does.
+/// Sends a request to a service, like an NC program.
 pub(super) fn ask(
     wire: &mut Connection,
     channel: Channel,
@@ -103,7 +103,7 @@ pub(super) fn ask(
             break;
         }
         if begun.elapsed() > WAIT_MAX {
-            return Err("no response in time".into());
+            return Err("no response within the time limit".into());
         }
         thread::sleep(PAUSE);
     }

@@ -1,4 +1,4 @@
-//! Writes an NC program into the stream of a channel.
+//! Writes an NC program to the program stream of a channel.
 
 use std::fs;
 use std::thread;
@@ -18,7 +18,7 @@ use crate::clients::message::DONE;
 /// Interval of polling.
 pub(super) const PAUSE: Duration = Duration::from_millis(10);
 
-/// How long a packet is repeated, and how long it waits for a response.
+/// How long to repeat a packet, and to wait for a response of a service.
 pub(super) const WAIT_MAX: Duration = Duration::from_secs(10);
 
 pub(super) fn stream(

@@ -1,4 +1,4 @@
-//! Requests and replies of this project's client; a defect changes their bytes.
+//! Requests and replies of this project's client, whose bytes a defect changes.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -15,7 +15,7 @@ use crate::clients::CncAddress;
 use crate::net;
 use crate::simulator::DATA_MAX;
 
-/// How long it waits for a reply.
+/// How long to wait for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
 
 pub(super) struct Connection {
@@ -105,21 +105,25 @@ impl Connection {
             if self.has(ClientFault::OneRead)
                 && matches!(FrameRef::split(&self.received, DATA_MAX), Ok(None))
             {
-                return Err("a frame that is not whole".into());
+                return Err("an incomplete frame".into());
             }
         }
     }
 
     fn timeout(&self) -> ActionError {
-        if self.has(ClientFault::Hangs) { ActionError::Hangs } else { "no reply in time".into() }
+        if self.has(ClientFault::Hangs) {
+            ActionError::Hangs
+        } else {
+            "no reply within the time limit".into()
+        }
     }
 
-    /// Removes the first frame from the received bytes.
+    /// Removes the first frame from the received bytes and returns it.
     fn cut(&mut self) -> Result<Vec<u8>, ActionError> {
         Ok(self.received.get(46..).unwrap_or_default().to_vec())
     }
 
-    /// The data of the reply, if it has arrived completely.
+    /// The data of the reply, once it has arrived completely.
     fn reply(&mut self, asked: &OutgoingRequest) -> Result<Option<Vec<u8>>, ActionError> {
         loop {
             if let Some(fault) = self.fault {
@@ -139,7 +143,7 @@ impl Connection {
                 return Err("a reply to another command".into());
             }
             if header.state_flags != StateFlags::RESPONSE && !self.has(ClientFault::AnyFlags) {
-                return Err("no response".into());
+                return Err("the frame is not a response".into());
             }
             if frame.data().is_empty() && self.has(ClientFault::DiesOfError) {
                 return Err(ActionError::Dies);

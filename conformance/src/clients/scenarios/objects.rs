@@ -9,7 +9,7 @@ use crate::clients::Scenario;
 use crate::clients::scenario::{ExpectedAnswer, ExpectedRequest, ReadLength, read, write};
 use crate::clients::script::ScenarioScript;
 
-/// Number of objects of channel 1 in the default model: its own, the platform's, three of each of
+/// Number of objects of channel 1 in the default model: its own, the platform's, three for each of
 /// three axes, and the program stream.
 const COUNT: u32 = 30;
 

@@ -1,5 +1,5 @@
-//! Printed examples in both directions, from the raw bytes of the vectors. No codec is involved in
-//! the comparison with the client's request, or in the reply.
+//! Printed examples in both directions, from the raw bytes of the vectors. The codec is used
+//! neither to compare the client's request nor to build the reply.
 
 use ads_cnc_vectors::{Direction, Service, Vector, vector};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use crate::clients::literal::Literal;
 use crate::clients::scenario::ExpectedRequest;
 use crate::judge::Rule;
 
-/// Action, expected result and vector of each example; the vector is its request or its reply.
+/// Action, expected result and vector of each example. The vector is the request or the reply.
 fn examples() -> Vec<(&'static str, Value, &'static str)> {
     let array = json!([123, 234, 345, 456, 567]);
     vec![
@@ -135,7 +135,7 @@ fn literal(example: &Vector) -> Option<Literal> {
 /// Examples that no action of the vocabulary covers.
 #[cfg(test)]
 const NOT_COVERED: &[&str] = &[
-    // The same description with the name in the other edition, and the other value of a BOOLEAN.
+    // The description with the name of the other edition, and the other value of a BOOLEAN.
     "description-printed-table-name",
     "content-printed-feedhold-0",
     // An object of COM inside a list.
@@ -149,16 +149,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_printed_example_is_gone_through() {
-        let told: Vec<&str> = examples().into_iter().map(|(.., id)| id).collect();
-        assert_eq!(scenarios().len(), told.len());
+    fn every_printed_example_has_a_scenario_or_is_listed() {
+        let covered: Vec<&str> = examples().into_iter().map(|(.., id)| id).collect();
+        assert_eq!(scenarios().len(), covered.len());
         for one in vectors() {
             let printed = one.provenance.kind == ProvenanceKind::Manual
                 && one.context.service.is_some()
                 && (one.direction == Direction::Reply
                     || one.context.service == Some(Service::Write));
             let id = one.id.as_str();
-            assert!(!printed || told.contains(&id) || NOT_COVERED.contains(&id), "{id}");
+            assert!(!printed || covered.contains(&id) || NOT_COVERED.contains(&id), "{id}");
         }
     }
 }

@@ -11,12 +11,12 @@ use crate::clients::scenario::ExpectedAnswer;
 use crate::clients::tamper::{LengthField, Tamper, WrongLength};
 use crate::judge::{Rule, assumed};
 
-/// An action while its replies are changed.
+/// An action whose replies are changed.
 struct ReactionScenario {
     id: &'static str,
     action: &'static str,
     function: Function,
-    /// The requirements of the service, of the data, and of its result.
+    /// The requirements of the service, of the data, and of the result.
     service: ClauseId,
     data: ClauseId,
     result: fn() -> Value,
@@ -56,7 +56,7 @@ impl ReactionScenario {
             .with(self.function, tamper)
     }
 
-    /// The reply is valid, but unusual.
+    /// A scenario with a valid, but unusual reply.
     fn valid_reply(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
         let scenario = self.scenario(id, what, tamper).by(ADS_5);
         match (self.result)() {
@@ -78,57 +78,70 @@ impl ReactionScenario {
 
 pub(super) fn scenarios() -> Vec<Scenario> {
     let mut all = Vec::new();
-    for told in [&NAME, &COUNT, &WRITE] {
-        all.extend(ways(told));
-        all.extend(lies(told));
-        all.extend(errors(told));
-        all.extend(ends(told));
+    for scenario in [&NAME, &COUNT, &WRITE] {
+        all.extend(sent_otherwise(scenario));
+        all.extend(wrong_lengths(scenario));
+        all.extend(errors(scenario));
+        all.extend(closed(scenario));
     }
-    for told in [&NAME, &COUNT] {
-        all.extend(amounts(told));
+    for scenario in [&NAME, &COUNT] {
+        all.extend(wrong_amounts(scenario));
     }
     all.extend(streams());
     all.extend(lists());
     all
 }
 
-fn ways(told: &ReactionScenario) -> Vec<Scenario> {
+fn sent_otherwise(scenario: &ReactionScenario) -> Vec<Scenario> {
     vec![
-        told.valid_reply("bytewise", "one byte at a time", Tamper::Bytewise),
-        told.valid_reply("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
-        told.valid_reply("pieces-data", "in two pieces, cut after the headers", Tamper::Pieces(39)),
-        // A client must not accept a reply without a request; whether it continues is not
+        scenario.valid_reply("bytewise", "one byte at a time", Tamper::Bytewise),
+        scenario.valid_reply(
+            "pieces-header",
+            "in two pieces, cut in the header",
+            Tamper::Pieces(20),
+        ),
+        scenario.valid_reply(
+            "pieces-data",
+            "in two pieces, cut after the headers",
+            Tamper::Pieces(39),
+        ),
+        // A client must not accept a reply to another request; whether it continues after one is not
         // specified.
         Scenario {
-            expect: match (told.result)() {
+            expect: match (scenario.result)() {
                 Value::Null => ExpectedAnswer::DoneOrError,
                 result => ExpectedAnswer::ResultOrError(result),
             },
-            ..told.valid_reply("foreign", "after a reply to another invoke ID", Tamper::Foreign)
+            ..scenario.valid_reply("foreign", "after a reply to another invoke ID", Tamper::Foreign)
         },
-        told.valid_reply("twice", "twice in one piece", Tamper::Twice),
-        told.invalid_reply("other-id", "to another invoke ID only", Tamper::OtherInvokeId, ADS_5),
-        told.invalid_reply(
+        scenario.valid_reply("twice", "twice in one piece", Tamper::Twice),
+        scenario.invalid_reply(
+            "other-id",
+            "to another invoke ID only",
+            Tamper::OtherInvokeId,
+            ADS_5,
+        ),
+        scenario.invalid_reply(
             "other-command",
             "as the reply to another command",
             Tamper::OtherCommand,
             ADS_5,
         ),
-        told.invalid_reply("request", "marked as a request", Tamper::Request, ADS_5),
+        scenario.invalid_reply("request", "marked as a request", Tamper::Request, ADS_5),
     ]
 }
 
-fn lies(told: &ReactionScenario) -> Vec<Scenario> {
+fn wrong_lengths(scenario: &ReactionScenario) -> Vec<Scenario> {
     let mut all = Vec::new();
     for (place, name, rule) in [
         (LengthField::AmsTcp, "AMS/TCP length", ADS_5),
         (LengthField::Ams, "AMS data length", ADS_5),
-        (LengthField::Data, "ADS data length", told.service),
+        (LengthField::Data, "ADS data length", scenario.service),
     ] {
-        if place == LengthField::Data && told.function == Function::WriteByName {
+        if place == LengthField::Data && scenario.function == Function::WriteByName {
             continue;
         }
-        for (lie, how) in [
+        for (length, how) in [
             (WrongLength::Longer, "one too large"),
             (WrongLength::Shorter, "one too small"),
             (WrongLength::Zero, "0"),
@@ -139,17 +152,17 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
                 LengthField::Ams => "ams-length",
                 LengthField::Data => "data-length",
             };
-            let lies = match lie {
+            let kind = match length {
                 WrongLength::Longer => "longer",
                 WrongLength::Shorter => "shorter",
                 WrongLength::Zero => "zero",
                 WrongLength::Huge => "huge",
             };
             let what = format!("the {name} is {how}");
-            all.push(told.invalid_reply(
-                &format!("{field}-{lies}"),
+            all.push(scenario.invalid_reply(
+                &format!("{field}-{kind}"),
                 &what,
-                Tamper::Length(place, lie),
+                Tamper::Length(place, length),
                 rule,
             ));
         }
@@ -157,29 +170,31 @@ fn lies(told: &ReactionScenario) -> Vec<Scenario> {
     all
 }
 
-fn errors(told: &ReactionScenario) -> Vec<Scenario> {
+fn errors(scenario: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        // That an AMS error has no payload is known from online help; how a client reports it is
-        // not specified.
-        told.invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, ADS_5)
+        // That an AMS error has no payload is documented online; how a client reports it is not
+        // specified.
+        scenario
+            .invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, ADS_5)
             .by(ADS_6),
-        told.invalid_reply(
-            "bare-result",
-            "an error as result without further fields",
-            Tamper::BareResult,
-            ADS_4,
-        )
-        .by(ADS_6),
+        scenario
+            .invalid_reply(
+                "bare-result",
+                "an error as result without further fields",
+                Tamper::BareResult,
+                ADS_4,
+            )
+            .by(ADS_6),
     ];
-    if told.function != Function::WriteByName {
+    if scenario.function != Function::WriteByName {
         all.extend([
-            told.invalid_reply(
+            scenario.invalid_reply(
                 "empty-result",
                 "an error as result with data length 0",
                 Tamper::EmptyResult,
                 ADS_4,
             ),
-            told.invalid_reply(
+            scenario.invalid_reply(
                 "result-data",
                 "an error as result with data",
                 Tamper::ResultWithData,
@@ -190,21 +205,32 @@ fn errors(told: &ReactionScenario) -> Vec<Scenario> {
     all
 }
 
-fn ends(told: &ReactionScenario) -> Vec<Scenario> {
+fn closed(scenario: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        told.invalid_reply("closed", "closed without a reply", Tamper::CutAt(0), ADS_5),
-        told.invalid_reply("closed-header", "closed within the headers", Tamper::CutAt(20), ADS_5),
-        told.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, ADS_5),
+        scenario.invalid_reply("closed", "closed without a reply", Tamper::CutAt(0), ADS_5),
+        scenario.invalid_reply(
+            "closed-header",
+            "closed within the headers",
+            Tamper::CutAt(20),
+            ADS_5,
+        ),
+        scenario.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, ADS_5),
     ];
     // Each of these scenarios takes the full timeout of the client.
-    if told.function == Function::ReadByName {
-        all.push(told.invalid_reply("silence", "no reply at all", Tamper::Silence, Rule::CLIENT));
+    if scenario.function == Function::ReadByName {
+        all.push(scenario.invalid_reply(
+            "silence",
+            "no reply at all",
+            Tamper::Silence,
+            Rule::CLIENT,
+        ));
     }
     all
 }
 
-fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
-    let wrong = |id: &str, what: &str, tamper| told.invalid_reply(id, what, tamper, told.data);
+fn wrong_amounts(scenario: &ReactionScenario) -> Vec<Scenario> {
+    let wrong =
+        |id: &str, what: &str, tamper| scenario.invalid_reply(id, what, tamper, scenario.data);
     vec![
         wrong("more", "four bytes too many", Tamper::More(4)),
         wrong("one-more", "one byte too many", Tamper::More(1)),
@@ -213,7 +239,7 @@ fn amounts(told: &ReactionScenario) -> Vec<Scenario> {
     ]
 }
 
-/// Streams that are too short, too long, or have values of a later version.
+/// Streams that are too short or too long, or have values of a later version.
 fn streams() -> Vec<Scenario> {
     let describe = |id: &str, what: &str, tamper| {
         let title = format!("describe 1 2 V.E: {what}");

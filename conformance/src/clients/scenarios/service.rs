@@ -40,7 +40,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     .gives("done")
     .ordered(RequestOrder::Caller, &[SVC_12, SVC_6, ADS_3, ADS_2]);
     ask.response = Some("done");
-    // The response to an earlier request; a client that does not wait reads it.
+    // The response to an earlier request, which a client that does not wait would read.
     ask.prepare = Some(|script| script.write_variable(ServiceVariable::Response, b"stale"));
     vec![
         host("own", "The client answers a request to its service", 5.0, |script| {

@@ -30,7 +30,7 @@ fn refused(id: &str, title: &str, text: &[u8], rule: ClauseId) -> Scenario {
     scenario
 }
 
-/// Lines of all lengths, so that the end of a packet is never the end of a line by chance.
+/// Lines of various lengths, so that the end of a packet is not the end of a line by chance.
 fn lines(count: usize, end: &str) -> Vec<u8> {
     let line = |number: usize| {
         let block = number * 10;

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::clients::Scenario;
 use crate::clients::scenario::{ExpectedRequest, both, read, write};
 
-/// Index group of the decoder of channel 1, which has the variables.
+/// Index group of the decoder of channel 1, which serves the variables.
 const GROUP: u32 = 0x12_2301;
 
 fn named(offset: u32, name: &[u8], least: u32) -> ExpectedRequest {
@@ -247,7 +247,8 @@ fn by_name() -> Vec<Scenario> {
     ]
 }
 
-/// A scenario that writes a text: with NUL, padded or without; no manual specifies which.
+/// A scenario that writes a text with a NUL, padded, or without a NUL; the manuals do not specify
+/// which.
 fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let front = [name.as_bytes(), b"\0", bytes].concat();
     let with = |zeros: usize| {

@@ -7,7 +7,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, LOGICAL, class, com_group, group, is, offset, row};
 
-/// Whether the low byte of the group is a channel.
+/// Whether the low byte of the index group is a channel.
 fn of_channel(call: &Call<'_>) -> bool {
     match (class(call), com_group(call)) {
         (Some(class), _) => class.class != Class::Spindle && class.instance != 0,

@@ -5,14 +5,14 @@ use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, ReplyData, Upstream, function, group, of_decoder, offset, row};
 
-/// The function of the axis interface, and the axis, if the call is one.
+/// The function of the axis interface that a call addresses, and the axis; `None` for other calls.
 fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
     let offset = of_decoder(call)?;
     let (axis, function) = (offset >> 16, offset & 0xFFFF);
     (axis > 0 && (4..=9).contains(&function)).then_some((axis, function))
 }
 
-/// Calls the same function of another axis.
+/// Calls the same function for another axis.
 fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u32) -> ReplyData {
     match of_axis(call) {
         Some((axis, function)) => cnc.at(call, group(call), other(axis) << 16 | function),

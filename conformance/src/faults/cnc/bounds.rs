@@ -1,4 +1,4 @@
-//! Limits: first and last index, maximum length, one beyond the limit.
+//! Limits: first and last index, maximum length, and one after the limit.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
@@ -119,9 +119,9 @@ pub(super) const ROWS: &[CncSeed] = &[
         "the interface holds 4093 bytes: the write that would fill it is rejected for now",
         STREAM, |cnc, call| {
             let channel = u8::try_from(instance(call)).unwrap_or_default();
-            let held =
+            let buffered =
                 cnc.cnc.with_program(channel, |program| program.buffered()).unwrap_or_default();
-            if held.saturating_add(call.data.len()) == 4094 {
+            if buffered.saturating_add(call.data.len()) == 4094 {
                 Err(AdsError::INVALID_DATA)
             } else {
                 cnc.answer(call)

@@ -15,7 +15,7 @@ pub(in crate::faults) fn set_u32(bytes: &mut [u8], place: usize, number: u32) {
     }
 }
 
-/// The answer with the UNS32 at an offset changed.
+/// The reply with the UNS32 at an offset changed.
 pub(in crate::faults) fn number(
     answer: ReplyData,
     place: usize,

@@ -10,7 +10,7 @@ use super::{
     row, u32_at,
 };
 
-/// Changes each descriptor of the answer.
+/// Changes each descriptor in the reply.
 fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> ReplyData {
     let mut answer = cnc.answer(call)?;
     if is(call, &[Function::ReadDescriptors]) {
@@ -19,7 +19,7 @@ fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> ReplyD
     Ok(answer)
 }
 
-/// Changes the list of descriptors of the answer.
+/// Changes the list of descriptors in the reply.
 fn list(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut Vec<[u8; 84]>)) -> ReplyData {
     let answer = cnc.answer(call)?;
     if !is(call, &[Function::ReadDescriptors]) {

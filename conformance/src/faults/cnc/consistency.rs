@@ -1,4 +1,4 @@
-//! Answers that contradict each other (SDA, DYN).
+//! Replies that contradict each other (SDA, DYN).
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{Call, Function};
@@ -32,7 +32,7 @@ fn with_number(
     }
 }
 
-/// Finds no instance of a class beyond an axis.
+/// Finds no instance of a class after an axis.
 fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
     if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
         cnc.answer(call).map(|_| vec![0; 8])
@@ -41,7 +41,7 @@ fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyDat
     }
 }
 
-/// Repeats the first answer to a request forever.
+/// Repeats the first reply to a request forever.
 fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
@@ -56,7 +56,7 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     Ok(bytes)
 }
 
-/// Writes to another address too, if its content has the same length.
+/// Also writes to another address, if its content has the same length.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
     let done = cnc.answer(call);
     if done.is_ok() {

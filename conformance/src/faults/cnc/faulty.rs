@@ -17,21 +17,21 @@ use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// A CNC, optionally with a defect.
 ///
-/// A defect of a field changes the streams of requests before the CNC decodes them, and the streams
-/// of its replies.
+/// A field defect changes the streams of requests before the CNC decodes them, and the streams of its
+/// replies.
 #[derive(Debug)]
 pub struct Faulty {
     cnc: Arc<Cnc>,
     how: Option<How>,
-    /// The defects of fields.
+    /// The field defects.
     fields: Vec<FieldDefect>,
     memory: Mutex<Memory>,
-    /// Whether a defect of a field has changed any byte.
+    /// Whether a field defect has changed any byte.
     shown: AtomicBool,
 }
 
 impl Faulty {
-    /// A CNC in its initial state, with this defect.
+    /// Creates a CNC in its initial state, with this defect.
     pub fn new(cnc: Cnc, seed: Option<&Seed>) -> Self {
         let how = seed.map(|seed| seed.how.clone());
         let cnc = match &how {
@@ -52,7 +52,7 @@ impl Faulty {
         Self { cnc, how, fields, memory, shown }
     }
 
-    /// A CNC with several defects of fields.
+    /// Creates a CNC with several field defects.
     pub fn with_fields(cnc: Cnc, fields: Vec<FieldDefect>) -> Self {
         Self { fields, ..Self::new(cnc, None) }
     }
@@ -62,7 +62,7 @@ impl Faulty {
         &self.cnc
     }
 
-    /// Whether the defect has changed a byte: a change to the value that a field already has is not
+    /// Whether the defect has changed a byte. A change to the value that a field already has is not
     /// detectable.
     pub(crate) fn has_shown(&self) -> bool {
         self.fields.is_empty() || self.shown.load(Ordering::Relaxed)
@@ -72,7 +72,7 @@ impl Faulty {
         Upstream { cnc: &self.cnc, memory: &self.memory }
     }
 
-    /// The bytes of a stream with the defect, if it changes any.
+    /// The bytes of a stream with the defect; `None` if it does not change them.
     fn change(&self, stream: Option<Stream>, bytes: &[u8]) -> Option<Vec<u8>> {
         let stream = stream?;
         let mut changed = None;

@@ -41,7 +41,7 @@ pub(super) fn set(mut bytes: Vec<u8>, place: usize, new: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// The result of a reply.
+/// The result field of a reply.
 pub(super) fn result(bytes: &[u8]) -> u32 {
     u32_at(bytes, RESULT).unwrap_or_default()
 }

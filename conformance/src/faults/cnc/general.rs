@@ -26,7 +26,7 @@ const fn reply(spec: &FunctionSpec) -> &'static [FieldSpec] {
     }
 }
 
-/// Changes the texts of replies, and back the names of requests.
+/// Changes the texts in replies, and changes the names in requests back.
 fn texts(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

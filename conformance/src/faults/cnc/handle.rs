@@ -114,8 +114,7 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-of-axis", &[VAR_10],
         "the handle of an axis variable belongs to the axis, not to its place",
         |cnc, call| {
-            // The axis number shows the place of an axis; handles have the place in their third
-            // byte.
+            // The axis number shows the axis place; handles have the place in their third byte.
             let axis = |place: u32| {
                 let number = cnc.read(AmsPort::COM, 0x12_0101, place << 16 | 3);
                 number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)

@@ -30,7 +30,7 @@ fn with_instance(
     cnc.with(call, &data)
 }
 
-/// Answers (0, 0) where the condition holds.
+/// Returns (0, 0) if the condition holds.
 fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     let numbers = (u32_at(call.data, 0), u32_at(call.data, 4));
     match (is(call, FIND), numbers) {

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Service};
 
 use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
 
-/// The channel, axis or spindle of the group.
+/// The channel, axis or spindle number in the index group.
 pub(super) const fn instance(call: &Call<'_>) -> u32 {
     group(call) & 0xFF
 }
@@ -15,7 +15,7 @@ pub(super) const fn one(number: u32) -> Key {
     (number, 0, Vec::new())
 }
 
-/// A text without NUL written over another one.
+/// A text without NUL that overwrites the start of another one.
 pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
     [new, old.get(new.len()..).unwrap_or_default()].concat()
 }

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::edition::Edition;
 
-/// A row that is detectable in the German edition only.
+/// A row whose defect is detectable in the German edition only.
 const fn german(mut row: CncSeed) -> CncSeed {
     row.edition = Some(Edition::German);
     row

@@ -11,7 +11,7 @@ use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, records_mut, row
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
 
-/// The key of an address in any addressing.
+/// A key of an address that is the same for logical addressing and addressing by rank.
 fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
     (group(call) | LOGICAL, offset(call), Vec::new())
 }

@@ -1,4 +1,4 @@
-//! Mistakes a channel, axis, kind or index for the next one.
+//! Uses the next channel, axis, kind or index instead of the requested one.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -15,7 +15,7 @@ const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 const WRITE: &[Function] = &[Function::WriteElement];
 
-/// A text field of a descriptor that keeps the rest of the previous, longer text.
+/// A text field of a descriptor that keeps the end of the previous, longer text.
 fn run_on(records: &mut [[u8; 84]], field: usize) {
     let mut before: Vec<u8> = Vec::new();
     for record in records {

@@ -1,4 +1,4 @@
-//! Defects of one type or one way of access: all others are answered correctly.
+//! Defects of one type or one way of access; all other requests are answered correctly.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -27,8 +27,7 @@ fn rounded(value: [u8; 8]) -> [u8; 8] {
     (bits & !((1 << 29) - 1)).to_le_bytes()
 }
 
-/// Writes to platform axes through a channel's HLD and through the HLD without channel are
-/// independent.
+/// Separates the values of platform axes in a channel's HLD from those in the HLD without a channel.
 fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let key = (0x3301, offset(call), Vec::new());
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {

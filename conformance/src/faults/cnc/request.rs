@@ -83,7 +83,7 @@ pub(in crate::faults) fn is(call: &Call<'_>, functions: &[Function]) -> bool {
     function(call).is_some_and(|function| functions.contains(&function))
 }
 
-/// The class group, if it is one of SDA and GEO.
+/// The class group; `None` if the group is not one of SDA and GEO.
 pub(in crate::faults) fn class(call: &Call<'_>) -> Option<ClassGroup> {
     match call.index_group.parts() {
         Some(Group::Class(class)) => Some(class),
@@ -91,7 +91,7 @@ pub(in crate::faults) fn class(call: &Call<'_>) -> Option<ClassGroup> {
     }
 }
 
-/// The group of COM, if it is one.
+/// The group of COM; `None` if it is not one.
 pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     match call.index_group.parts() {
         Some(Group::Com(com)) => Some(com),
@@ -105,14 +105,14 @@ pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }
 
-/// Whether a call addresses the decoder of any channel, in any addressing, at the offset of one of these
-/// functions.
+/// Whether a call addresses the decoder of any channel, in any addressing, at the offset of one of
+/// these functions.
 pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool {
     let mut offsets = functions.iter().map(|function| function.spec().offset);
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))
 }
 
-/// Whether a call looks up a name: a ReadWrite at the offset of a function that takes one.
+/// Whether a call looks up a name: a ReadWrite at the offset of a function whose request has a name.
 pub(in crate::faults) fn is_lookup(call: &Call<'_>) -> bool {
     is_at(call, NAMED) && call.service == Service::ReadWrite
 }

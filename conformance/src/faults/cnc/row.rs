@@ -12,13 +12,13 @@ use crate::simulator::program::Policy;
 /// How a defect or valid variant of a CNC works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CncFault {
-    /// Handles each request.
+    /// Handles every request.
     Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Handles each request for one of these functions.
+    /// Handles every request for one of these functions.
     Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Changes the frame of each reply.
+    /// Changes the frame of every reply.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
-    /// Frames are sent in pieces of at most this size.
+    /// Sends frames in pieces of at most this size.
     Pieces(usize),
     /// Changes the execution of NC programs.
     Program(Policy),
@@ -32,9 +32,9 @@ pub(in crate::faults) struct CncSeed {
     pub(in crate::faults) breaks: &'static [ClauseId],
     pub(in crate::faults) what: &'static str,
     pub(in crate::faults) fault: CncFault,
-    /// The only edition in which it is detectable; `None` for both.
+    /// The only edition in which the defect is detectable; `None` for both.
     pub(in crate::faults) edition: Option<Edition>,
-    /// Whether the printed examples that it concerns are still answered literally.
+    /// Whether the printed examples that the defect concerns are still answered literally.
     pub(in crate::faults) printed: bool,
 }
 

@@ -21,7 +21,7 @@ const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 /// Size of the table of handles.
 const SLOTS: u32 = 16;
 
-/// Handles by name share a table that is too short; the oldest is replaced.
+/// Handles requested by name share a table that is too short; the oldest one is replaced.
 fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
     match function(call) {

@@ -14,7 +14,7 @@ use crate::simulator::program::{
 
 const RIGHT: Policy = Policy::DEFAULT;
 
-/// Bytes of the streaming interface that is too small.
+/// Size in bytes of the streaming interface that is too small.
 const SMALL_BUFFER_LEN: usize = 2048;
 
 /// A streaming interface of half the size.
@@ -46,7 +46,7 @@ impl Buffer for SmallBuffer {
 /// A streaming interface that stores the boundaries of writes.
 #[derive(Debug)]
 struct PacketBuffer {
-    held: Vec<Vec<u8>>,
+    stored: Vec<Vec<u8>>,
     room: usize,
     /// Takes lines from the packets.
     take: Take,
@@ -57,63 +57,63 @@ type Take = fn(&mut Vec<Vec<u8>>, Result<(), LineError>) -> Taken;
 
 impl PacketBuffer {
     fn of(room: usize, take: Take) -> Box<dyn Buffer> {
-        Box::new(Self { held: Vec::new(), room, take })
+        Box::new(Self { stored: Vec::new(), room, take })
     }
 
-    fn all(held: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
-        let all = std::mem::take(held).concat();
+    fn all(stored: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
+        let all = std::mem::take(stored).concat();
         ends.map(|()| all)
     }
 
-    fn first(held: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
+    fn first(stored: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
         match ends {
-            Ok(()) => Ok(held.drain(..1.min(held.len())).flatten().collect()),
+            Ok(()) => Ok(stored.drain(..1.min(stored.len())).flatten().collect()),
             Err(error) => {
-                held.clear();
+                stored.clear();
                 Err(error)
             }
         }
     }
 
-    fn reversed(held: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
-        held.reverse();
-        Self::all(held, ends)
+    fn reversed(stored: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
+        stored.reverse();
+        Self::all(stored, ends)
     }
 
-    fn whole_lines(held: &mut Vec<Vec<u8>>, _: Result<(), LineError>) -> Taken {
-        let all = std::mem::take(held).concat();
+    fn whole_lines(stored: &mut Vec<Vec<u8>>, _: Result<(), LineError>) -> Taken {
+        let all = std::mem::take(stored).concat();
         Ok(lines(&all).filter(|line| line.ends_with(b"\r\n")).flatten().copied().collect())
     }
 }
 
 impl Buffer for PacketBuffer {
     fn write(&mut self, data: &[u8]) -> Ack {
-        // Writes of an invalid length are rejected as by the right CNC.
+        // Writes of an invalid length are rejected, as by the correct CNC.
         if StreamingInterface::new().write(data) == Ack::Rejected {
             return Ack::Rejected;
         }
         if self.len().saturating_add(data.len()) > self.room {
             return Ack::Busy;
         }
-        self.held.push(data.to_vec());
+        self.stored.push(data.to_vec());
         Ack::Accepted
     }
 
     fn read(&mut self) -> Taken {
-        let ends = check_line_ends(&self.held.concat());
-        (self.take)(&mut self.held, ends)
+        let ends = check_line_ends(&self.stored.concat());
+        (self.take)(&mut self.stored, ends)
     }
 
     fn len(&self) -> usize {
-        self.held.iter().map(Vec::len).sum()
+        self.stored.iter().map(Vec::len).sum()
     }
 
     fn clear(&mut self) {
-        self.held.clear();
+        self.stored.clear();
     }
 }
 
-/// The lines, checked without the overlooked findings.
+/// The lines, checked without the findings that the defect overlooks.
 fn overlooking(
     checker: &mut Checker,
     read: &[u8],
@@ -183,7 +183,7 @@ fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ProgramSegment::with_findings(read, number, found)
 }
 
-/// Ends the program at these lines too.
+/// Also ends the program at these lines.
 fn ended_by(
     checker: &mut Checker,
     read: &[u8],

@@ -15,7 +15,7 @@ fn stream(call: &Call<'_>) -> bool {
         && call.service == ads_cnc::operation::Service::Write
 }
 
-/// Changes the data of the write.
+/// Changes the data of a write.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> ReplyData {
     if stream(call) { cnc.with(call, &other(call.data)) } else { cnc.answer(call) }
 }

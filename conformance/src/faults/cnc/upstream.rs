@@ -22,7 +22,8 @@ pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 /// The memory of a defect between requests.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
-    /// A number that the defect keeps: requests counted, or a handle or invoke ID of an earlier one.
+    /// A number that the defect keeps: a count of requests, or a handle or invoke ID of an earlier
+    /// request.
     pub(in crate::faults) count: u32,
     /// Bytes by address and name.
     stored: Vec<(Key, Vec<u8>)>,
@@ -58,27 +59,27 @@ impl Memory {
 }
 
 impl Upstream<'_> {
-    /// The right answer.
+    /// The correct reply.
     pub(in crate::faults) fn answer(&self, call: &Call<'_>) -> ReplyData {
         self.cnc.answer(call)
     }
 
-    /// The right answer at another address.
+    /// The correct reply for another address.
     pub(in crate::faults) fn at(&self, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
         self.answer(&at(call, group, offset))
     }
 
-    /// The right answer to other data.
+    /// The correct reply to other data.
     pub(in crate::faults) fn with(&self, call: &Call<'_>, data: &[u8]) -> ReplyData {
         self.answer(&Call { data, ..*call })
     }
 
-    /// The right answer, not limited by the requested length.
+    /// The correct reply, not limited by the requested length.
     pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> ReplyData {
         self.answer(&Call { read_length: u32::MAX, ..*call })
     }
 
-    /// The right answer of SDA to a ReadWrite with this data.
+    /// The correct reply of SDA to a ReadWrite with this data.
     pub(in crate::faults) fn ask(&self, group: u32, offset: u32, data: &[u8]) -> ReplyData {
         self.answer(&Call {
             port: AmsPort::SDA,
@@ -90,7 +91,7 @@ impl Upstream<'_> {
         })
     }
 
-    /// The right answer of this task to a Read.
+    /// The correct reply of this task to a Read.
     pub(in crate::faults) fn read(&self, port: AmsPort, group: u32, offset: u32) -> ReplyData {
         self.answer(&Call {
             port,
@@ -102,7 +103,7 @@ impl Upstream<'_> {
         })
     }
 
-    /// The right answer to a delayed request.
+    /// The correct reply to a delayed request.
     pub(in crate::faults) fn late(&self, later: &DelayedRequest) -> ReplyData {
         self.answer(&Call {
             port: later.port,
@@ -119,13 +120,13 @@ impl Upstream<'_> {
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The numbers of its channels.
+    /// The numbers of the CNC's channels.
     pub(in crate::faults) fn channels(&self) -> Vec<u8> {
         self.cnc.model().channels().collect()
     }
 }
 
-/// A copy of the request.
+/// A delayed copy of the request.
 pub(in crate::faults) fn later(call: &Call<'_>) -> DelayedRequest {
     DelayedRequest {
         port: call.port,
@@ -136,14 +137,14 @@ pub(in crate::faults) fn later(call: &Call<'_>) -> DelayedRequest {
     }
 }
 
-/// Delays the write until the next one, and executes the delayed one.
+/// Delays a write until the next one, and executes the write delayed before.
 pub(in crate::faults) fn delay_write(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())
 }
 
-/// The answer truncated to the requested length.
+/// The reply, truncated to the requested length.
 pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
         if u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
@@ -154,7 +155,7 @@ pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> Re
     })
 }
 
-/// Changes the reply of these functions.
+/// Changes the replies of these functions.
 pub(in crate::faults) fn reply(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -164,7 +165,7 @@ pub(in crate::faults) fn reply(
     if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }
 
-/// The unpadded answer if the padded one exceeds the requested length.
+/// The unpadded reply if the padded one exceeds the requested length.
 pub(in crate::faults) fn or_short(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -40,7 +40,7 @@ pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
     name
 }
 
-/// The answer truncated after the first element of the variable.
+/// The reply, truncated after the first element of the variable.
 pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
     cnc.answer(call).map(|mut bytes| {

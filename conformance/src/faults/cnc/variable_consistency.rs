@@ -1,4 +1,4 @@
-//! Functions of one variable that contradict each other (VAR).
+//! Functions that return contradictory data about one variable (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};

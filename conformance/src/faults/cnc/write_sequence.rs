@@ -18,7 +18,7 @@ const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
 const RESPONSE: &str = ServiceVariable::RESPONSE;
 const REQUEST: &str = ServiceVariable::REQUEST;
 
-/// Whether a call of a function by handle has the handle of this variable.
+/// Whether a call by handle has the handle of this variable.
 fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
     is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
 }

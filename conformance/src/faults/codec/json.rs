@@ -1,4 +1,4 @@
-//! Changes values in JSON.
+//! Changes to values in JSON.
 
 use ads_cnc::text::cp1252_to_char;
 use serde_json::{Map, Value as Json};
@@ -20,7 +20,7 @@ pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Jso
     }
 }
 
-/// Changes every text, as bytes.
+/// Changes every text, given as bytes.
 pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
     each(value, &mut |one| {
         if one.get("type").and_then(Json::as_str) == Some("STRING")

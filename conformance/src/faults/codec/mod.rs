@@ -1,4 +1,4 @@
-//! Defects of a codec, as middleware around the right answers to the testee protocol.
+//! Defects of a codec, as middleware around the correct answers in the testee protocol.
 
 mod address;
 mod json;
@@ -57,7 +57,7 @@ fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     vectors
 }
 
-/// A missing check for each class and stream that has a vector.
+/// A missing check for each error class and stream that has a vector.
 fn forgotten_checks() -> Vec<Seed> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -67,7 +67,8 @@ fn forgotten_checks() -> Vec<Seed> {
     }
     let each = |((stream, class), those): ((&'static str, &'static str), Vec<&'static Vector>)| {
         let those = strongest(those);
-        // The classes of vectors are advisory: the defect ignores the class of this codec's error.
+        // The classes of vectors are advisory: the defect ignores errors of the class that this
+        // codec returns.
         let refusal = |vector: &&'static Vector| match codec::decode_stream(
             stream,
             &vector.context,

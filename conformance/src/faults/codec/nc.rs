@@ -11,7 +11,8 @@ pub(super) fn lines(text: &[u8], other: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     text.split_inclusive(|byte| *byte == b'\n').flat_map(other).collect()
 }
 
-/// The text with every occurrence of a word replaced by one of the same length, in any case.
+/// The text with every occurrence of a word, whatever its case, replaced by a word of the same
+/// length.
 fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
     let mut text = text.to_vec();
     let is_word = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_alphanumeric);
@@ -32,7 +33,7 @@ fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
     text.iter().map(|byte| if of.contains(byte) { other } else { *byte }).collect()
 }
 
-/// Rejects NC text that contains this word, in any case.
+/// Rejects NC text that contains this word, whatever its case.
 fn refuses(right: RightAnswer<'_>, question: &Question, word: &[u8], clause: ClauseId) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();

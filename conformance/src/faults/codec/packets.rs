@@ -5,7 +5,7 @@ use ads_cnc_vectors::ids::*;
 use super::nc::{accepts, lines};
 use super::row::{CodecFault, CodecSeed, refused, row};
 
-/// Packets of whole lines with at most this many bytes.
+/// Packets of whole lines, each with at most this many bytes.
 fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
     let mut all: Vec<Vec<u8>> = Vec::new();
     let text = packets.concat();

@@ -1,4 +1,4 @@
-//! A row of the tables of defects of a codec, and how a codec has each.
+//! A row of the tables of defects of a codec, and how the defect is applied.
 
 use ads_cnc::layout::{FieldSpec, Stream, Type};
 use ads_cnc_vectors::ClauseId;
@@ -95,7 +95,7 @@ impl CodecFault {
     }
 }
 
-/// The answer that accepts anything.
+/// An answer that accepts any input.
 pub(super) fn accepted() -> Answer {
     let value = Some(Json::Object(serde_json::Map::default()));
     Answer::Ok(Output { value, ..Output::default() })

@@ -9,7 +9,7 @@ use super::row::{CodecFault, CodecSeed, row};
 const NAMES: [&str; 4] =
     ["variable-kind", "variable-index-kind", "variable-name", "dynamic-name-request"];
 
-/// The bytes of a stream of names, with the last one changed if it is a NUL.
+/// The bytes of a stream of names, with the last byte changed if it is a NUL.
 fn nul(stream: &str, of: &str, mut bytes: Vec<u8>) -> Vec<u8> {
     if stream == of && bytes.len() > 1 && bytes.last() == Some(&0) {
         bytes.pop();

@@ -1,4 +1,4 @@
-//! Other answers than the right one: to a request with another argument, or changed.
+//! Wrong replies: that to a request with another argument, or a changed one.
 
 use ads_cnc::address::{Class, IndexOffset};
 use ads_cnc::operation::{Call, Function, OffsetRule, Service};
@@ -17,7 +17,8 @@ pub(super) enum Argument {
     Index,
 }
 
-/// The answer to the request with another number for an argument; `None` if it has none, or the same.
+/// The reply to the request with another value of an argument; `None` without the argument or a
+/// change.
 pub(super) fn asked(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -69,8 +70,8 @@ pub(super) fn asked(
     }
 }
 
-/// The answer to the request with another number for an argument, if the CNC knows the right one and the
-/// other one.
+/// The reply to the request with another value of an argument, if the CNC accepts both the request
+/// and the changed one.
 pub(super) fn mistaken(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -83,7 +84,7 @@ pub(super) fn mistaken(
     asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
 }
 
-/// The answer to the request with another number for an argument if the CNC rejects the right one.
+/// The reply to the request with another value of an argument, if the CNC rejects the request itself.
 pub(super) fn instead(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -93,13 +94,13 @@ pub(super) fn instead(
     cnc.answer(call).or_else(|error| asked(cnc, call, argument, other).unwrap_or(Err(error)))
 }
 
-/// The least index of the function.
+/// The lowest index of the function.
 pub(super) fn least(call: &Call<'_>) -> u32 {
-    // Only those of variables are counted from 0 (VAR-2, VAR-20).
+    // Only the indices of variables are counted from 0 (VAR-2, VAR-20).
     u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
 }
 
-/// The right reply, changed.
+/// The correct reply, changed.
 pub(super) fn changed(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -110,7 +111,7 @@ pub(super) fn changed(
     Ok(bytes)
 }
 
-/// Where the value begins that a write carries.
+/// The offset of the value in a write.
 pub(super) fn value_at(call: &Call<'_>) -> usize {
     let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
         b"name" => after_nul(call.data),
@@ -120,7 +121,8 @@ pub(super) fn value_at(call: &Call<'_>) -> usize {
     call.data.len().saturating_sub(value.len())
 }
 
-/// Executes a write, and another one of what `other` makes of the new and the old value.
+/// Executes a write, and then another one of the value that `other` returns for the new and the old
+/// value.
 pub(super) fn rewritten(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -139,12 +141,12 @@ pub(super) fn rewritten(
     Ok(done)
 }
 
-/// The answer that the defect remembers.
+/// The key under which the defect stores a reply.
 pub(super) fn kept() -> (u32, u32, Vec<u8>) {
     (0, 0, b"kept".to_vec())
 }
 
-/// The answer for the first kind.
+/// The reply for the first kind.
 pub(super) fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     match function(call).map(|function| (function.spec().offset, first(function.spec().request))) {
         Some((OffsetRule::OfKind([least, ..]), _)) => cnc.at(call, group(call), least),

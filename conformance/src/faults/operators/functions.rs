@@ -1,4 +1,4 @@
-//! Which functions can have a defect.
+//! Which functions can have a certain defect.
 
 use ads_cnc::address::Attribute;
 use ads_cnc::layout::Type;
@@ -15,35 +15,37 @@ pub(super) fn has_fields(spec: &FunctionSpec) -> bool {
     spec.reply.is_some_and(|reply| reply.layout().fields.len() > 1)
 }
 
-/// Whether the end of the reply is not that of a text, which may have a NUL or none.
+/// Whether the reply does not end with a text, which may have a NUL or none.
 pub(super) fn has_end(spec: &FunctionSpec) -> bool {
     let last = spec.reply.and_then(|reply| reply.layout().fields.last());
     last.is_some_and(|field| field.ty != Type::String)
 }
 
-/// Whether it asks a channel, which may be addressed by its rank.
+/// Whether the request addresses a channel, which can also be addressed by its rank.
 pub(super) fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
-/// Whether a channel with another rank than number has it: no such channel of the default model has
-/// parameters.
+/// Whether a channel whose rank differs from its number supports the function: no such channel of the
+/// default model has parameters.
 pub(super) fn differs_by_rank(spec: &FunctionSpec) -> bool {
     has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
 }
 
-/// Whether channels give different answers: handles and extended descriptions are the same in each.
+/// Whether the reply depends on the channel: handles and extended descriptions are the same in all
+/// channels.
 pub(super) fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
 }
 
-/// Whether each instance has the same: the number of elements, and their types, lengths, units and flags.
+/// Whether the reply is the same for every instance: the number of elements, and their types,
+/// lengths, units and flags.
 pub(super) fn is_alike(spec: &FunctionSpec) -> bool {
     matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
         && !spec.is_content()
 }
 
-/// Whether it has an error for what does not exist.
+/// Whether the function returns an error for an item that does not exist.
 pub(super) fn has_unknown(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && !is_alike(spec)
 }
@@ -64,7 +66,7 @@ pub(super) fn has_kind(spec: &FunctionSpec) -> bool {
     matches!(spec.offset, OffsetRule::OfKind(_)) || is_of_kind(spec)
 }
 
-/// Whether the request ends in a kind of variables.
+/// Whether the request ends with a kind of variables.
 pub(super) fn is_of_kind(spec: &FunctionSpec) -> bool {
     let fields = spec.request.map_or(&[][..], |request| request.layout().fields);
     fields.last().is_some_and(|field| field.name == "kind")
@@ -76,7 +78,7 @@ pub(super) fn is_attribute(spec: &FunctionSpec) -> bool {
         && !matches!(spec.offset, OffsetRule::FirstElement)
 }
 
-/// Whether it writes a value that can be read.
+/// Whether the function writes a value that can be read.
 pub(super) fn writes(spec: &FunctionSpec) -> bool {
     spec.effect != Effect::Query
 }

@@ -21,7 +21,7 @@ fn of_kind(kinds: &[SeedKind]) -> impl Iterator<Item = &'static Seed> {
 }
 
 #[test]
-fn ids_differ_and_sentences_say_something() {
+fn ids_are_unique_and_descriptions_not_empty() {
     let ids: BTreeSet<&str> = all().iter().map(|seed| seed.id.as_str()).collect();
     assert_eq!(ids.len(), all().len());
     for seed in all() {
@@ -36,9 +36,9 @@ fn ids_differ_and_sentences_say_something() {
     }
 }
 
-/// A defect that changes no answer is not a defect.
+/// A defect that changes no reply is not a defect.
 #[test]
-fn every_defect_of_a_cnc_shows() {
+fn every_defect_of_a_cnc_is_detectable() {
     let seeds: Vec<&Seed> = of_kind(&[SeedKind::Cnc, SeedKind::Different]).collect();
     let hidden = std::thread::scope(|scope| {
         let parts = seeds.chunks(seeds.len().div_ceil(4));
@@ -49,7 +49,7 @@ fn every_defect_of_a_cnc_shows() {
     assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
 }
 
-/// The IDs of those that change no answer of the transcript.
+/// The IDs of the defects that change no reply of the transcript.
 fn hidden(seeds: &[&'static Seed]) -> Vec<&'static str> {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
@@ -79,7 +79,7 @@ fn questions() -> Vec<Question> {
 }
 
 #[test]
-fn every_defect_of_a_codec_shows() {
+fn every_defect_of_a_codec_is_detectable() {
     let questions = questions();
     let right: Vec<Answer> =
         questions.iter().map(|one| CodecTestee::default().answer(one)).collect();
@@ -93,9 +93,9 @@ fn every_defect_of_a_codec_shows() {
     assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
 }
 
-/// A must without a defect has a reason, and no must has both.
+/// A requirement of level must has either a defect or a reason to have none.
 #[test]
-fn every_must_can_be_broken() {
+fn every_must_has_a_defect_or_a_reason() {
     let clients = clients::defects().iter().map(|defect| defect.requirement);
     let targets: BTreeSet<&str> =
         all().iter().flat_map(|seed| seed.requirements.iter().copied()).chain(clients).collect();

@@ -1,4 +1,4 @@
-//! A sequence of requests that distinguishes a CNC from another one.
+//! A sequence of requests that distinguishes two CNCs.
 
 mod sequences;
 mod writes;

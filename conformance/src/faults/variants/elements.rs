@@ -43,7 +43,7 @@ fn empty_place(call: &Call<'_>) -> bool {
     })
 }
 
-/// Changes the stride of classes without a printed one.
+/// Changes the stride of the classes for which none is printed.
 fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let of = |at: Class| {
         matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)

@@ -1,4 +1,4 @@
-//! Valid variants of rejecting, delaying and terminating replies.
+//! Valid variants of rejections, delays and the ends of replies.
 
 use std::thread;
 use std::time::Duration;
@@ -80,7 +80,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         })),
     unprinted(row("different.texts-end", &[], "the value of a STRING ends after its NUL", |cnc, call| {
-        // In either addressing, handles are known from the reply that returned them.
+        // Handles are known from the reply that returned them, in either addressing.
         let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
         let is_text =
             |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));

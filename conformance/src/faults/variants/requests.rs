@@ -1,4 +1,4 @@
-//! Valid variants that accept requests no client should send, or lack optional functions: the
+//! Valid variants that accept requests which no client should send, or lack optional functions: the
 //! manuals do not specify which requests are rejected.
 
 use ads_cnc::ads::AdsError;

@@ -4,7 +4,7 @@ use ads_cnc::ads::FrameRef;
 
 use crate::faults::cnc::{CncFault, CncSeed, Upstream, fault};
 
-/// A row whose printed examples are answered otherwise.
+/// A row whose printed examples are answered differently.
 pub(super) const fn unprinted(mut row: CncSeed) -> CncSeed {
     row.printed = false;
     row
@@ -18,7 +18,7 @@ pub(super) const fn sent(
     fault(id, &[], what, CncFault::Frame(frame))
 }
 
-/// The text of a model, with the names of the instances of classes without elements at its end.
+/// The text of a model that ends with the names of the instances of classes without elements.
 macro_rules! with_names {
     ($model:literal) => {
         concat!(

@@ -11,7 +11,7 @@ use crate::faults::cnc::{
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 
-/// Replaces the name of the request by the listed one that differs in case only.
+/// Replaces the name in the request by the listed name that differs in case only.
 fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let answer = cnc.answer(call);
     if !is(call, NAMED) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
@@ -36,7 +36,7 @@ fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// The size of the value if a STRING is written, except one of the Service Interface.
+/// The size of the value if a STRING other than those of the Service Interface is written.
 fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     if !is(call, &[Function::WriteByName]) || call.data.starts_with(b"V.G.SERVICE.") {
         return None;
@@ -191,7 +191,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         CncFault::Model(NUMBERS))),
 ];
 
-/// A CNC with maximum numbers.
+/// A CNC with the maximum numbers of items.
 const NUMBERS: &str = with_names!(
     r#"
 cnc-version = "V3.1.3100.0"

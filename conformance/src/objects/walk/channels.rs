@@ -1,4 +1,4 @@
-//! The active channels.
+//! Finds the active channels.
 
 use ads_cnc::address::{Channel, Class};
 use ads_cnc::operation::{CountVariables, FindInstance};
@@ -7,8 +7,8 @@ use ads_cnc::{Kind, VariableCount};
 use super::Walker;
 use super::walker::{GAP, NUMBER_MAX};
 
-/// The active channels, by ascending number. `is_there` checks a number, for a CNC with objects in
-/// its channels or one without.
+/// The active channels in ascending order of their numbers. `is_there` checks a number; its
+/// argument is whether the channels of the CNC have objects.
 pub(crate) fn active_channels<W: Walker>(
     walker: &mut W,
     mut is_there: impl FnMut(&mut W, Channel, bool) -> Result<bool, W::Error>,
@@ -17,7 +17,7 @@ pub(crate) fn active_channels<W: Walker>(
     for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
         let is_listed = walker.count_objects(rank)?.is_some();
         has_objects |= is_listed;
-        // A rank that one task rejects may be known to the other.
+        // A rank that one task rejects may be known to the other task.
         if !is_listed && (!has_objects || !has_variables(walker, rank)?) {
             break;
         }
@@ -41,7 +41,7 @@ pub(crate) fn has_variables<W: Walker>(walker: &mut W, channel: Channel) -> Resu
     Ok(count.is_some_and(|count| count.0 > 0))
 }
 
-/// A decoder exists even for a channel without objects.
+/// The request for a channel's decoder, which exists even if the channel has no objects.
 pub(crate) fn decoder_of(channel: Channel) -> FindInstance {
     FindInstance::new(Class::Decoder, channel.number().into(), 0)
 }

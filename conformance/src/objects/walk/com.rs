@@ -16,7 +16,7 @@ impl Walk<'_> {
         let none = BTreeSet::new();
         let platform = self.list(ObjectList::PLATFORM, &none)?.unwrap_or_default();
         for &channel in channels {
-            // The first channel lists the platform's objects again (COM-4).
+            // The list of the first channel repeats the platform's objects (COM-4).
             if self.is_selected(List::Channel(channel.number())) {
                 self.list(channel.into(), &platform)?;
             }
@@ -29,8 +29,8 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Adds the objects of a list, except those at known addresses; returns the addresses of all.
-    /// `None` if the target does not have the list.
+    /// Adds the objects of a list, except those at known addresses. Returns the addresses of all
+    /// its objects, or `None` if the target does not have the list.
     fn list(
         &mut self,
         objects: ObjectList,
@@ -39,13 +39,16 @@ impl Walk<'_> {
         let Some(count) = self.count_objects(objects)? else { return Ok(None) };
         let list = List::from(objects);
         let is_selected = self.enter(list);
-        // The platform's list is always read: the first channel repeats its objects.
+        // The platform's list is always read, because the first channel repeats its objects.
         if !is_selected && list != List::Platform {
             return Ok(Some(AddressSet::new()));
         }
         let all = self.objects_of(objects, count.min(OBJECTS_MAX), RANGE)?;
         if u32::try_from(all.len()) != Ok(count) {
-            self.note(list, format_args!("{} of {count} objects were described", all.len()));
+            self.note(
+                list,
+                format_args!("only {} of {count} objects have a descriptor", all.len()),
+            );
         }
         let addresses = all.iter().filter_map(|object| object.address.content()).collect();
         for object in all.into_iter().filter(|_| is_selected) {

@@ -16,12 +16,12 @@ use crate::values::Type;
 /// Maximum number that fits into an index offset.
 const ELEMENTS_MAX: u32 = 0xFFFF;
 
-/// Maximum number of different elements stored for one element number of a class.
+/// Maximum number of different elements that are stored for one element number of a class.
 const ALIKE_MAX: usize = 64;
 
 impl Walk<'_> {
-    /// No manual specifies whether SDA or GEO serves a class: GEO is queried for classes that SDA
-    /// does not have.
+    /// Adds the elements of all classes. The manuals do not specify whether SDA or GEO serves a
+    /// class, so GEO is queried for the classes that SDA does not have.
     pub(super) fn elements(&mut self, channels: &[Channel]) -> Result<(), ToolError> {
         for class in CLASSES {
             self.task = Task::Sda;
@@ -32,14 +32,16 @@ impl Walk<'_> {
             }
             let list = List::Class { class, channel: None, axis: None };
             match (self.has(class), &self.geo) {
-                (true, _) if self.task == Task::Geo => self.note(list, "of the GEO task"),
+                (true, _) if self.task == Task::Geo => self.note(list, "served by the GEO task"),
                 (true, _) => {}
-                (false, Ok(())) => self.note(list, "none is there, as the SDA and GEO tasks say"),
-                (false, Err(_)) => self.note(list, "none is there, as the SDA task says"),
+                (false, Ok(())) => {
+                    self.note(list, "neither the SDA nor the GEO task has an instance")
+                }
+                (false, Err(_)) => self.note(list, "the SDA task has no instance"),
             }
         }
         if let Err(why) = &self.geo {
-            self.found.notes.push(format!("the GEO task cannot be asked: {why}"));
+            self.found.notes.push(format!("the GEO task could not be queried: {why}"));
         }
         Ok(())
     }
@@ -54,7 +56,7 @@ impl Walk<'_> {
         })
     }
 
-    /// Adds the elements of an instance; returns whether the target has it.
+    /// Adds the elements of an instance. Returns whether the target has it.
     fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, ToolError> {
         let query = FindInstance::new(class, channel, axis);
         let list = List::of_instance(class, channel, axis);
@@ -63,15 +65,18 @@ impl Walk<'_> {
             Some((_, Ok(first))) => first,
             Some((found, Err(_))) => {
                 let (group, offset) = (found.index_group, found.index_offset);
-                self.note(list, format_args!("said to be at {group}, {offset}: no class is there"));
+                self.note(
+                    list,
+                    format_args!("ignored: its address {group}, {offset} belongs to no class"),
+                );
                 None
             }
             None => None,
         };
         let Some(first) = first else { return Ok(false) };
-        // A target that returns the same address for every axis would never end the list.
+        // A target that returns the same address for every axis would make the list endless.
         if self.instances.contains(&first) {
-            self.note(list, "said to be where another instance is, and taken for none");
+            self.note(list, "ignored: its address is that of another instance");
             return Ok(false);
         }
         self.instances.push(first);
@@ -88,7 +93,7 @@ impl Walk<'_> {
         first: ElementAddress,
     ) -> Result<(), ToolError> {
         let Some(count) = self.count_elements(first)? else {
-            self.note(list, "the number of its elements was refused");
+            self.note(list, "the request for the number of elements was rejected");
             return Ok(());
         };
         let most = count.min(ELEMENTS_MAX);
@@ -122,7 +127,7 @@ impl Walk<'_> {
             None => {
                 let read = self.attributes(element, name)?;
                 let alike = self.alike.entry(key).or_default();
-                // Beyond the limit different instances are read every time.
+                // Beyond the limit, different instances are read every time.
                 if alike.len() < ALIKE_MAX {
                     alike.push(read.clone());
                 }

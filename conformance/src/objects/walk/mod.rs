@@ -20,10 +20,10 @@ pub use walker::GAP;
 use walker::NUMBER_MAX;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
 
-/// Descriptors per request.
+/// Number of descriptors that are read with one request.
 pub const RANGE: u32 = 256;
 
-/// Maximum number of listed objects, and of objects read in one list.
+/// Maximum number of objects that are listed, and that are read of one list.
 pub const OBJECTS_MAX: u32 = 100_000;
 /// Maximum number of bytes of all names and units.
 pub const NAMES_MAX: usize = 8 << 20;
@@ -37,27 +37,27 @@ const NOTES_MAX: usize = 1_000;
 pub struct Options {
     /// The channels; empty for all.
     pub channels: Vec<Channel>,
-    /// The lists, by the name of [`List`].
+    /// The lists, by the displayed name of [`List`].
     pub lists: Option<Pattern>,
-    /// The names.
+    /// The names of the objects.
     pub names: Option<Pattern>,
-    /// Variables and parameters, not objects and elements.
+    /// Whether to list variables and parameters instead of objects and elements.
     pub variables: bool,
-    /// Read every attribute of every element.
+    /// Whether to read every attribute of every element.
     pub exact: bool,
 }
 
 #[derive(Clone, Debug, Default)]
 pub struct WalkResult {
-    /// In the order of their lists.
+    /// The objects, in the order of their lists.
     pub objects: Vec<Object>,
-    /// Number of lists.
+    /// Number of lists read.
     pub lists: u32,
-    /// Number of requests.
+    /// Number of requests sent.
     pub requests: u64,
     /// Notes about objects that could not be read.
     pub notes: Vec<String>,
-    /// Whether a limit ended the walk; a note says which.
+    /// Whether a limit ended the walk; a note names the limit.
     pub is_cut: bool,
 }
 
@@ -72,7 +72,7 @@ pub struct WalkProgress {
     pub requests: u64,
 }
 
-/// Finds all selected objects. Those that the CNC rejects are noted and left out.
+/// Finds all selected objects. Objects that the CNC rejects are left out, with a note.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::Cnc;
@@ -89,7 +89,7 @@ pub struct WalkProgress {
 /// ```
 ///
 /// # Errors
-/// If the CNC does not answer.
+/// If the CNC does not reply.
 pub fn walk(
     session: &mut Session,
     options: &Options,
@@ -99,7 +99,7 @@ pub fn walk(
     match walk.all() {
         Ok(()) => {}
         Err(ToolError::Enough(why)) => {
-            walk.found.notes.push(format!("not all is listed: {why}"));
+            walk.found.notes.push(format!("the list is incomplete: {why}"));
             walk.found.is_cut = true;
         }
         Err(error) => return Err(error),
@@ -117,18 +117,18 @@ struct Walk<'w> {
     options: &'w Options,
     watch: &'w mut dyn FnMut(WalkProgress),
     found: WalkResult,
-    /// The list being read.
+    /// The list that is being read.
     list: Option<List>,
-    /// Bytes of all names and units so far.
+    /// Number of bytes of all names and units so far.
     names: usize,
-    /// The first elements of the instances found.
+    /// The first elements of the instances found so far.
     instances: Vec<ElementAddress>,
     /// The task that serves the current class: SDA or GEO.
     task: Task,
-    /// The error if GEO is not queried.
+    /// The reason why GEO is not queried, as an error.
     geo: Result<(), ToolError>,
-    /// Attributes already read, by class, whether of an axis, and number: elements of other
-    /// instances with the same name are assumed to have the same.
+    /// Attributes that were read, by class, whether of an axis, and number: elements of other
+    /// instances with the same name are assumed to have the same attributes.
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
 }
 
@@ -169,11 +169,11 @@ impl<'w> Walk<'w> {
         }
     }
 
-    /// Adds a note about entries of a list whose requests were rejected.
+    /// Adds a note about the entries of a list whose requests were rejected.
     fn note_rejected(&mut self, list: List, count: u32, answered: u32) {
         let rejected = count.saturating_sub(answered);
         if rejected > 0 {
-            self.note(list, format_args!("{rejected} of {count} were refused"));
+            self.note(list, format_args!("{rejected} of {count} requests were rejected"));
         }
     }
 
@@ -181,7 +181,7 @@ impl<'w> Walk<'w> {
         self.options.lists.as_ref().is_none_or(|lists| lists.matches(&list.to_string()))
     }
 
-    /// Begins a list; returns whether it is selected.
+    /// Begins a list. Returns whether it is selected.
     fn enter(&mut self, list: List) -> bool {
         let is_selected = self.is_selected(list);
         if is_selected {
@@ -197,13 +197,13 @@ impl<'w> Walk<'w> {
 
     fn add(&mut self, object: Object) -> Result<(), ToolError> {
         if usize::try_from(OBJECTS_MAX).is_ok_and(|most| self.found.objects.len() >= most) {
-            return Err(ToolError::Enough(format!("{OBJECTS_MAX} objects were found")));
+            return Err(ToolError::Enough(format!("the limit is {OBJECTS_MAX} objects")));
         }
         let unit = object.unit.as_ref().map_or(0, |unit| unit.as_bytes().len());
         let names = object.name.as_bytes().len().saturating_add(unit);
         self.names = self.names.saturating_add(names);
         if self.names > NAMES_MAX {
-            let why = format!("their names have more than {} MiB", NAMES_MAX >> 20);
+            let why = format!("the limit is {} MiB of names", NAMES_MAX >> 20);
             return Err(ToolError::Enough(why));
         }
         self.found.objects.push(object);
@@ -221,7 +221,7 @@ impl<'w> Walk<'w> {
         })
     }
 
-    /// The channels of the options that the target has, each once.
+    /// The channels given in the options that the target has, each once.
     fn channels_given(&mut self) -> Result<Vec<Channel>, ToolError> {
         let mut found = Vec::new();
         for &channel in &self.options.channels {
@@ -232,7 +232,7 @@ impl<'w> Walk<'w> {
                 found.push(channel);
             } else {
                 let number = channel.number();
-                self.found.notes.push(format!("channel {number}: not there, or not active"));
+                self.found.notes.push(format!("channel {number} does not exist or is not active"));
             }
         }
         Ok(found)
@@ -251,7 +251,7 @@ impl Walker for Walk<'_> {
             return Ok(None);
         }
         if self.found.requests >= REQUESTS_MAX {
-            return Err(ToolError::Enough(format!("{REQUESTS_MAX} requests were sent")));
+            return Err(ToolError::Enough(format!("the limit is {REQUESTS_MAX} requests")));
         }
         self.found.requests = self.found.requests.saturating_add(1);
         if let Some(list) = self.list {

@@ -43,7 +43,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Adds the entries of a list by index, from `first` on.
+    /// Adds the entries of a list by index, starting at `first`.
     fn by_index(
         &mut self,
         list: List,
@@ -52,7 +52,7 @@ impl Walk<'_> {
         mut object: impl FnMut(&mut Self, u32) -> Result<Option<Object>, ToolError>,
     ) -> Result<(), ToolError> {
         let Some(count) = count else {
-            self.note(list, "their number was refused");
+            self.note(list, "the request for their number was rejected");
             return Ok(());
         };
         let most = count.min(OBJECTS_MAX);
@@ -65,7 +65,7 @@ impl Walk<'_> {
         })?;
         self.note_rejected(list, most, answered);
         if count > most {
-            self.note(list, format_args!("of {count} the first {most} were asked for"));
+            self.note(list, format_args!("only the first {most} of {count} were requested"));
             self.found.is_cut = true;
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! The requests that every walk sends, and the end of its lists.
+//! The requests that every walk sends, and where its lists end.
 
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{
@@ -9,13 +9,13 @@ use ads_cnc::{Decode, Descriptors, Kind, ObjectCount};
 
 use super::super::Object;
 
-/// A list ends after this many consecutive rejected numbers.
+/// Number of consecutive rejected numbers after which a list ends.
 pub const GAP: u32 = 8;
 
 /// Maximum number of channels, axes and spindles.
 pub(super) const NUMBER_MAX: u32 = 255;
 
-/// The kinds of variables with an index.
+/// The kinds of variables that can be listed by index.
 pub(crate) const KINDS: [(&str, Kind<'static>); 3] =
     [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
 
@@ -29,8 +29,8 @@ pub(crate) const CLASSES: [Class; 6] = [
     Class::Spindle,
 ];
 
-/// Decodes a number of elements. Its size is not documented: a shorter one is decoded as a length
-/// is.
+/// Decodes a number of elements. Its size is not documented, so a shorter one is decoded like a
+/// length.
 pub(crate) fn decode_element_count(data: &[u8]) -> Option<u32> {
     let count = ElementCount::decode(data).map(|count| count.0);
     count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
@@ -41,13 +41,13 @@ pub(crate) trait Walker: Sized {
     /// Why a walk ends early.
     type Error;
 
-    /// The data of the reply; `None` if the target rejects the request.
+    /// Sends a request and returns the data of the reply; `None` if the target rejects the request.
     fn request<'r>(
         &mut self,
         request: impl Into<Request<'r>>,
     ) -> Result<Option<Vec<u8>>, Self::Error>;
 
-    /// Like [`request`](Self::request), but also `None` if the data is not the stream `T`.
+    /// Like [`request`](Self::request), but also returns `None` if the data does not decode as `T`.
     fn decoded<'r, T>(&mut self, request: impl Into<Request<'r>>) -> Result<Option<T>, Self::Error>
     where
         T: for<'b> Decode<'b>,
@@ -67,8 +67,8 @@ pub(crate) trait Walker: Sized {
         Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
     }
 
-    /// Visits numbers until [`GAP`] consecutive ones are rejected; returns how many are not
-    /// rejected.
+    /// Visits numbers until [`GAP`] consecutive ones are rejected. Returns the number of those that
+    /// are not rejected.
     fn each(
         &mut self,
         numbers: impl IntoIterator<Item = u32>,
@@ -88,8 +88,8 @@ pub(crate) trait Walker: Sized {
         Ok(count)
     }
 
-    /// Visits the objects of a list with `count` objects, `range` per request, or one per request
-    /// after a request for several was rejected.
+    /// Visits the objects of a list with `count` objects: `range` objects per request, or one per
+    /// request after a request for several was rejected.
     fn objects_of(
         &mut self,
         list: ObjectList,
@@ -118,8 +118,8 @@ pub(crate) trait Walker: Sized {
     }
 
     /// Visits every instance of a class by channel and axis; `is_there` checks whether the target
-    /// has it. With `aliases` the axes of the platform are visited in the HLD of every channel too;
-    /// otherwise in that of the first channel if the platform has none (E-30).
+    /// has it. With `aliases`, the axes of the platform are also visited in the HLD of every
+    /// channel; otherwise, in that of the first channel if the platform has none (E-30).
     fn instances_of(
         &mut self,
         class: Class,
@@ -158,7 +158,7 @@ pub(crate) trait Walker: Sized {
         }
     }
 
-    /// Visits the axes of a channel from `first` on until one is missing; returns their number.
+    /// Visits the axes of a channel, starting at `first`, until one is missing. Returns their number.
     fn axes_of(
         &mut self,
         channel: u32,
@@ -175,7 +175,7 @@ pub(crate) trait Walker: Sized {
         Ok(count)
     }
 
-    /// The number of elements of an instance according to the target.
+    /// The number of elements that the target reports for an instance.
     fn count_elements(&mut self, first: ElementAddress) -> Result<Option<u32>, Self::Error> {
         // The address that the target returned may be that of a function.
         let data = match CountElements::new(first) {

@@ -14,7 +14,7 @@ use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_re
 use crate::text::plural;
 use crate::wire_service::clause;
 
-/// TCP may split a frame anywhere: its length determines its end.
+/// TCP may split a frame anywhere: only its length field determines its end.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 2] =
@@ -27,11 +27,11 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
             probe.target.client.set_piece(None);
             let exchange = exchange?;
             let same = exchange.success() == Some(&whole[..]);
-            let expected = || format!("the same to a frame in pieces of {piece} bytes");
+            let expected = || format!("the same reply to a frame sent in pieces of {piece} bytes");
             probe.check(ADS_5, same, expected, &exchange);
         }
     }
-    probe.finish("nothing to be asked is claimed")
+    probe.finish("the target claims no function that can be requested")
 }
 
 /// Whether the length of a reply is documented, or given by a text.
@@ -77,7 +77,7 @@ fn length_rule(request: &Request<'_>) -> LengthRule {
     match request.function() {
         Function::ReadElementLength | Function::ReadObject => Fixed(Rule::of(spec.clause)),
         Function::ReadElement => Fixed(SDA_8.into()),
-        // Of V.G and V.A it has no data, and is not judged.
+        // Extended descriptions of V.G and V.A have no data and are not judged.
         Function::DescribeExtended => Fixed(assumed(VAR_15)),
         _ if is_number => Fixed(Rule::of(spec.clause)),
         _ => Open,
@@ -115,11 +115,11 @@ fn lengths(
     let shown = |found: Option<usize>| {
         move || found.map_or_else(|| "an error".to_owned(), |len| plural(len, "byte"))
     };
-    // For a text at the end of a reply the CNC may require room for a NUL.
+    // For a text at the end of a reply, the CNC may require space for a NUL.
     if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
-        let expected = || format!("{there} bytes of {what}, as many as are asked for");
+        let expected = || format!("all {there} requested bytes of {what}");
         let rules = [rule.into(), own];
         probe.check(&rules[..], found == Some(whole.len()), expected, shown(found));
     }
@@ -148,7 +148,7 @@ fn lengths(
         && let Some(Some(len)) = answer(probe, much)?
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {
-        let expected = || format!("{len} bytes of {what}, as with more room");
+        let expected = || format!("{len} bytes of {what}, as with a longer read length");
         probe.check([rule, ADS_4], found == Some(len), expected, shown(found));
     }
     Ok(())

@@ -43,7 +43,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Another service reads the value of an acknowledged Write; no other value changes"),
 ];
 
-/// Maximum number of items of a list that are tried.
+/// Maximum number of items that are requested of a list.
 const ITEMS_MAX: u32 = 8;
 
 /// The data of a request that must be answered.
@@ -58,7 +58,7 @@ fn ask_for_data<'a>(
     }
     let exchange = probe.send(request)?;
     let data = exchange.success().map(<[u8]>::to_vec);
-    let expected = || format!("{} by {}", request.function().spec().name, exchange.service);
+    let expected = || format!("{} with {}", request.function().spec().name, exchange.service);
     probe.check(rule, data.is_some(), expected, &exchange);
     Ok(data)
 }
@@ -67,11 +67,11 @@ fn number(data: &[u8]) -> u32 {
     ObjectCount::decode(data).map_or(0, |count| count.0)
 }
 
-/// Descriptors: one at each offset, all different, and the same as in a range.
+/// Descriptors: a different one at each offset, and the same ones in a range.
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_1;
     for list in probe.lists()? {
-        // That platform axes have lists of their own is assumed.
+        // That platform axes have their own lists is assumed.
         let Some(data) = ask_if_claimed(probe, CountObjects::new(list))? else { continue };
         let count = number(&data).min(ITEMS_MAX);
         let mut all: Vec<Vec<u8>> = Vec::new();
@@ -81,7 +81,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{} bytes at offset {index}", one.len());
             probe.check(RULE, one.len() == DESCRIPTOR_LEN, "84 bytes", found);
             let other = !all.contains(&one);
-            probe.check(RULE, other, "another descriptor at each offset", "the same again");
+            probe.check(RULE, other, "another descriptor at each offset", "the same descriptor");
             all.push(one);
         }
         if let (Ok(several), true) = (ReadDescriptors::new(list, 1, count), count > 1)
@@ -89,7 +89,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
                 ask_if_claimed(probe, several)?.filter(|data| data.len() > DESCRIPTOR_LEN)
         {
             let same = several == all.concat();
-            probe.check(RULE, same, "the descriptors as they are one by one", "others");
+            probe.check(RULE, same, "the same descriptors as read one by one", "other descriptors");
         }
     }
     for channel in probe.channels()? {
@@ -120,9 +120,9 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
                 let one = ask_for_data(probe, RULE, DescribeByIndex::new(channel, index, kind))?;
                 let Some(one) = one else { continue };
                 let other = !all.contains(&one);
-                let found = || format!("the same again at index {index} of {name}");
+                let found = || format!("the same variable again at index {index} of {name}");
                 probe.check(RULE, other, "another variable at each index", found);
-                // That handles of axis variables are used there is assumed.
+                // That handles of axis variables can be used at this interface is assumed.
                 if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
                     same_by_handle(probe, &mut steady, channel, &one)?;
                 }
@@ -160,7 +160,7 @@ fn services_agree(probe: &mut Probe<'_>) -> Step {
     }
     elements_agree(probe, rules)?;
     steady.finish()?;
-    probe.finish("nothing is asked by both services")
+    probe.finish("no function with both services is claimed")
 }
 
 /// Compares the number of parameters from a Read with the names from a ReadWrite. A program may
@@ -193,8 +193,8 @@ fn names_agree(
     )?;
     let what = format!("the number of {kind:?} of channel {}", channel.number());
     steady.judge(probe, rules, &what, compared, |probe, rules, (count, (last, beyond), _)| {
-        let expected = || format!("a name of index {count}, if it is not 0, and no other");
-        let found = || format!("one: {last}, another after it: {beyond}");
+        let expected = || format!("{count} names: one at the last index, and none after it");
+        let found = || format!("name at the last index: {last}, name after it: {beyond}");
         probe.check(rules, false, expected, found);
     });
     Ok(())
@@ -214,7 +214,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [ClauseId; 2]) -> Step {
             let Ok(count) = CountElements::new(first) else { continue };
             let data = ask_if_claimed(probe, count)?;
             let count = data.as_deref().and_then(decode_element_count);
-            let expected = "a number of elements where the object address says";
+            let expected = "a number of elements at the address of the object";
             probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));
             for place in 1..=count.unwrap_or_default().min(ITEMS_MAX) {
                 let Ok(element) = first.nth(place) else { break };
@@ -223,7 +223,12 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [ClauseId; 2]) -> Step {
                 let Some(data) = ask_if_claimed(probe, read)? else { continue };
                 let found = || format!("{} bytes", data.len());
                 let same = u32::try_from(data.len()).is_ok_and(|len| len == length);
-                probe.check(ADS_1, same, || format!("{length} bytes, as its length says"), found);
+                probe.check(
+                    ADS_1,
+                    same,
+                    || format!("{length} bytes, the length of the element"),
+                    found,
+                );
             }
         }
     }

@@ -1,4 +1,4 @@
-//! A reply answers its own request, and not an earlier one.
+//! Verifies that a reply belongs to its own request, not to an earlier one.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, content_reads};
 use crate::wire_service::clause;
 
-/// Maximum number of requests of a function, to find two with different replies.
+/// Maximum number of requests of a function that are sent to find two with different replies.
 const CALLS_MAX: usize = 6;
 /// How often a wrong reply must be repeated: a value may change between two requests.
 const TRIES: usize = 3;
@@ -26,7 +26,7 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
             let first = data_of(probe, &call)?;
             let evidence = probe.evidence();
             let (second, third) = (data_of(probe, &call)?, data_of(probe, &call)?);
-            // A value that changes by itself is not the reply to the earlier request.
+            // A value that changes by itself may equal the earlier reply by chance.
             let is_another = first.as_ref().is_some_and(|first| *first != earlier);
             is_own |= first == second || second != third || is_another;
             probe.set_evidence(evidence);
@@ -36,7 +36,7 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
             &rules[..],
             is_own,
             expected,
-            "another one than to the same request afterwards",
+            "a different reply than to the same request sent again",
         );
     }
     probe.finish("no function has two different replies")
@@ -62,7 +62,7 @@ fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCa
         for call in calls {
             let Ok(request) = call.call().dispatch() else { continue };
             let function = request.function();
-            // Extended descriptions are of VAR-15, which this case does not judge.
+            // Extended descriptions belong to VAR-15, which this case does not judge.
             if function == Function::DescribeExtended {
                 continue;
             }
@@ -75,8 +75,8 @@ fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCa
     Ok(all)
 }
 
-/// Two requests with different replies, and the reply to the second. Each is sent twice: the first reply may be
-/// that to another one.
+/// Two requests with different replies, and the reply to the second. Each is sent twice, because the
+/// first reply may belong to another request.
 fn different(
     probe: &mut Probe<'_>,
     calls: Vec<RawCall>,

@@ -8,12 +8,12 @@ use crate::judge::{Checks as _, Rule, Step, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service};
 
-/// Number of values of each kind that are tried.
+/// Maximum number of values of each kind that are written.
 const ITEMS_MAX: usize = 3;
 
 const RULE: ClauseId = ADS_2;
 
-/// A value written at an address is read by another service, and at no other address.
+/// A written value is read by another service at the same address, and at no other address.
 pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
@@ -90,7 +90,8 @@ fn write_beside(
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
         && after.as_ref() == Some(before)
     {
-        let expected = || format!("{} beside {what}, as before", Hex(before.clone()));
+        let expected =
+            || format!("{} at an address next to {what}, unchanged", Hex(before.clone()));
         probe.check(RULE, meanwhile == *before, expected, || Hex(meanwhile));
     }
     Ok(())

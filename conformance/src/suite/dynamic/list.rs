@@ -30,7 +30,7 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
             probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
-        // Other functions of the decoder have the same group.
+        // Other functions of the decoder have the same index group.
         if probe.claims(Function::CountVariables) == Claim::Yes {
             for (_, kind) in KINDS {
                 let kind = CountVariables::new(channel, kind);
@@ -65,10 +65,10 @@ fn ask_name(
 /// The names of a kind, read while no parameter is created or deleted.
 struct ParameterList {
     count: u32,
-    /// By index, up to the first that is rejected.
+    /// By index, up to the first index that is rejected.
     names: Vec<NameReply>,
     beyond: NameReply,
-    /// An index whose name depends on the order of requests.
+    /// An index whose name depends on the order of the requests.
     unsteady: Option<NameReply>,
 }
 
@@ -134,7 +134,7 @@ fn steady_list(
         let count = |probe: &mut Probe<'_>| number(probe, channel, kind).map(Some);
         let list = between(probe, count, |probe, &count| listed(probe, channel, kind, count))?;
         let Some(list) = list.flatten() else { continue };
-        // A fault must be reproducible.
+        // A difference must be reproducible to be a fault.
         if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
             return Ok(Some(list));
         }
@@ -143,7 +143,7 @@ fn steady_list(
     Ok(None)
 }
 
-/// The list of a kind with `count` parameters; `None` if its names changed meanwhile.
+/// The list of a kind with `count` parameters; `None` if its names changed during the read.
 fn listed(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -175,7 +175,9 @@ pub(super) fn names(probe: &mut Probe<'_>) -> Step {
                     any |= list.count > 0;
                     judge(probe, kind, &list);
                 }
-                None => moved = Some(format!("{} come and go", prefix(kind))),
+                None => {
+                    moved = Some(format!("{} are created and deleted during the run", prefix(kind)))
+                }
             }
         }
     }
@@ -191,8 +193,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
     let mut seen = HashSet::new();
     for reply in names {
         probe.set_evidence(reply.evidence.clone());
-        let expected = || format!("a name of index {} of {count} of {}", reply.index, prefix(kind));
-        // The number or the range may be wrong; for the first index, the function too.
+        let expected = || format!("a name for index {} of {count} {}", reply.index, prefix(kind));
+        // The count or the range may be wrong; at the first index, also the function.
         let rules: &[ClauseId] = match reply.index {
             1 => &[DYN_1, DYN_5, SDA_12, DYN_2],
             _ => &[DYN_1, DYN_5, SDA_12],
@@ -209,25 +211,26 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
         let found = || format!("{name:?} at index {}", reply.index);
         let ended = name.chars().count() < DYNAMIC_NAME_MAX;
-        probe.check(assumed(DYN_6), ended, "a name with room for its NUL", found);
+        probe.check(assumed(DYN_6), ended, "a name with space for its NUL", found);
         let of_kind = is_of(kind, &name);
-        probe.check(DYN_2, of_kind, || format!("a name of {}", prefix(kind)), found);
+        probe.check(DYN_2, of_kind, || format!("a name with the prefix {}", prefix(kind)), found);
         let own = seen.insert(name.clone());
-        probe.check([DYN_2, DYN_5], own, "another at each index", found);
+        probe.check([DYN_2, DYN_5], own, "a different name at each index", found);
     }
     if let Some(other) = unsteady {
         probe.set_evidence(other.evidence.clone());
-        let found = || format!("{}, asked for backwards", other.result);
-        let expected = || format!("the name of index {}, whatever was asked before", other.index);
+        let found = || format!("{}, requested in descending order", other.result);
+        let expected =
+            || format!("the same name for index {} in any order of requests", other.index);
         probe.check(DYN_2, false, expected, found);
     }
-    // A CNC with one parameter more than its count returns its name.
+    // A CNC with one parameter more than its count returns that parameter's name.
     probe.set_evidence(beyond.evidence.clone());
     let data = beyond.data.as_deref().unwrap_or_default();
     let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
     let another = name.is_ok_and(|name| is_of(kind, &name) && !seen.contains(&name));
     let is_whole = *count <= PARAMETERS_MAX;
-    let expected = || format!("{} of {} in all", count, prefix(kind));
+    let expected = || format!("only {} names of {}", count, prefix(kind));
     let found = || format!("index {} is {}", beyond.index, Hex(data.to_vec()));
     probe.check(DYN_1, !(another && is_whole), expected, found);
 }
@@ -236,7 +239,7 @@ fn is_of(kind: DynamicKind, name: &str) -> bool {
     name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty())
 }
 
-/// Indices beyond the count, including some with the lower bits of a valid one.
+/// Indices after the count, including some with the lower bits of a valid index.
 fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     let mut all = probe.beyond(count.saturating_add(1));
     if all.len() > 1 {
@@ -246,7 +249,7 @@ fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     all
 }
 
-/// Sends a request for a missing index while the count is unchanged.
+/// Sends a request for a missing index; the count must stay unchanged meanwhile.
 fn refused_of(
     probe: &mut Probe<'_>,
     count: u32,
@@ -270,7 +273,7 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
                 DynamicNameByIndex::new(channel, kind, 1)?.into(),
                 DynamicValueByIndex::new(channel, kind, 1)?.into(),
             ];
-            let what = format!("index 1 of no {}", prefix(kind));
+            let what = format!("index 1 of an empty {} list", prefix(kind));
             for first in first {
                 let guards = [CountDynamic::new(channel, kind).into()];
                 steadily(probe, &guards, |probe, answers| {
@@ -289,7 +292,7 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             Ok([name.into(), value.into()])
         };
         for beyond in beyond(probe, count) {
-            let what = format!("index {beyond} of {count} of {}", prefix(kind));
+            let what = format!("index {beyond} of {count} {}", prefix(kind));
             for (bad, good) in requests(beyond)?.into_iter().zip(requests(count)?) {
                 let guards = [CountDynamic::new(channel, kind).into(), good];
                 steadily(probe, &guards, |probe, answers| {

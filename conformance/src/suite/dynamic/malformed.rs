@@ -34,7 +34,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
             let good = RawCall::new(request)?;
-            // Names that are one or more bytes too long and begin with an existing one.
+            // Names that begin with an existing name and are at least one byte too long.
             let room = DYNAMIC_NAME_MAX.saturating_sub(known.as_bytes().len());
             for more in [1, 2, 160] {
                 let rest = vec![b'x'; room.saturating_add(more)];
@@ -45,7 +45,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             }
             let longest = DYNAMIC_NAME_MAX.saturating_add(1);
             let behind = good.with(|call| call.data.resize(longest, b'x'));
-            let what = "a request of 97 bytes, with something behind the name's end";
+            let what = "a request of 97 bytes, with a byte after the NUL of the name";
             rejects_steadily(probe, assumed(DYN_6), what, at, behind, request)?;
             let short = good.with(|call| call.read_length = call.read_length.saturating_sub(1));
             let what = "a read length of 7 for a value";
@@ -55,7 +55,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// The terminator of a name is not specified.
+/// Whether a name needs a NUL is not specified.
 pub(super) fn forms(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, _| {
         let known = first(probe, channel, kind)?;

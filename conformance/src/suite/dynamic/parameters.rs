@@ -1,4 +1,4 @@
-//! The dynamic parameters that the cases look at.
+//! The dynamic parameters that the cases read.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
@@ -9,10 +9,10 @@ use ads_cnc::{CncString, Decode as _};
 use crate::judge::{Rule, Step, Stop};
 use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
 
-/// Maximum number of parameters of a kind that are tried.
+/// Maximum number of parameters of a kind that are read.
 pub(super) const PARAMETERS_MAX: u32 = 1_000;
 
-/// The prefix of the names of a kind, which is also its name.
+/// The prefix of the names of a kind, which is also the name of the kind.
 pub(super) const fn prefix(kind: DynamicKind) -> &'static str {
     match kind {
         DynamicKind::P => "P",
@@ -47,10 +47,10 @@ pub(super) fn each(
 }
 
 pub(super) fn nothing() -> Stop {
-    Stop::not_applicable("there is no parameter at the moment")
+    Stop::not_applicable("no dynamic parameter exists at the moment")
 }
 
-/// The names of a kind up to the first index that is rejected; other cases judge that.
+/// The names of a kind, up to the first index that is rejected; other cases judge the rejection.
 pub(super) fn names_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -63,7 +63,7 @@ pub(super) fn names_of(
         // A missing index ends the list.
         let Some(data) = probe.try_ask(request)? else { break };
         let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
-        // A name without room for its NUL cannot be requested.
+        // A name without space for its NUL cannot be requested.
         let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
         all.extend(name.map(|name| (index, name)));
     }
@@ -73,11 +73,11 @@ pub(super) fn names_of(
 /// The first name of a kind. A program may have deleted it meanwhile.
 pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<CncString> {
     let first = names_of(probe, channel, kind, 1)?.into_iter().next();
-    let lacks = || Stop::Inconclusive(format!("{}: no name of index 1", prefix(kind)));
+    let lacks = || Stop::Inconclusive(format!("{}: index 1 has no name", prefix(kind)));
     first.map(|(_, name)| name).ok_or_else(lacks)
 }
 
-/// Sends a request that must be rejected, and one without the fault that is answered.
+/// Sends a request that must be rejected, and the same request without the fault, which must succeed.
 pub(super) fn rejects_steadily<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

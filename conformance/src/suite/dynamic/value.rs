@@ -16,18 +16,18 @@ use crate::judge::{Step, Stop, assumed};
 use crate::suite::kit::{PendingCheck, Probe, is_sendable, rules_by_index, steadily};
 use crate::text::hex::spaced;
 
-/// Longer names are judged by the requirement on the length of names too.
+/// Longer names are also judged by the requirement on the length of names.
 const LONG: usize = 20;
 
 pub(super) fn values(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
-        // In reverse order: the meaning of an index must not depend on earlier requests.
+        // In descending order: the meaning of an index must not depend on earlier requests.
         for index in (1..=count).rev() {
             let by_index = DynamicNameByIndex::new(channel, kind, index)?;
             steadily(probe, &[by_index.into()], |probe, answers| {
                 let name = answers.first().and_then(|data| DynamicName::decode(data).ok());
                 let name = name.map(|name| name.name.text);
-                // A name without room for its NUL cannot be requested.
+                // A name without space for its NUL cannot be requested.
                 match name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX) {
                     Some(name) => value(probe, channel, kind, index, &name),
                     None => Ok(Vec::new()),
@@ -54,7 +54,7 @@ fn value(
         LONG.. => &[DYN_3, DYN_2, DYN_6],
         _ => &[DYN_3, DYN_2],
     };
-    let expected = || format!("the value of {name}, as index {index} is called");
+    let expected = || format!("the value of {name}, the name of index {index}");
     let mut checks =
         vec![PendingCheck::new(probe, rules, named.success().is_some(), expected, &named)];
     let mut real = |probe: &Probe<'_>, rule: ClauseId, exchange: &Exchange| {
@@ -69,16 +69,16 @@ fn value(
     real(probe, DYN_4, &indexed);
     // A value that changes by itself is not compared.
     let named_again = probe.try_ask(by_name)?;
-    let still = named.success().filter(|named| named_again.as_deref() == Some(named));
-    if let (Some(named), Some(indexed)) = (still, indexed.success()) {
-        let expected = || format!("{} of {name}, at index {index} too", spaced(named));
+    let steady = named.success().filter(|named| named_again.as_deref() == Some(named));
+    if let (Some(named), Some(indexed)) = (steady, indexed.success()) {
+        let expected = || format!("{} of {name}, also at index {index}", spaced(named));
         let found = || spaced(indexed);
         checks.push(PendingCheck::new(probe, [DYN_3, DYN_4], named == indexed, expected, found));
     }
     Ok(checks)
 }
 
-/// Names similar to an existing one: longer, shorter, with another end.
+/// Names similar to an existing name: longer, shorter, or with another end.
 fn near(kind: DynamicKind, known: &str) -> Vec<String> {
     let mut shorter = known.to_owned();
     let last = shorter.pop();
@@ -95,7 +95,7 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
         let names = names_of(probe, channel, kind, count)?;
         let Some((_, known)) = names.first() else {
-            return Err(Stop::Inconclusive(format!("{}: no name of index 1", prefix(kind))));
+            return Err(Stop::Inconclusive(format!("{}: index 1 has no name", prefix(kind))));
         };
         let good = DynamicValueByName { channel, kind, name: known.as_cnc_str().into() };
         let mut unknown = vec![format!("{}no such parameter", prefix(kind)), String::new()];
@@ -104,7 +104,7 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
         for unknown in unknown {
             let is_there = names.iter().any(|(_, name)| name.to_string() == unknown);
             let Ok(bad) = DynamicValueByName::new(channel, kind, &unknown) else { continue };
-            // Another case tries names without room for their NUL.
+            // Another case sends names without space for their NUL.
             if is_there || !is_sendable(&bad.into()) {
                 continue;
             }
@@ -129,7 +129,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Each function by the channel's rank and by its number.
+/// Compares the replies by rank and by number for each function.
 pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
     for (rank, channel) in probe.ranks()? {
         for kind in DynamicKind::ALL {
@@ -157,7 +157,7 @@ fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> 
     steadily(probe, &[one], |probe, answers| {
         let exchange = probe.send(other)?;
         let by_number = answers.first().map(Vec::as_slice);
-        let expected = || format!("{}, by number", spaced(by_number.unwrap_or_default()));
+        let expected = || format!("{}, as by number", spaced(by_number.unwrap_or_default()));
         let same = exchange.success() == by_number;
         let rules = rules_by_index(ADR_1, one, other, exchange.success().is_some())?;
         Ok(vec![PendingCheck::new(probe, &rules, same, expected, &exchange)])

@@ -1,4 +1,5 @@
-//! Variables on the axis interface: the places at which a name has a handle, and their addresses.
+//! Variables on the axis interface: the axis places at which a name has a handle, and their
+//! addresses.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
@@ -8,21 +9,21 @@ use crate::judge::Step;
 use crate::objects::ValueAddress;
 use crate::suite::kit::Probe;
 
-/// Maximum number of places of a channel that are tried.
+/// Maximum number of places of a channel that are requested.
 pub(crate) const PLACES_MAX: u32 = 64;
 /// Maximum number of consecutive places without an axis: such a place need not answer.
 const GAP_MAX: u32 = 4;
 
-/// Maximum number of names of a channel in a sample: each is requested at every place.
+/// Maximum number of names of a channel in a sample, because each is requested at every place.
 const NAMES_MAX: u32 = 32;
 
-/// A place with a handle for a name.
+/// A place at which a name has a handle.
 pub(crate) struct AxisHandle {
     pub(crate) axis: ChannelAxis,
     pub(crate) handle: Handle,
 }
 
-/// All places of a channel with a handle for a name.
+/// All places of a channel at which a name has a handle.
 pub(crate) fn answering_places(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -47,7 +48,7 @@ pub(crate) fn answering_places(
     Ok(all)
 }
 
-/// The address of an axis variable at the place to which its described handle belongs.
+/// The address of an axis variable at the place of the handle in its description.
 pub(crate) fn axis_address(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -61,7 +62,7 @@ pub(crate) fn axis_address(
     Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
 }
 
-/// The described axis variables of a channel that the cases read, with their names on the axis interface.
+/// The axis variables of a channel that the cases read, each with its name on the axis interface.
 pub(crate) fn axis_variables(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -89,7 +90,7 @@ pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncStri
     names
 }
 
-/// A name on the axis interface of a variable that an axis has.
+/// The name on the axis interface of the first variable that an axis has.
 pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
     variables.iter().find_map(|variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;

@@ -1,4 +1,4 @@
-//! Values that cases have changed and that are not yet seen as they were.
+//! Values that cases have changed and that have not been read back as the original ones.
 
 #![cfg_attr(
     not(test),
@@ -17,12 +17,12 @@ use crate::judge::LeftChanged;
 use crate::objects::ValueAddress;
 use crate::text::escape;
 
-/// Changed values that have not been restored yet or cannot be. Clones share the list: an interrupt
-/// handler reads it too.
+/// Changed values that have not been restored yet, or cannot be. Clones share the list, because an
+/// interrupt handler reads it too.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     all: Arc<Mutex<Vec<Change>>>,
-    /// Names of everything that was changed so far.
+    /// Names of all values that have been changed so far.
     written: Arc<Mutex<BTreeSet<String>>>,
 }
 
@@ -39,14 +39,14 @@ pub(super) struct Change {
     pub(super) was: Vec<u8>,
     /// The value as last written or read.
     pub(super) is: Option<Vec<u8>>,
-    /// Why the gate rejected the last restoring write.
+    /// Why the gate rejected the last write that restores the value.
     pub(super) refused: Option<String>,
-    /// Whether it could not be restored.
+    /// Whether the value could not be restored.
     pub(super) given_up: bool,
 }
 
 impl Changes {
-    /// The values that are changed, the first change first.
+    /// The values that are still changed, the first change first.
     pub fn left(&self) -> Vec<LeftChanged> {
         let all = self.all();
         let left = all.iter().map(|change| LeftChanged {
@@ -58,7 +58,7 @@ impl Changes {
         left.collect()
     }
 
-    /// The names of all values that were changed so far.
+    /// The names of all values that have been changed so far.
     pub fn written(&self) -> Vec<String> {
         let written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
         written.iter().cloned().collect()
@@ -69,7 +69,7 @@ impl Changes {
         self.last().is_some()
     }
 
-    /// Gives up all changed values.
+    /// Gives up restoring the changed values.
     pub(crate) fn give_up(&self) {
         self.all().iter_mut().for_each(|change| change.given_up = true);
     }
@@ -79,12 +79,12 @@ impl Changes {
         self.all().iter().any(|change| change.given_up)
     }
 
-    /// The last change that is to be restored.
+    /// The last change that has not been restored.
     pub(super) fn last(&self) -> Option<Change> {
         self.all().iter().rfind(|change| !change.given_up).cloned()
     }
 
-    /// From now on the value may differ from the original one.
+    /// Records that the value may differ from the original one from now on.
     pub(super) fn begin(&self, change: Change) {
         let mut written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
         written.insert(change.what.clone());
@@ -98,7 +98,7 @@ impl Changes {
         }
     }
 
-    /// The value was read as the original one.
+    /// Records that the original value was read back.
     pub(super) fn end(&self, address: &ValueAddress) {
         self.all().retain(|change| change.address != *address);
     }

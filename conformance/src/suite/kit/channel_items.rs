@@ -18,7 +18,7 @@ use crate::suite::kit::{
 
 /// The first variables and parameters of a channel.
 pub(crate) struct ChannelItems {
-    /// The first variables that are not of an axis: whether handles of V.A can be read is assumed.
+    /// The first variables that are not axis variables: that handles of V.A can be read is assumed.
     variables: Vec<Description>,
     /// A variable on the axis interface.
     of_axis: Option<(ChannelAxis, CncString)>,
@@ -26,7 +26,7 @@ pub(crate) struct ChannelItems {
 }
 
 impl ChannelItems {
-    /// Lists that cannot be read are empty; other cases judge them.
+    /// Lists that cannot be read are left empty; other cases judge them.
     pub(crate) fn read(probe: &mut Probe<'_>, channel: Channel) -> Step<Self> {
         let all = probe.variables(channel).if_known()?.unwrap_or_default();
         let name = name_on_axes(&all);
@@ -44,7 +44,7 @@ impl ChannelItems {
         Ok(Self { variables, of_axis: axis.zip(name), parameters })
     }
 
-    /// Queries of the items, addressed in a channel.
+    /// Queries of the items in a channel.
     pub(crate) fn requests(&self, channel: Channel) -> Step<Vec<Request<'_>>> {
         let mut requests = Vec::new();
         for variable in &self.variables {
@@ -70,7 +70,7 @@ impl ChannelItems {
             let name = name.as_cnc_str().into();
             requests.push(DynamicValueByName { channel, kind: *kind, name }.into());
         }
-        // A device may return a longer name than a request takes.
+        // A device may return a name that is too long for a request.
         requests.retain(is_sendable);
         Ok(requests)
     }
@@ -79,8 +79,8 @@ impl ChannelItems {
 /// Maximum number of objects of a channel, and of elements of an instance, that are requested.
 const CONTENTS_MAX: usize = 2;
 
-/// Queries of the elements and objects of a channel, without the contents of texts: how many bytes a reply with
-/// a text has is not documented.
+/// Queries of the elements and objects of a channel, except for the contents of texts: the length
+/// of a reply with a text is not documented.
 pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<RawCall>> {
     let mut calls = Vec::new();
     for instance in probe.instances().if_applicable()?.unwrap_or_default() {
@@ -107,7 +107,7 @@ pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec
     Ok(calls)
 }
 
-/// The call, addressed to another channel; `None` if its index group has no channel.
+/// The call with the index group of another channel; `None` if its index group has no channel.
 pub(crate) fn in_channel(call: &RawCall, channel: Channel, other: Channel) -> Option<RawCall> {
     let instance = other.number();
     let group = match call.index_group.parts()? {

@@ -1,4 +1,4 @@
-//! The lists with a number of items, and the request for an item.
+//! Lists with a number of items, and the request for an item.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind};
@@ -29,7 +29,7 @@ impl std::fmt::Display for Counted {
 }
 
 impl Counted {
-    /// All claimed lists that have a number, with it.
+    /// All claimed lists that have a number, each with that number.
     pub(crate) fn all(probe: &mut Probe<'_>) -> Step<Vec<(Self, u32)>> {
         let mut all: Vec<Self> = probe.lists()?.into_iter().map(Self::Objects).collect();
         for channel in probe.channels()? {
@@ -47,7 +47,7 @@ impl Counted {
         Ok(counted)
     }
 
-    /// What the list has; `None` for parameters, which come and go.
+    /// The kind of the items; `None` for parameters, which are created and deleted at any time.
     pub(crate) const fn kind(&self) -> Option<ItemKind> {
         match self {
             Self::Objects(_) => Some(ItemKind::Object),

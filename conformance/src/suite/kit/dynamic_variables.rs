@@ -19,7 +19,7 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
         for index in 1..=count.map_or(0, |count| count.0.min(64)) {
             let request = DynamicNameByIndex::new(channel, kind, index)?;
             let name = probe.try_read::<DynamicName>(request)?.map(|name| name.name.text);
-            // A name without room for its NUL cannot be requested.
+            // A name without space for its NUL cannot be requested.
             let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
             all.extend(name.map(|name| (kind, name)));
         }
@@ -27,7 +27,8 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
-/// Whether the V.P, V.L and V.S that exist at the moment are variables too, as the German edition says.
+/// Whether the V.P, V.L and V.S that exist at the moment are also variables, as the German edition
+/// states.
 pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
     for (_, name) in &all {
@@ -46,19 +47,21 @@ pub(crate) fn dynamic_among_variables(
     let profile = &probe.target.profile;
     let lacks = |why| Err(Stop::not_applicable(why));
     if profile.edition != Edition::German {
-        return lacks("the edition has V.P, V.L and V.S among the parameters only");
+        return lacks("in this edition V.P, V.L and V.S are only parameters");
     }
     let claim = profile.has(Feature::DynamicVariables);
     if claim == Claim::No {
-        return lacks("the version has V.P, V.L and V.S among the parameters only");
+        return lacks("in this version V.P, V.L and V.S are only parameters");
     }
     let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
     let Some((_, name)) = all.first() else {
-        return lacks("there is no V.P, V.L or V.S at the moment");
+        return lacks("no V.P, V.L or V.S exists at the moment");
     };
     let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
     if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
-        return lacks("the target has no V.P, V.L or V.S here, which come with a version");
+        return lacks(
+            "V.P, V.L and V.S are not variables of the target; only some versions have them",
+        );
     }
     Ok(all)
 }

@@ -21,7 +21,7 @@ pub(crate) fn each_variable(
     Ok(())
 }
 
-/// Maximum number of arrays of all channels in a sample: each is read element by element.
+/// Maximum number of arrays of all channels in a sample, because each is read element by element.
 const ARRAYS_MAX: u32 = 64;
 
 /// Calls a function for every array that the cases read.

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{Class, ElementAddress};
 
-/// An instance of a class, by the channel and the axis of its request.
+/// An instance of a class, addressed by the channel and the axis of its request.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
     pub(crate) class: Class,
@@ -11,12 +11,12 @@ pub(crate) struct Instance {
     pub(crate) first: ElementAddress,
     /// The number of elements that the target reports.
     pub(crate) reported: u32,
-    /// The elements without element 0, which holds their number: whether the number counts it is not
-    /// documented.
+    /// The elements after element 0. Element 0 holds their number; whether the number includes
+    /// element 0 is not documented.
     pub(crate) count: u32,
-    /// The number of elements up to the last that has a name.
+    /// The number of elements up to the last one that has a name.
     pub(crate) reached: u32,
-    /// The numbers of the elements that the cases read, from 1 on.
+    /// The numbers of the elements that the cases read, starting at 1.
     pub(super) chosen: Vec<u32>,
 }
 
@@ -26,7 +26,7 @@ impl Instance {
         self.reported > self.count
     }
 
-    /// The elements that the cases read, with their numbers from 1 on.
+    /// The elements that the cases read, with their numbers, which start at 1.
     pub(crate) fn numbered(&self) -> impl Iterator<Item = (u32, ElementAddress)> + '_ {
         let numbers = self.chosen.iter().copied();
         numbers.map_while(|number| Some((number, self.first.nth(number).ok()?)))

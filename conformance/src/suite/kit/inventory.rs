@@ -26,7 +26,7 @@ pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// Maximum number of axes and spindles that are requested.
 pub(crate) const INSTANCES_MAX: u32 = 255;
 
-/// Classes with an instance for each channel, and one for each axis of it.
+/// Classes with an instance for each channel, and one for each of its axes.
 pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
 
@@ -41,7 +41,7 @@ pub(crate) fn attribute_reads(element: ElementAddress) -> [Request<'static>; 5] 
     ]
 }
 
-/// The same element of the channel with this rank.
+/// The same element, addressed by the rank of its channel.
 pub(crate) fn element_by_rank(element: ElementAddress, rank: u8) -> ElementAddress {
     let group =
         ClassGroup { addressing: Addressing::Index, instance: rank, ..element.class_group() };
@@ -70,7 +70,7 @@ impl Probe<'_> {
     }
 
     /// The address of an object in the group that addresses its channel by rank; `None` unless its
-    /// group is logical. The numbers of the platform and its axes are the same in both.
+    /// group is logical. The numbers of the platform and its axes are the same in both groups.
     pub(crate) fn address_by_rank(&self, object: &Object) -> Option<ValueAddress> {
         let (group, offset) = object.address.content()?;
         let Some(Group::Com(com)) = group.parts() else { return None };
@@ -87,12 +87,13 @@ impl Probe<'_> {
         })
     }
 
-    /// The places to which the channels assign no axis, by the profile or by their contents.
+    /// The axis places to which a channel assigns no axis, according to the profile or their
+    /// contents.
     fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
         self.target.profile.empty_places.iter().chain(&self.target.unwritten_places)
     }
 
-    /// Whether an object belongs to a place without an axis: a value written to it is not kept.
+    /// Whether an object belongs to an axis place without an axis: a value written there is not kept.
     pub(crate) fn is_blank(&self, object: &Object) -> bool {
         let List::Channel(number) = object.list else { return false };
         self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
@@ -118,12 +119,13 @@ impl Probe<'_> {
         self.target.sample.of(items, self.target.sample_sizes.of(kind))
     }
 
-    /// The numbers from 1 on of the objects of a list that the cases read.
+    /// The numbers of the objects of a list that the cases read, starting at 1.
     pub(crate) fn object_numbers(&self, count: u32) -> Vec<u32> {
         self.sample(ItemKind::Object, 1..count.saturating_add(1))
     }
 
-    /// The objects of all lists that the cases read. Other cases judge a descriptor that cannot be read.
+    /// The objects of all lists that the cases read. Other cases judge descriptors that cannot be
+    /// read.
     pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
         if self.target.objects.is_none() {
             let mut all = Vec::new();
@@ -145,13 +147,13 @@ impl Probe<'_> {
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
-    /// Whether an instance is at a place without an axis.
+    /// Whether an instance is at an axis place without an axis.
     pub(crate) fn is_at_empty_place(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
         OF_PLACES.contains(&instance.class) && self.empty_places().any(|empty| *empty == at)
     }
 
-    /// Every instance for which the target gives an address. Other cases judge the address.
+    /// Every instance for which the target returns an address. Other cases judge the address.
     pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
@@ -178,13 +180,13 @@ impl Probe<'_> {
     ) -> Step<bool> {
         let Some(address) = self.address_of(class, channel, axis)? else { return Ok(false) };
         let Ok(Some(first)) = address.first_element() else { return Ok(false) };
-        // A target that returns the same address for every axis would never end the list.
+        // A target that returns the same address for every axis would make the list endless.
         if all.iter().any(|known| known.class == class && known.first == first) {
             return Ok(false);
         }
         let reported = self.count_elements(first)?.unwrap_or_default();
         let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
-        // If one element fewer than the number has a name, the number includes element 0.
+        // If the elements with names are one fewer than the number, the number includes element 0.
         let is_itself = reported > 0
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
@@ -194,7 +196,7 @@ impl Probe<'_> {
         Ok(true)
     }
 
-    /// Chooses the elements that the cases read again, after the sizes of samples changed.
+    /// Chooses the elements again, after the sample sizes have changed.
     pub(crate) fn choose_elements(&mut self) {
         let (sample, sizes) = (self.target.sample, self.target.sample_sizes);
         for one in self.target.instances.iter_mut().flatten() {
@@ -203,7 +205,7 @@ impl Probe<'_> {
         }
     }
 
-    /// The number of elements up to the last that has a name, of `count` that the target reports.
+    /// The number of elements up to the last one with a name; the target reports `count` elements.
     fn last_named(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
         if self.is_named(first, count)? {
             return Ok(count);
@@ -226,7 +228,7 @@ impl Probe<'_> {
         }
     }
 
-    /// The address that the target gives an instance; None if it rejects the request.
+    /// The address of an instance; `None` if the target rejects the request.
     pub(crate) fn address_of(
         &mut self,
         class: Class,
@@ -236,7 +238,7 @@ impl Probe<'_> {
         self.try_read(FindInstance::new(class, channel, axis))
     }
 
-    /// The list of the objects of a channel.
+    /// The object list of a channel.
     pub(crate) fn list_of(&self, number: u32) -> Step<List> {
         Ok(List::Channel(self.channel_of(number)?.number()))
     }

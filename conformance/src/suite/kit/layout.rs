@@ -12,7 +12,7 @@ pub(crate) fn element_count(dimensions: &[u32]) -> u32 {
     dimensions.iter().fold(1, |all, &n| all.saturating_mul(n))
 }
 
-/// Size of one element in bytes; a text of an array has an equal share of the whole.
+/// Size of one element in bytes; the texts of an array have equal shares of its size.
 pub(crate) fn element_size(variable: &Description) -> Option<usize> {
     let share =
         variable.size.checked_div(element_count(&variable.dimensions)).filter(|size| *size > 0);
@@ -22,12 +22,13 @@ pub(crate) fn element_size(variable: &Description) -> Option<usize> {
 /// Maximum number of elements at the start of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
 
-/// The first elements, those that a one-byte index would confuse with them, and the last.
+/// Whether an element is read: the first ones, those with the same low byte of the index, and the
+/// last.
 fn is_tried(number: usize, count: usize) -> bool {
     number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
 }
 
-/// The indices of the elements that are tried, each with its position in the whole.
+/// The indices of the elements that are read, each with its position in the array.
 pub(crate) fn places_tried(
     dimensions: &[u32],
 ) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
@@ -58,18 +59,18 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
 }
 
 /// The order of several dimensions, and of texts in an array, is assumed; that of numbers in one
-/// dimension is printed.
+/// dimension is printed in the manual.
 pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
     if variable.dimensions.len() > 1 || texts { assumed(VAR_21) } else { VAR_14.into() }
 }
 
-/// The bytes of one element in those of the whole array.
+/// Extracts the bytes of one element from those of the whole array.
 pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
     move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
 }
 
-/// More than one pair of brackets, and texts in an array, are assumed.
+/// The rule for names with indices: several pairs of brackets, and texts in an array, are assumed.
 pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed(VAR_20),
@@ -77,7 +78,7 @@ pub(crate) fn brackets(variable: &Description) -> Rule {
     }
 }
 
-/// A variable's name with indices; `None` if that is too long for a request.
+/// The name of a variable with indices; `None` if it is too long for a request.
 pub(crate) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
     place.iter().for_each(|index| name.push_str(&format!("[{index}]")));

@@ -1,4 +1,4 @@
-//! The objects of one list of COM.
+//! The objects of one list of the COM task.
 
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
@@ -27,7 +27,7 @@ pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Ste
     }
 }
 
-/// Requests descriptors and accepts at most the requested number.
+/// Requests descriptors; a reply with more than the requested number is rejected.
 pub(crate) fn read_descriptors(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -39,8 +39,8 @@ pub(crate) fn read_descriptors(
     probe.read(rule, request)
 }
 
-/// Reads the descriptors of all objects up to the maximum, each with a request of its own: other
-/// cases judge ranges.
+/// Reads the descriptors of all objects up to the maximum, each with its own request: other cases
+/// judge ranges.
 pub(crate) fn descriptors_one_by_one(
     probe: &mut Probe<'_>,
     rule: ClauseId,

@@ -1,4 +1,4 @@
-//! The access of a case to the target: requests and checks.
+//! A case's access to the target: requests and checks.
 
 #![cfg_attr(
     not(test),
@@ -28,7 +28,7 @@ use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::suite::kit::{RawCall, TargetState};
 
-/// Consecutive requests without a reply after which no more are sent.
+/// Number of consecutive requests without a reply after which no more requests are sent.
 const SILENCES_MAX: usize = 8;
 
 /// Maximum number of requests of a case, because a target may return endless lists.
@@ -42,14 +42,14 @@ pub struct Probe<'s> {
     last: Option<Evidence>,
     /// The functions called since the previous check.
     compared: Vec<Function>,
-    /// The variable or object that the next checks are about.
+    /// The variable or object that the following checks are about.
     subject: Option<String>,
     requests: usize,
-    /// Whether the case was stopped because the run is being interrupted.
+    /// Whether the case was stopped because the run is interrupted.
     pub(crate) interrupted: bool,
-    /// Why a value in the file was not written.
+    /// Why a value that the file names was not written.
     ambiguity: Option<String>,
-    /// Whether the target has something to try the case on.
+    /// Whether the target has an item that the case applies to.
     has_subject: bool,
     deadline: Option<Deadline>,
 }
@@ -79,7 +79,7 @@ impl<'s> Probe<'s> {
         (self.record.judgements, self.record.checks)
     }
 
-    /// The channels the target claims, by number.
+    /// The channels that the target claims, by number.
     pub fn channels(&self) -> Step<Vec<Channel>> {
         let numbers = &self.target.profile.channels;
         numbers.iter().map(|&number| Ok(Channel::new(number)?)).collect()
@@ -91,7 +91,7 @@ impl<'s> Probe<'s> {
         first.or_not_applicable("the target claims no channel")
     }
 
-    /// Whether a request may be sent; for a write by handle the handle is confirmed first.
+    /// Whether the gate lets a request pass; for a write by handle, the handle is confirmed first.
     pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
@@ -107,7 +107,8 @@ impl<'s> Probe<'s> {
         Ok(checked.is_ok())
     }
 
-    /// The result of the case: inconclusive if the gate rejected a write that the file names.
+    /// The result of the case: inconclusive if the gate rejected a write of a value that the file
+    /// names.
     pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.ambiguity.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
@@ -115,14 +116,14 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Notes that the target has something to try the case on, for [`finish`](Self::finish): there may
-    /// still be no check of it, such as where a value has no form that can be written.
+    /// Notes for [`finish`](Self::finish) that the target has an item that the case applies to,
+    /// even if no check is made, for example because no other value of its type can be written.
     pub(crate) fn found_subject(&mut self) {
         self.has_subject = true;
     }
 
-    /// Ends a case that has tried everything there is: not applicable if the target has nothing to try
-    /// it on. Every check shows that the target has something.
+    /// Ends a case that has tried all items: not applicable for the reason `why` if the target has no
+    /// item that the case applies to. Any check shows that it has one.
     pub(crate) fn finish(&self, why: &str) -> Step {
         applicable(self.has_subject || self.record.checks > 0, why)
     }
@@ -132,12 +133,13 @@ impl<'s> Probe<'s> {
         self.target.profile.claims(function)
     }
 
-    /// A check that passed.
+    /// Records a check that passed.
     pub fn pass(&mut self, rules: impl Rules) {
         self.check(rules, true, "", "");
     }
 
-    /// Like `check`, for a reply whose data is known completely: the evidence shows both.
+    /// Like [`check`](Checks::check), for a reply whose whole data is known: the evidence shows the
+    /// data expected and received.
     pub fn check_reply(
         &mut self,
         rules: impl Rules,
@@ -156,7 +158,7 @@ impl<'s> Probe<'s> {
         kept
     }
 
-    /// Like `check`, but a failure ends the case.
+    /// Like [`check`](Checks::check), but a failure ends the case.
     pub fn require(
         &mut self,
         rules: impl Rules,
@@ -167,7 +169,7 @@ impl<'s> Probe<'s> {
         if self.check(rules, kept, expected, found) { Ok(()) } else { Err(Stop::Judged) }
     }
 
-    /// Adds checks from a separate record.
+    /// Adds the checks of another record.
     pub(crate) fn take_over(&mut self, record: Record) {
         self.record.append(record);
     }
@@ -184,14 +186,15 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Sends a call; the exchange is the evidence of the following checks.
+    /// Sends a call. The exchange becomes the evidence of the following checks.
     pub(crate) fn call(&mut self, request: &RawCall) -> Step<Exchange> {
         self.target()?;
         let call = request.call();
         self.requests = self.requests.saturating_add(1);
         if self.requests > REQUESTS_MAX {
-            let why =
-                format!("{REQUESTS_MAX} requests, and no end to what the target says to have");
+            let why = format!(
+                "{REQUESTS_MAX} requests sent; the target reports more items than can be read"
+            );
             return Err(Stop::Inconclusive(why));
         }
         let function = call.dispatch().ok().map(|request| request.function());
@@ -209,7 +212,8 @@ impl<'s> Probe<'s> {
             self.target.rules.reply(&exchange, cnc, &call, &exchange, &[]);
         }
         if let Some(fault @ ExchangeError::Malformed(_)) = fault {
-            // A function's data is unknown without a frame; the frame is judged by itself.
+            // Without a valid frame the data of a function is unknown; another check judges the
+            // frame.
             return Err(Stop::Inconclusive(format!("{exchange}: {fault}")));
         }
         if exchange.contradicts_itself() {
@@ -229,7 +233,7 @@ impl<'s> Probe<'s> {
         Ok(exchange)
     }
 
-    /// Ends the case if the target is gone.
+    /// Ends the case if the target no longer answers.
     pub(crate) fn target(&mut self) -> Step {
         if interrupt::is_requested() {
             self.interrupted = true;
@@ -242,7 +246,7 @@ impl<'s> Probe<'s> {
             return Err(Stop::Inconclusive(deadline.to_string()));
         }
         match &self.target.gone {
-            Some(why) => Err(Stop::Inconclusive(format!("no target left: {why}"))),
+            Some(why) => Err(Stop::Inconclusive(format!("the target no longer answers: {why}"))),
             None => Ok(()),
         }
     }
@@ -259,25 +263,31 @@ impl<'s> Probe<'s> {
         match fault {
             Some(ExchangeError::Refused(refusal)) => {
                 let why = format!("{what}: {refusal}");
-                // The address of a query was given by the target, and not by the user.
+                // The target, not the user, gave the address of a query.
                 let is_of_user = refusal.reason.is_of_file();
                 return Err(if is_of_user { Stop::Refused(why) } else { Stop::Inconclusive(why) });
             }
             Some(ExchangeError::Disconnected(why)) => {
                 state.gone = Some(why.clone());
-                return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
+                return Err(Stop::Inconclusive(format!("the target no longer answers: {why}")));
             }
             Some(ExchangeError::Malformed(_)) | None => state.silences = 0,
             Some(_) => state.silences = state.silences.saturating_add(1),
         }
         state.frames = state.frames.saturating_add(1);
         if state.silences >= SILENCES_MAX {
-            state.gone = Some(format!("{SILENCES_MAX} requests in a row without an answer"));
+            state.gone = Some(format!("{SILENCES_MAX} consecutive requests without a reply"));
         }
         for Violation { requirement, what } in violations {
             let rule = Rule::from(*requirement);
             let evidence = || Some(evidence.clone());
-            state.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
+            state.broken.add(
+                rule,
+                rule.verdict(false),
+                "a frame that follows the rule",
+                what,
+                evidence,
+            );
         }
         if let Some(function) = evidence.function.filter(|one| !self.compared.contains(one)) {
             self.compared.push(function);
@@ -287,14 +297,14 @@ impl<'s> Probe<'s> {
         Ok(())
     }
 
-    /// Sends an operation.
+    /// Sends a request.
     pub fn send<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Exchange> {
         let request = request.into();
         self.confirm_handle(&request)?;
         self.call(&RawCall::new(request)?)
     }
 
-    /// Sends an operation that must be answered, and returns the data.
+    /// Sends a request that must succeed, and returns the data.
     pub fn ask<'a>(&mut self, rules: impl Rules, request: impl Into<Request<'a>>) -> Step<Vec<u8>> {
         let request = request.into();
         let exchange = self.send(request)?;
@@ -305,18 +315,18 @@ impl<'s> Probe<'s> {
         }
         let data = exchange.success();
         let compared = self.compared.clone();
-        self.require(&rules[..], data.is_some(), "an answer", &exchange)?;
+        self.require(&rules[..], data.is_some(), "a success", &exchange)?;
         // A later check may still compare this reply.
         self.compared = compared;
         Ok(data.unwrap_or_default().to_vec())
     }
 
-    /// Sends an operation that need not be answered, and returns the data of a success.
+    /// Sends a request that may be rejected, and returns the data of a success.
     pub fn try_ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<Vec<u8>>> {
         Ok(self.send(request)?.success().map(<[u8]>::to_vec))
     }
 
-    /// Like [`try_ask`](Self::try_ask), but also `None` if the data is not the stream `T`.
+    /// Like [`try_ask`](Self::try_ask), but also returns `None` if the data does not decode as `T`.
     pub fn try_read<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<T>>
     where
         T: for<'b> Decode<'b>,
@@ -324,7 +334,7 @@ impl<'s> Probe<'s> {
         Ok(self.send(request)?.success().and_then(|data| T::decode(data).ok()))
     }
 
-    /// Like [`ask`](Self::ask), and the data must be the stream `T`.
+    /// Like [`ask`](Self::ask), but decodes the data, which must be the stream `T`.
     pub fn read<'a, T>(&mut self, rule: impl Into<Rule>, request: impl Into<Request<'a>>) -> Step<T>
     where
         T: for<'b> Decode<'b>,
@@ -338,7 +348,7 @@ impl<'s> Probe<'s> {
         })
     }
 
-    /// Notes the variable or object that the checks are about, from the last call on.
+    /// Sets the variable or object that the checks are about, from the last call on.
     pub(crate) fn set_subject(&mut self, subject: impl Display) {
         self.subject = Some(subject.to_string());
         if let Some(last) = &mut self.last {
@@ -346,7 +356,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Ends what [`set_subject`](Self::set_subject) began.
+    /// Ends the subject set by [`set_subject`](Self::set_subject).
     pub(crate) fn end_subject(&mut self) {
         self.subject = None;
     }
@@ -370,7 +380,7 @@ impl Checks for Probe<'_> {
         expected: impl Describe,
         found: impl Describe,
     ) -> bool {
-        // After an interrupt requests are no longer sent; that is not a fault of the target.
+        // After an interrupt no more requests are sent; that is not a fault of the target.
         if !self.interrupted {
             self.record.add_all(rules, kept, expected, found, || self.last.clone());
         }
@@ -379,8 +389,8 @@ impl Checks for Probe<'_> {
     }
 }
 
-/// An exchange with any reply. Without a reply the target may or may not have executed the request, so
-/// that later answers prove nothing: the case is inconclusive.
+/// An exchange with any reply. Without a reply, the target may or may not have executed the
+/// request, so later replies prove nothing: the case is inconclusive.
 pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
     match &exchange.outcome {
         Err(fault @ ExchangeError::Silence(_)) => {

@@ -1,4 +1,4 @@
-//! Owned requests, to be changed before they are sent.
+//! Requests that own their data, so that a case can change them before they are sent.
 
 #![cfg_attr(
     not(test),
@@ -48,7 +48,7 @@ impl RawCall {
     }
 }
 
-/// A request, or a changed one.
+/// A request, or a changed request.
 pub(crate) trait IntoRawCall<'a> {
     fn into_raw_call(self) -> Step<RawCall>;
 }

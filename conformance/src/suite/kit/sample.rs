@@ -1,4 +1,4 @@
-//! The choice of the items of long lists.
+//! Selects items of long lists.
 
 use std::ops::Range;
 
@@ -7,19 +7,19 @@ use crate::judge::order;
 /// Maximum number of items that are read of every list.
 const ITEMS_MAX: u32 = 10_000;
 
-/// Which items of a list the cases read.
+/// Which items of each list the cases read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
-    /// By this seed, up to a number of items that depends on how many lists there are.
+    /// Items selected with this seed, up to a number that depends on how many lists there are.
     BySeed(u32),
     /// The first 10,000 items of every list.
     All,
 }
 
 impl Sample {
-    /// The chosen items, in order: all, or `most` of a longer list. A quarter of them are the first, a
-    /// quarter the last, and the others are spread over the items in between. Lists of the same length
-    /// have the same choice.
+    /// The selected items in order: all items, or `most` items of a longer list. A quarter of these
+    /// are the first, a quarter the last, and the rest are spread over the items in between. Lists
+    /// of the same length have the same selection.
     ///
     /// ```
     /// use ads_cnc_conformance::suite::Sample;
@@ -41,7 +41,7 @@ impl Sample {
         let at_end = most / 4;
         let parts = most.saturating_sub(at_end.saturating_mul(2));
         let (first, last) = (start.saturating_add(at_end), end.saturating_sub(at_end));
-        // The parts differ by one item at most.
+        // The lengths of the parts differ by at most one item.
         let begin = |part: u32| {
             let items = u64::from(last.saturating_sub(first)).saturating_mul(part.into());
             let items = items.checked_div(parts.into()).unwrap_or_default();
@@ -56,7 +56,7 @@ impl Sample {
         (start..first).chain(between).chain(last..end).collect()
     }
 
-    /// The chosen items of a list that is known.
+    /// The selected items of a list that is already known.
     pub(crate) fn among<T>(self, items: Vec<T>, most: u32) -> Vec<T> {
         let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
         let chosen = self.of(0..count, most);
@@ -66,7 +66,7 @@ impl Sample {
     }
 }
 
-/// What a list has.
+/// The kind of the items of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ItemKind {
     Object,
@@ -74,7 +74,7 @@ pub(crate) enum ItemKind {
     Element,
 }
 
-/// The most items of a list that are read in a sample, for each kind.
+/// Maximum number of items of a list that are read in a sample, for each kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SampleSizes {
     objects: u32,
@@ -83,16 +83,17 @@ pub(crate) struct SampleSizes {
 }
 
 impl SampleSizes {
-    /// The most items of a list.
+    /// Maximum for any list.
     const MOST: u32 = 256;
-    /// The fewest, however many lists there are.
+    /// Minimum, however many lists there are.
     const LEAST: u32 = 4;
-    /// Those of few lists.
+    /// The sizes if the target has few lists.
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
-    /// The sizes for these lists, by kind and number of items. With many lists fewer items of each are
-    /// read, so that all cases together send about 50,000 requests to a CNC with seven channels.
+    /// The sizes for these lists, given by kind and number of items. If there are many lists, fewer
+    /// items of each are read, so that all cases together send about 50,000 requests to a CNC with
+    /// seven channels.
     pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
         let size = |kind, budget| {
             let counts = || lists.iter().filter(move |list| list.0 == kind).map(|list| list.1);
@@ -122,7 +123,7 @@ impl SampleSizes {
 mod tests {
     use super::*;
 
-    /// Every part has its item, whatever the length.
+    /// Every part contributes one item, whatever the length of the list.
     #[test]
     fn a_sample_is_spread_over_the_list() {
         for most in [4, 5, 17, 255, 256] {
@@ -139,9 +140,10 @@ mod tests {
         assert_eq!(Sample::All.of(0..u32::MAX, 256).len(), 10_000);
     }
 
-    /// With few lists those of 256 items are read whole; with many, fewer of each.
+    /// If there are few lists, a list of 256 items is read whole; if there are many, fewer items of
+    /// each.
     #[test]
-    fn many_lists_share_what_is_read() {
+    fn many_lists_share_the_requests() {
         let sizes = |lists: &[u32]| {
             let lists: Vec<_> = lists.iter().map(|&items| (ItemKind::Variable, items)).collect();
             let sizes = SampleSizes::new(&lists);

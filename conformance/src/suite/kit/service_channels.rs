@@ -9,8 +9,8 @@ use crate::judge::{Step, Stop};
 use crate::profile::{Claim, Section};
 use crate::suite::kit::Probe;
 
-/// The channels with the interface: all, if it is claimed; otherwise those that describe or answer
-/// its variables.
+/// The channels with the Service Interface: all channels if it is claimed, otherwise those that
+/// describe or answer its variables.
 pub(crate) fn service_channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.target.profile;
     let lacks = |why| Err(Stop::not_applicable(why));
@@ -33,7 +33,7 @@ pub(crate) fn service_channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
                 }
             }
             if there.is_empty() {
-                lacks("no channel has the Service Interface, which comes with a version")
+                lacks("no channel has the Service Interface, which only some versions have")
             } else {
                 Ok(there)
             }

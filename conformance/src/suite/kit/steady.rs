@@ -1,4 +1,4 @@
-//! Comparisons while the machine moves: only steady values are judged.
+//! Comparisons while the machine moves: only values that do not change by themselves are judged.
 
 use std::fmt::Display;
 
@@ -13,11 +13,11 @@ use crate::suite::kit::{Probe, RawCall};
 /// How often a value that changes is read again.
 const TRIES: usize = 3;
 
-/// The result of comparing a value, read before and after, with another reading in between.
+/// The result of comparing a value, which is read before and after, with another reading in between.
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
-    /// The reading between them got no reply.
+    /// The reading in between got no reply.
     NoAnswer,
     Same,
     /// In the last attempt both readings of the value were equal, and the reading between them
@@ -27,8 +27,8 @@ pub(crate) enum Compared<B, R> {
     Moved,
 }
 
-/// Compares what `other` reads with what `value` reads before and after it, at most [`TRIES`] times,
-/// until `same` finds them the same.
+/// Compares the result of `other` with the value that `value` reads before and after it, at most
+/// [`TRIES`] times, until `same` returns true.
 pub(crate) fn compare<B: PartialEq, R>(
     probe: &mut Probe<'_>,
     mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,
@@ -52,7 +52,7 @@ pub(crate) fn compare<B: PartialEq, R>(
     Ok(last)
 }
 
-/// Compares pairs of ways to read the same value.
+/// Compares two ways of reading the same value.
 #[derive(Debug, Default)]
 pub(crate) struct Steady {
     judged: bool,
@@ -60,9 +60,9 @@ pub(crate) struct Steady {
 }
 
 impl Steady {
-    /// Compares the value that `other` reads with the one that `one` reads before and after it.
+    /// Compares the value that `other` reads with the value that `one` reads before and after it.
     ///
-    /// `rules` fail if they differ. `what` names the value in the message.
+    /// `rules` fail if the values differ. `what` names the value in the message.
     pub(crate) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -72,7 +72,7 @@ impl Steady {
         other: impl Into<Request<'b>>,
     ) -> Step {
         let (one, other) = (one.into(), other.into());
-        // Another case judges whether it is answered.
+        // Another case judges whether the request is answered.
         let compared = compare(
             probe,
             |probe| probe.try_ask(one),
@@ -112,7 +112,7 @@ impl Steady {
         Ok(())
     }
 
-    /// Judges the result of a comparison; `differs` describes a difference.
+    /// Judges the result of a comparison; `differs` records a difference.
     pub(crate) fn judge<B, R>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -126,18 +126,18 @@ impl Steady {
         match compared {
             Compared::NoValue => {}
             Compared::NoAnswer => {
-                let expected = || format!("an answer of {what}");
+                let expected = || format!("a success for {what}");
                 probe.check(&rules[..], false, expected, "an error");
             }
             Compared::Same => probe.pass(&rules[..]),
             Compared::Differs(before, read, evidence) => {
                 differs(probe, &rules, (before, read, evidence));
             }
-            Compared::Moved => self.moved = Some(format!("{what} does not stand still")),
+            Compared::Moved => self.moved = Some(format!("{what} changes by itself")),
         }
     }
 
-    /// Not applicable if no value was steady.
+    /// Ends the case: inconclusive if every value changed by itself.
     pub(crate) fn finish(self) -> Step {
         match (self.judged, self.moved) {
             (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
@@ -178,7 +178,7 @@ pub(crate) fn between<G: PartialEq, T>(
 
 /// Number of attempts while parameters are created and deleted.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// Number of failed attempts for a failure, without any that passed.
+/// Number of failed attempts, with none that passed, that count as a failure.
 const FAILURES: usize = 3;
 
 /// A check before it is recorded.
@@ -191,7 +191,7 @@ pub(crate) struct PendingCheck {
 }
 
 impl PendingCheck {
-    /// With the last call as evidence.
+    /// Creates a check with the last call as its evidence.
     pub(crate) fn new(
         probe: &Probe<'_>,
         rules: impl Rules,
@@ -212,8 +212,8 @@ impl PendingCheck {
     }
 }
 
-/// Judges the result of `act` if the guards return the same before and after it; `act` gets their
-/// data. A failed check must fail again in repeated attempts. If the guards change in every
+/// Judges the result of `act` if the guards return the same data before and after it; `act` receives
+/// this data. A failed check must fail again in repeated attempts. If the guards change in every
 /// attempt, no check is recorded.
 pub(crate) fn steadily(
     probe: &mut Probe<'_>,

@@ -10,7 +10,7 @@ use ads_cnc::streaming::Ack;
 use crate::judge::{Describe, Step};
 use crate::suite::kit::{Probe, RawCall, with_reply};
 
-/// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented: their
+/// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented; their
 /// meaning is assumed.
 #[derive(Debug)]
 pub(crate) struct StreamWrite {
@@ -52,7 +52,7 @@ impl fmt::Display for StreamWrite {
     }
 }
 
-/// Sends bytes to the stream, valid or not.
+/// Sends bytes to the program stream, valid or not.
 pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
     let exchange = with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;

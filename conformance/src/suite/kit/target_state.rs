@@ -1,4 +1,4 @@
-//! The state of a target during a run, which all cases share.
+//! The state of a target during a run, shared by all cases.
 
 use std::collections::BTreeMap;
 
@@ -12,31 +12,31 @@ use crate::profile::Profile;
 use crate::rules::RuleBook;
 use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
 
-/// A connection to a target, and the state that the cases of a run have found so far.
+/// A connection to a target, and what the cases of a run have found about it.
 #[derive(Debug)]
 pub struct TargetState {
     /// The connection.
     pub client: Client,
     /// The claims of the target.
     pub profile: Profile,
-    /// Places for axes, by channel, whose contents are all zero: they may have no axis, and then a value
-    /// written there is not kept.
+    /// Axis places, by channel, whose contents are all zero: they may have no axis, in which case a
+    /// value written there is lost.
     pub(in crate::suite) unwritten_places: Vec<(u32, u32)>,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
-    /// How many of them.
+    /// Maximum number of these items.
     pub(in crate::suite) sample_sizes: SampleSizes,
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
-    /// Its objects, read when a case first needs them.
+    /// The objects, read when a case first needs them.
     pub(in crate::suite) objects: Option<Vec<Object>>,
-    /// Its instances, read when a case first needs them.
+    /// The instances, read when a case first needs them.
     pub(in crate::suite) instances: Option<Vec<Instance>>,
-    /// Requests sent.
+    /// Number of requests sent.
     pub frames: usize,
-    /// Services that were answered.
+    /// Services to which the target has replied.
     pub(in crate::suite) answered: Vec<Service>,
-    /// Whether a reply was a success.
+    /// Whether any reply was a success.
     pub(in crate::suite) any_success: bool,
     /// An error that came with data.
     pub(in crate::suite) error_with_data: Option<Evidence>,
@@ -44,11 +44,11 @@ pub struct TargetState {
     pub(in crate::suite) silences: usize,
     /// Why no more requests are sent.
     pub(in crate::suite) gone: Option<String>,
-    /// Violations of the frames' headers.
+    /// Violations of the rules for frame headers.
     pub(in crate::suite) broken: Record,
     /// The checks of all replies.
     pub(in crate::suite) rules: RuleBook,
-    /// The deadline; a case that writes is completed after it.
+    /// The deadline of the run; a case that has begun to write is completed after it.
     pub(in crate::suite) deadline: Option<Deadline>,
     /// The replies to requests that must be rejected.
     pub(in crate::suite) refusals: Refusals,
@@ -59,7 +59,7 @@ pub struct TargetState {
 /// How a target rejects requests.
 #[derive(Debug, Default)]
 pub(in crate::suite) struct Refusals {
-    /// Number of error numbers, in the AMS header or in the service.
+    /// Number of rejections with an error number, in the AMS header or in the service.
     pub(in crate::suite) by_number: usize,
     /// Checks of successes without data.
     pub(in crate::suite) by_nothing: Record,

@@ -1,4 +1,4 @@
-//! Writes of a case: each writes another value, reads it back and restores the old one.
+//! Writes of a case: each writes another value, reads it back and restores the original value.
 
 #![cfg_attr(
     not(test),
@@ -17,15 +17,15 @@ use crate::suite::kit::{Probe, RawCall};
 use crate::values::until_nul;
 
 /// Why a case that writes is not applicable.
-pub(crate) const NOTHING_WRITABLE: &str = "nothing of it may be written";
+pub(crate) const NOTHING_WRITABLE: &str = "no such value may be written";
 
-/// Whether a request can be encoded: a long value after a long name cannot.
+/// Whether a request can be encoded: a long value together with a long name cannot.
 pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
-/// A different value that is as close as possible: one bit of the first byte is changed. A text
-/// gets another first character; a text of a single byte has no room for one.
+/// A value that differs as little as possible: one bit of the first byte is changed. A text gets
+/// another first character; a text of a single byte has no space for one.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -45,12 +45,12 @@ pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     other
 }
 
-/// Whether values are equal; texts are compared up to their first NUL.
+/// Whether two values are equal; texts are compared up to their first NUL.
 pub(crate) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
     one == other || is_text && until_nul(one) == until_nul(other)
 }
 
-/// The rules of a write, and the name of its value.
+/// The rules of a write, and the name of the value.
 pub(crate) struct WriteCheck<'t> {
     pub(crate) what: &'t str,
     pub(crate) rules: &'t [Rule],
@@ -60,7 +60,7 @@ pub(crate) struct WriteCheck<'t> {
 }
 
 impl Probe<'_> {
-    /// The current value; other cases judge whether it is answered.
+    /// The current value; other cases judge whether the request is answered.
     pub(crate) fn value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
         match address.read() {
             Ok(read) => self.try_ask(read),
@@ -68,7 +68,7 @@ impl Probe<'_> {
         }
     }
 
-    /// The current value, if it is not empty: an empty value could not be restored.
+    /// The current value, unless it is empty: an empty value could not be restored.
     pub(crate) fn filled_value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
         Ok(self.value_at(address)?.filter(|value| !value.is_empty()))
     }
@@ -79,7 +79,7 @@ impl Probe<'_> {
         Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
     }
 
-    /// Whether a value is the old one. False without a reply.
+    /// Whether a value equals the original one. False without a reply.
     pub(crate) fn is_as_before(
         &mut self,
         address: &ValueAddress,
@@ -120,13 +120,13 @@ impl Probe<'_> {
         self.target.changes.is_now(address, Some(value));
         let exchange = self.send(write)?;
         let passed = exchange.success().is_some();
-        let expected = || format!("{} takes {}", write_check.what, Hex(value.to_vec()));
+        let expected = || format!("{} accepts {}", write_check.what, Hex(value.to_vec()));
         self.check(write_check.rules, passed, expected, &exchange);
         Ok(passed)
     }
 
-    /// Writes another value, reads it back and restores the old one in any case. Before that,
-    /// `then` is called with the old and the new value.
+    /// Writes another value, reads it back and restores the original one in any case. Before
+    /// restoring, `then` is called with the original and the written value.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -180,8 +180,9 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Writes a value that differs from the old one in every byte. An accepted one must be read back, or
-    /// another value if it is out of range; but not the old one, and no mixture of both.
+    /// Writes a value that differs from the original one in every byte. If it is accepted, it must
+    /// be read back, or another value if it is out of range; but not the original one, nor a
+    /// mixture of both.
     fn change_every_byte(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -204,7 +205,7 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Whether the old value was restored, or changes by itself.
+    /// Whether the original value was restored, or the value changes by itself.
     fn restore_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -218,12 +219,12 @@ impl Probe<'_> {
         if !passed && self.moves(address, write_check.is_text)? {
             return Ok(taken);
         }
-        let expected = || format!("{} of {} again", Hex(before.to_vec()), write_check.what);
+        let expected = || format!("{} of {}, restored", Hex(before.to_vec()), write_check.what);
         self.check(write_check.rules, passed, expected, || Hex(after.clone()));
         Ok(passed)
     }
 
-    /// Writes the current value of a read-only address, which must be rejected; `sibling` is an
+    /// Writes the current value to a read-only address, which must be rejected; `sibling` is an
     /// address that must accept its own value.
     pub(crate) fn write_refused(
         &mut self,
@@ -236,13 +237,13 @@ impl Probe<'_> {
             let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
             let Some(write) = sibling.write(&taken).ok().filter(is_sendable) else {
                 return Err(Stop::inconclusive(
-                    "nothing to hold it against has a value that can be written",
+                    "no comparable address has a value that can be written",
                 ));
             };
             let exchange = self.send(write)?;
             if exchange.success().is_none() {
                 // Another case judges whether writable addresses accept a value.
-                let why = format!("nothing to hold it against is written: {}", exchange.result());
+                let why = format!("no comparable address accepts a write: {}", exchange.result());
                 return Err(Stop::Inconclusive(why));
             }
         }

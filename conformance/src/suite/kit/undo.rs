@@ -1,4 +1,4 @@
-//! Values that cases change: each is restored and read back, however the case ends.
+//! Restores the values that cases change, and reads them back, however the case ends.
 
 #![cfg_attr(
     not(test),
@@ -20,23 +20,23 @@ use crate::suite::kit::changes::Change;
 use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, WriteCheck, same};
 use crate::text::Moment;
 
-/// How often a value is written back.
+/// Maximum number of attempts to write a value back.
 const WRITES_MAX: u32 = 5;
 
-/// Pause before the second attempt; doubled for each that follows.
+/// Pause before the second attempt; it doubles for each further attempt.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// Maximum number of requests to restore a value, apart from lists of objects that are read again
+/// Maximum number of requests to restore a value, not counting lists of objects that are read again
 /// on a new connection.
 const REQUESTS_MAX: u32 = 60;
 
-/// The sum of the pauses between restoring writes, for both rounds.
+/// The sum of the pauses between these attempts, for both rounds.
 const PAUSES: Duration = Duration::from_secs(8);
 
 impl Probe<'_> {
-    /// Runs a function that changes a value, and restores it in any case. `restore` does so as a
-    /// part of the case and returns whether the value is the original one; if not, it is written
-    /// back again.
+    /// Runs a function that changes a value, and restores the value in any case. `restore` restores
+    /// it as a part of the case, and returns whether the value is the original one; if not, the
+    /// original value is written back again.
     pub(crate) fn changing(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -78,8 +78,8 @@ impl Probe<'_> {
         changed.and(restored).and(restored_all)
     }
 
-    /// Rejects a change, and any further request of a case that has changed a value, if the file
-    /// that permits it expires before the value could be restored.
+    /// Rejects a change, and any further request of a case that has changed a value, if the file of
+    /// `--allow-write` would expire before the value could be restored.
     pub(crate) fn check_time_to_restore(&self) -> Step {
         let client = &self.target.client;
         let target = client.target();
@@ -93,8 +93,8 @@ impl Probe<'_> {
         })
     }
 
-    /// Restores all changed values, the last change first, even if the run is interrupted or no
-    /// more requests are sent otherwise.
+    /// Restores all changed values, the last change first, even if the run is interrupted or no other
+    /// requests are sent any more.
     pub(crate) fn restore_all(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.target.changes.last() {
@@ -106,7 +106,7 @@ impl Probe<'_> {
     /// Tries again to restore the remaining values.
     pub(crate) fn restore_rest(&mut self) {
         self.target.changes.all().iter_mut().for_each(|change| change.given_up = false);
-        // The remaining ones are reported.
+        // Values that remain changed are reported.
         let _left = self.restore_all();
     }
 
@@ -117,7 +117,7 @@ impl Probe<'_> {
             if times > 1 {
                 let pause = PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8));
                 self.target.client.wait(pause);
-                // The handle may be invalid by now, or no longer be confirmed.
+                // The handle may have become invalid, or unconfirmed.
                 if let Some(by_name) = change.by_name.take() {
                     change.address = by_name;
                 }
@@ -126,7 +126,7 @@ impl Probe<'_> {
             let now = self.present_value(&change);
             changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
-            // A value that changes by itself never equals the original one. Two reads show that.
+            // A value that changes by itself never equals the original one; two reads detect that.
             let moves = !is_same && written && now.is_some() && {
                 let values = now.as_ref().zip(self.present_value(&change));
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))

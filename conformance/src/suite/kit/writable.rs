@@ -13,7 +13,7 @@ use crate::judge::{Rule, Step, Stop, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, name_of};
 
-/// Other cases write the variables of the Service Interface, because of their side effects.
+/// Other cases write the variables of the Service Interface, because such writes have side effects.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
     ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
 }
@@ -43,7 +43,8 @@ pub(crate) fn write_check<'t>(
     WriteCheck { what, rules, is_text, name: Some(&variable.name.text) }
 }
 
-/// The handle of a name, requested by name: that confirms it for a file that names the variable.
+/// Requests the handle of a name, which also confirms it if the file of `--allow-write` names the
+/// variable.
 pub(crate) fn handle_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -53,7 +54,7 @@ pub(crate) fn handle_of(
     Ok(handle.unwrap_or(variable.handle))
 }
 
-/// A writable variable with its current value, to compare a rejected write with.
+/// A writable variable with its current value, to which a rejected write is compared.
 pub(crate) struct WritableNumber {
     pub(crate) channel: Channel,
     pub(crate) variable: Description,
@@ -78,8 +79,8 @@ impl WritableNumber {
     }
 }
 
-/// Writable numbers, the first of each type, whose value can be read with the described size; other
-/// cases judge the others.
+/// The first writable number of each type whose value can be read with the described size; other
+/// cases judge the rest.
 pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
     let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
@@ -115,13 +116,14 @@ pub(crate) fn is_taken(
 ) -> Step<bool> {
     let exchange = probe.send(request)?;
     if exchange.answer().is_none() {
-        let expected = || format!("an answer to {what}");
+        let expected = || format!("a reply to {what}");
         probe.require(rule.into(), false, expected, &exchange)?;
     }
     Ok(exchange.success().is_some())
 }
 
-/// Requires that the target accepts the correct request: the rejected one differs from it by its fault only.
+/// Requires that the target accepts the correct request, from which the rejected one differs only
+/// by its fault.
 pub(crate) fn require_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
@@ -134,7 +136,7 @@ pub(crate) fn require_taken(
     }
 }
 
-/// An element with its name and whether it is a text.
+/// An element with its name, and whether it is a text.
 pub(crate) struct WritableElement {
     pub(crate) instance: Instance,
     pub(crate) element: ElementAddress,

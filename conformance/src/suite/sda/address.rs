@@ -19,9 +19,9 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         check_group(probe, (one.class, Some(one.channel)), one.first.class_group());
         let offset = one.first.index_offset();
         check_offset(probe, (one.class, one.channel, one.axis), offset);
-        let found = || format!("{group} and {offset} for {one}, as for another instance");
+        let found = || format!("{group} and {offset} for {one} and for another instance");
         let own = seen.insert((group, offset));
-        probe.check(SDA_1, own, "a place of its own", found);
+        probe.check(SDA_1, own, "an address that no other instance has", found);
     }
     // If several instances have the same address, the one after the last is not requested.
     for one in probe.instances()? {
@@ -30,10 +30,10 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
             continue;
         };
         let own = beyond != ObjectAddress::from(one.first) || one.class == Class::Spindle;
-        let found = || format!("{beyond:?} for the axis behind {one} too");
-        probe.check(SDA_1, own, "a place of its own", found);
+        let found = || format!("{beyond:?} also for the axis after {one}");
+        probe.check(SDA_1, own, "an address that no other instance has", found);
     }
-    // In another order every instance has the same address.
+    // In another order, every instance must have the same address.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;
         let first = ObjectAddress::from(one.first);
@@ -54,7 +54,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
             let by_index = element_by_rank(first, rank);
-            // That channels can be given by rank in this function is not stated.
+            // That this function accepts channel ranks is not stated.
             let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
             let found = exchange.success().and_then(|data| ObjectAddress::decode(data).ok());
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);

@@ -11,7 +11,9 @@ use crate::suite::kit::{Instance, OBJECTS_MAX, OF_PLACES, Probe};
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     let places = probe.target.profile.empty_places.clone();
     if places.is_empty() {
-        return Err(Stop::not_applicable("no place is known to be empty; a profile can name one"));
+        return Err(Stop::not_applicable(
+            "no axis place without an axis is known; a profile can name one",
+        ));
     }
     let all = probe.instances()?;
     for &(channel, place) in places.iter() {
@@ -46,7 +48,7 @@ fn is_blank(bytes: &[u8]) -> bool {
 }
 
 fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
-    // The number of elements is a content, too.
+    // The number of elements is also a content.
     probe.ask(SDA_11, CountElements::new(one.first)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
@@ -65,10 +67,9 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
         };
         let content = probe.ask(SDA_11, read)?;
         let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
-        // A content that equals that of an axis must not be one at an empty place, unless it is
-        // zero.
+        // The content at an empty place must not equal that of an axis, unless it is zero.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
-        probe.check(SDA_11, !of_axis, "blank, not what an axis has elsewhere", found);
+        probe.check(SDA_11, !of_axis, "blank content, different from that of any axis", found);
         probe.check(assumed(SDA_11), is_blank(&content), "zeros", found);
     }
     Ok(())

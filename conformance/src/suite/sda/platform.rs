@@ -23,11 +23,11 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     for axis in &platform {
         let mine = own.iter().find(|one| one.axis == axis.axis);
-        let expected = || format!("axis {} under channel {first} as under channel 0", axis.axis);
+        let expected = || format!("axis {} in channel {first}, as in channel 0", axis.axis);
         probe.check([SDA_5, SDA_13], mine.is_some(), expected, "no such instance");
         let Some(mine) = mine else { continue };
-        let counts = || format!("{} elements, of {axis} {}", mine.count, axis.count);
-        probe.check(SDA_13, mine.count == axis.count, "the same elements", counts);
+        let counts = || format!("{} elements, but {axis} has {}", mine.count, axis.count);
+        probe.check(SDA_13, mine.count == axis.count, "the same number of elements", counts);
         for (one, other) in axis.elements().zip(mine.elements()) {
             let Some(length) = probe.length_of(one)? else { continue };
             let read = |address| ReadElement::new(address, length);

@@ -10,7 +10,7 @@ use ads_cnc_vectors::{ClauseId, Hex};
 use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe, attribute_reads};
 
-/// Requests an instance that must exist. Another task may serve the class: a rejection is judged
+/// Requests an instance that must exist. Another task may serve the class, so a rejection is judged
 /// only for the decoder, which SDA serves.
 fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
@@ -38,13 +38,14 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     if let Some(first) = first {
         let group = first.class_group();
         let same = (group.class, u32::from(group.instance)) == (class, channel);
-        let expected = || format!("the {} ({channel}, {axis}) in a group of its own", class);
+        let expected =
+            || format!("the {} ({channel}, {axis}) in a group that no other class has", class);
         probe.check(SDA_1, same, expected, found);
-        // An instance has a number of elements.
+        // Every instance has a number of elements.
         let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
-        let expected = || format!("the elements of the {} ({channel}, {axis})", class);
+        let expected = || format!("elements of the {} ({channel}, {axis})", class);
         let of_range: Vec<Rule> =
             rules.iter().filter(|rule| rule.id == SDA_5.as_str()).copied().collect();
         probe.check(&of_range, read, expected, &exchange);
@@ -52,12 +53,13 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     Ok(())
 }
 
-/// One section of the manual gives axes to path preparation, another does not.
+/// The rule for axes of a class: one section of the manual gives axes to path preparation, another
+/// does not.
 fn of_axes(class: Class, id: ClauseId) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
-/// Requests an instance that cannot exist according to the range of these requirements.
+/// Requests an instance that cannot exist in the range given by these requirements.
 fn is_nowhere(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -69,9 +71,9 @@ fn is_nowhere(
     let exchange = probe.send(request)?;
     let data = exchange.success();
     let Some(data) = data else {
-        // Rejected with an error: that the result is (0, 0) instead is assumed.
+        // An error instead of the result (0, 0): that this is wrong is assumed.
         let found = exchange.result();
-        probe.check(assumed(SDA_2), false, "the answer (0, 0)", found);
+        probe.check(assumed(SDA_2), false, "the reply (0, 0)", found);
         return Ok(());
     };
     let address = ObjectAddress::decode(data);
@@ -79,7 +81,7 @@ fn is_nowhere(
     let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class);
     let found = || Hex(data.to_vec());
     probe.check(SDA_2, none, expected, found);
-    // An instance was returned that cannot exist.
+    // The reply addresses an instance that cannot exist.
     let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
     probe.check(rules, !is_found, expected, found);
     Ok(())
@@ -98,7 +100,7 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
             probe.check(SDA_1, is_address, "an address of the first axis, or (0, 0)", found);
         }
     }
-    // A place exists with or without an axis.
+    // An axis place exists with or without an axis.
     for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for class in OF_PLACES {
             is_there(probe, &[of_axes(class, SDA_5)], class, channel, place)?;
@@ -109,8 +111,7 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
         is_there(probe, &rules, Class::PositionController, 0, axis)?;
         is_there(probe, &rules, Class::Hld, 0, axis)?;
         for (rank, &channel) in numbers.iter().enumerate() {
-            // The manual gives the platform's axes to the HLD of the first channel, not to the
-            // others.
+            // The manual gives the platform's axes to the HLD of the first channel only.
             let rules = if rank == 0 { rules } else { [SDA_5, ADR_5].map(assumed) };
             is_there(probe, &rules, Class::Hld, channel, axis)?;
         }
@@ -144,7 +145,7 @@ fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
     mine.map(|one| one.axis).max()
 }
 
-/// Compares the instances of the classes with each other.
+/// Compares the numbers of axes of the classes.
 pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let mut any = false;
@@ -169,10 +170,10 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
         let axis = if mine < last { mine.saturating_add(1) } else { last };
         is_there(probe, &[Rule::from(SDA_5)], class, 0, axis)?;
     }
-    applicable(any, "no class names an axis")
+    applicable(any, "no class has an axis")
 }
 
-/// Neither the axis after the last exists, nor one whose number has the lower 16 bits of the last.
+/// Checks that the axis after the last does not exist, nor one with the lower 16 bits of the last.
 fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Step {
     is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
     is_nowhere(probe, &[SDA_5], class, channel, last | 0x1_0000)
@@ -192,7 +193,7 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
                 axes_end(probe, class, channel, last)?;
             }
         }
-        // Channels start at 1: 0 is the platform, which these classes do not have.
+        // Channels start at 1; 0 is the platform, which these classes do not have.
         is_nowhere(probe, &[SDA_5, GEN_6], class, 0, 0)?;
         is_nowhere(probe, &[SDA_5, GEN_6], class, 0, 1)?;
     }
@@ -215,8 +216,8 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Numbers whose lower bits are those of an instance: a group has 8 bits for a channel, an offset
-/// 16 for an axis.
+/// Requests instances whose lower bits are those of an existing one: a group has 8 bits for the
+/// channel, an offset 16 bits for the axis.
 pub(super) fn far(probe: &mut Probe<'_>) -> Step {
     for one in probe.instances()? {
         let channels: &[u32] = match one.axis {
@@ -227,7 +228,8 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
             let channel = one.channel.wrapping_add(bit);
             is_nowhere(probe, &[SDA_5], one.class, channel, one.axis)?;
         }
-        // A read there must fail too. Only the addresses of the decoder's axes are printed.
+        // A read at such an address must fail too. Only the addresses of the decoder's axes are
+        // printed.
         if one.class == Class::Decoder && one.axis < 0x100 {
             let group = one.first.class_group();
             for bit in [0x100_0000, 0x8000_0000_u32] {
@@ -235,7 +237,7 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                     let offset = IndexOffset::new(element.index_offset().get() | bit);
                     ElementAddress::new(group, offset)
                 };
-                let what = format!("an axis {:#x} beyond {one}", bit >> 16);
+                let what = format!("an axis {:#x} after {one}", bit >> 16);
                 let rules = [ADR_7, SDA_5];
                 let (there, first) = (CountElements::new(one.first)?, far(one.first));
                 probe.refuses(rules, &what, CountElements::new(first)?, there)?;
@@ -253,7 +255,7 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                 }
             }
         }
-        // The axis of a spindle is not used.
+        // The axis is not used in requests for a spindle.
         if one.class != Class::Spindle {
             for bit in [0x1_0000, 0x100_0000, 0x8000_0000] {
                 let axis = one.axis.wrapping_add(bit);

@@ -37,14 +37,14 @@ pub(super) const ONE: [u8; 4] = [1, 0, 0, 0];
 
 pub(super) const NONE: [u8; 4] = [0; 4];
 
-/// All bytes differ.
+/// A value whose bytes all differ.
 pub(super) const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
-/// The texts that a request and its response have.
+/// The texts of a request and its response.
 const TEXTS: [ServiceVariable; 2] = [ServiceVariable::Request, ServiceVariable::Response];
 
 /// Calls a function in each channel in which all these variables may be written, and restores them,
-/// the last one first.
+/// the last variable first.
 pub(super) fn in_each_channel(
     probe: &mut Probe<'_>,
     variables: &[ServiceVariable],
@@ -59,14 +59,16 @@ pub(super) fn in_each_channel(
             continue;
         }
         if read_variable(probe, channel, ServiceVariable::RequestState)? != NONE {
-            return Err(Stop::inconclusive("a program is asking a service: it is left alone"));
+            return Err(Stop::inconclusive(
+                "a program has requested a service, so nothing is written",
+            ));
         }
         restoring(probe, channel, variables, &mut |probe| then(probe, channel))?;
     }
     probe.finish("no variable of the Service Interface may be written")
 }
 
-/// Like [`in_each_channel`], for each text alone.
+/// Like [`in_each_channel`], for each text separately.
 pub(super) fn for_each_text(
     probe: &mut Probe<'_>,
     mut then: impl FnMut(&mut Probe<'_>, Channel, ServiceVariable) -> Step,
@@ -90,12 +92,14 @@ fn restoring(
     let mut was = read_variable(probe, channel, variable)?;
     if was.is_empty() {
         let name = variable.name();
-        return Err(Stop::Inconclusive(format!("{name} could not be read to be restored")));
+        return Err(Stop::Inconclusive(format!(
+            "{name} could not be read, so it could not be restored"
+        )));
     }
     let address = ValueAddress::Name { channel, name: variable.name().parse()? };
     let is_text = variable.var_type() == VariableType::STRING;
     if is_text {
-        // Without its padding: a device may reject more bytes than the text has.
+        // Without its padding, because a device may reject more bytes than the text has.
         was = [until_nul(&was), b"\0"].concat();
     }
     let write_check = WriteCheck { what: variable.name(), rules: &[], is_text, name: None };
@@ -108,7 +112,7 @@ fn restoring(
             write_variable(probe, channel, variable, &was)?;
             let same = probe.is_as_before(&address, &was, is_text)?;
             let found = || format!("another value of {}", variable.name());
-            probe.check([SVC_1, VAR_13], same, "the value before, written back", found);
+            probe.check([SVC_1, VAR_13], same, "the original value, written back", found);
             Ok(same)
         },
     )

@@ -62,7 +62,7 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             let found = || format!("{:?} of {name}", own.var_type);
             let expected = || format!("{:?}", variable.var_type());
             probe.check(SVC_1, own.var_type == variable.var_type(), expected, found);
-            // A service writes these two.
+            // A service writes these two variables.
             if [ServiceVariable::Response, ServiceVariable::ResponseState].contains(&variable) {
                 let written = own.access == VariableAccess::READ_WRITE;
                 let found = || format!("access {} of {name}", own.access.0);
@@ -75,33 +75,36 @@ fn variables(probe: &mut Probe<'_>) -> Step {
 
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Response, ResponseState};
-    // The response is restored before the state, which tells a program that there is a response.
+    // The response is restored before the state, because the state tells a program that a response
+    // exists.
     in_each_channel(probe, &[ResponseState, Response], answer)
 }
 
-/// Answers like a service, without a request.
+/// Writes a response like a service, without a request.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let taken = write_variable(probe, channel, Response, b"unrequested\0")?;
-    probe.check(SVC_1, taken, "a response taken", "an error");
+    probe.check(SVC_1, taken, "the response accepted", "an error");
     let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"unrequested";
     probe.check(SVC_1, same, "the response as written", || Hex(read));
-    // Any number: its meaning is agreed between program and service.
+    // The state may be any number: its meaning is agreed between program and service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
         let taken = write_variable(probe, channel, ResponseState, &state)?;
-        probe.check(SVC_1, taken, "a response state taken", "an error");
+        probe.check(SVC_1, taken, "the response state accepted", "an error");
         let read = read_variable(probe, channel, ResponseState)?;
         probe.check(SVC_1, read == state, || Hex(state.to_vec()), || Hex(read));
     }
     let read = read_variable(probe, channel, RequestState)?;
-    probe.check(SVC_4, read == NONE, "no request any more", || Hex(read));
-    // That any write of REQUEST_STATE has this effect, over ADS too, is assumed.
+    probe.check(SVC_4, read == NONE, "request state 0 after the response", || Hex(read));
+    // That every write of REQUEST_STATE has this effect, also over ADS, is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
     let kept = read_variable(probe, channel, Response)?;
     let same = until_nul(&kept) == b"unrequested";
-    probe.check(SVC_3, same, "the response as before the state was taken back", || Hex(kept));
+    probe.check(SVC_3, same, "the same response after the reset of its state", || Hex(kept));
     let read = read_variable(probe, channel, ResponseState)?;
-    probe.check(assumed(SVC_3), read == NONE, "the response state taken back", || Hex(read));
+    probe.check(assumed(SVC_3), read == NONE, "response state 0 after a new request state", || {
+        Hex(read)
+    });
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The values of the five variables.
+//! Writes and reads of the five variables.
 
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
@@ -16,21 +16,21 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
     for_each_text(probe, |probe, channel, variable| {
         let value = [&[b'x'; 127][..], b"\0"].concat();
         let taken = write_variable(probe, channel, variable, &value)?;
-        probe.check(SVC_1, taken, "127 characters and a NUL taken", "an error");
+        probe.check(SVC_1, taken, "127 characters and a NUL accepted", "an error");
         let read = read_variable(probe, channel, variable)?;
         probe.check(SVC_1, read == value, "128 bytes as written", || Hex(read));
         if sends_longer {
             let longer = [&[b'y'; 128][..], b"\0"].concat();
             let taken = write_variable(probe, channel, variable, &longer)?;
-            probe.check(SVC_1, !taken, "129 bytes refused", "taken");
+            probe.check(SVC_1, !taken, "129 bytes rejected", "accepted");
             let read = read_variable(probe, channel, variable)?;
-            probe.check(SVC_1, read == value, "what was there before", || Hex(read));
+            probe.check(SVC_1, read == value, "the text written before, unchanged", || Hex(read));
         }
         Ok(())
     })
 }
 
-/// Bytes that are characters, `len` of them from `first` on.
+/// `len` printable characters, starting with that of number `first`.
 fn characters(first: u8, len: usize) -> Vec<u8> {
     let no_character = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
     let all = (b' '..=0xFF).filter(|byte| *byte != 0x7F && !no_character.contains(byte));
@@ -47,7 +47,7 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
             value.push(0);
             let taken = write_variable(probe, channel, variable, &value)?;
             let what = format!("{len} characters of {}", variable.name());
-            probe.check(SVC_1, taken, || format!("{what} taken"), "an error");
+            probe.check(SVC_1, taken, || format!("{what} accepted"), "an error");
             let read = read_variable(probe, channel, variable)?;
             let same = until_nul(&read) == until_nul(&value);
             probe.check(SVC_1, same, || format!("{what} as written"), || Hex(read));
@@ -88,8 +88,8 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
 /// The UUID of the square root service.
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 
-/// Requests a service with a UUID that no service has: REQUEST and REQUEST_STATE can be read as written
-/// until a service answers.
+/// Requests a service with a UUID that no service has: REQUEST and REQUEST_STATE keep the written
+/// values until a service answers.
 pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Uuid};
     const NO_SERVICE: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
@@ -110,7 +110,7 @@ pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// A write to one variable changes no other. REQUEST_STATE stays 0, so that no service is asked.
+/// A write to one variable changes no other. REQUEST_STATE stays 0, so that no service is requested.
 pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, Response, ResponseState, Uuid};
     in_each_channel(probe, &[ResponseState, Response, Request, Uuid], |probe, channel| {
@@ -132,12 +132,17 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 probe.check(rule, same, expected, || Hex(read));
             }
         }
-        // A read resets no state, nor does a write to another variable.
+        // Neither a read nor a write to another variable resets a state.
         for value in [&b"another\0"[..], b"the request\0"] {
             write_variable(probe, channel, Request, value)?;
             write_variable(probe, channel, Uuid, UUID)?;
             let read = read_variable(probe, channel, ResponseState)?;
-            probe.check(SVC_3, read == WIDE, "the response state until the next", || Hex(read));
+            probe.check(
+                SVC_3,
+                read == WIDE,
+                "the response state until the next request state",
+                || Hex(read),
+            );
         }
         Ok(())
     })

@@ -1,4 +1,4 @@
-//! Bytes as hex without spaces, for JSON; spaces are accepted when parsing.
+//! Bytes as hex without spaces, for JSON. The parser accepts spaces.
 
 use crate::text::shorten;
 

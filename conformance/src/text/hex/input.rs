@@ -1,15 +1,15 @@
-//! Parses hex in common notations.
+//! Parses hex in the usual notations.
 
 use std::fmt;
 
 /// An invalid character in hex text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HexError {
-    /// The line, from 1.
+    /// The line, starting at 1.
     pub line: usize,
-    /// The column, from 1, in characters.
+    /// The column in characters, starting at 1.
     pub column: usize,
-    /// The character that is not a hex digit; `None` if a byte has one digit only.
+    /// The character that is not a hex digit; `None` if a byte has only one digit.
     pub found: Option<char>,
 }
 
@@ -18,18 +18,15 @@ impl fmt::Display for HexError {
         let Self { line, column, found } = self;
         match found {
             Some(found) => write!(f, "line {line}, column {column}: {found:?} is not a hex digit"),
-            None => write!(
-                f,
-                "line {line}, column {column}: a byte has two hex digits, this one has one"
-            ),
+            None => write!(f, "line {line}, column {column}: a byte must have two hex digits"),
         }
     }
 }
 
 impl std::error::Error for HexError {}
 
-/// Parses hex: two digits for each byte, optionally with `0x` before them, and with blanks, line
-/// ends, commas, semicolons, colons or hyphens between them.
+/// Parses hex: two digits for each byte, optionally prefixed with `0x`, and separated by blanks,
+/// line ends, commas, semicolons, colons or hyphens.
 ///
 /// ```
 /// use ads_cnc_conformance::explain::parse_hex;
@@ -42,11 +39,11 @@ impl std::error::Error for HexError {}
 /// ```
 ///
 /// # Errors
-/// The first character that is not a digit, or a digit without a second.
+/// The first character that is not a hex digit, or a digit without a second one.
 pub fn parse_hex(text: &str) -> Result<Vec<u8>, HexError> {
     let mut bytes = Vec::with_capacity(text.len().checked_div(2).unwrap_or(0));
     let (mut line, mut column) = (1_usize, 0_usize);
-    // The first digit of a byte and its position; whether it begins a word.
+    // The first digit of a byte with its position, and whether a word starts there.
     let mut open: Option<(u8, HexError, bool)> = None;
     let mut begins = true;
     for found in text.chars() {
@@ -84,10 +81,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wrong_digit_is_named_by_its_place() {
+    fn an_invalid_digit_is_reported_with_its_position() {
         for (text, why) in [
-            ("02 0", "line 1, column 4: a byte has two hex digits, this one has one"),
-            ("02 0 03", "line 1, column 4: a byte has two hex digits, this one has one"),
+            ("02 0", "line 1, column 4: a byte must have two hex digits"),
+            ("02 0 03", "line 1, column 4: a byte must have two hex digits"),
             ("02\n0x0x", "line 2, column 4: 'x' is not a hex digit"),
             ("020x00", "line 1, column 4: 'x' is not a hex digit"),
             ("02 ä", "line 1, column 4: 'ä' is not a hex digit"),

@@ -7,27 +7,27 @@ pub use input::{HexError, parse_hex};
 
 use ads_cnc_vectors::Hex;
 
-/// Bytes on one line of [`dump`].
+/// Number of bytes on a line of [`dump`].
 pub(crate) const LINE: usize = 16;
 
-/// Bytes in hex with a space between two.
+/// Bytes in hex, separated by spaces.
 pub(crate) fn spaced(bytes: &[u8]) -> String {
     Hex(bytes.to_vec()).to_string()
 }
 
-/// A byte as a character if it is a graphic one, else a dot.
+/// A byte as a character if it is graphic, otherwise a dot.
 pub(crate) fn character(byte: u8) -> char {
     if byte.is_ascii_graphic() { char::from(byte) } else { '·' }
 }
 
-/// At most [`LINE`] bytes on a line: mark, offset, bytes, characters, name.
+/// Formats at most [`LINE`] bytes as a line: mark, offset, bytes, characters, name.
 pub(crate) fn line(mark: char, offset: usize, bytes: &[u8], name: &str) -> String {
     let text: String = bytes.iter().copied().map(character).collect();
     let line = format!("{mark}{offset:5}  {:<47}  {text:<16}  {name}", spaced(bytes));
     line.trim_end().to_owned()
 }
 
-/// All lines of bytes.
+/// Formats bytes as lines.
 pub fn dump(bytes: &[u8]) -> Vec<String> {
     let chunks = (0_usize..).step_by(LINE).zip(bytes.chunks(LINE));
     chunks.map(|(offset, chunk)| line(' ', offset, chunk, "")).collect()

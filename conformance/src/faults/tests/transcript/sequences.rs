@@ -1,4 +1,4 @@
-//! Requests whose answer depends on earlier ones, and the ends of lists.
+//! Requests whose replies depend on earlier ones, and the ends of lists.
 
 use std::time::Duration;
 

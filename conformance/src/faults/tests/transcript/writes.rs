@@ -8,8 +8,8 @@ use super::{Transcript, number, numbers};
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
 impl Transcript<'_> {
-    /// Queries of channel 6, the third one: by number and by rank, of unknown channels and axes, and of other
-    /// lengths.
+    /// Queries of channel 6, which has rank 3: by number and by rank, of unknown channels and axes,
+    /// and of other lengths.
     pub(super) fn queries(&mut self) {
         let by_name = [0x46_u32, 0x48, 0x4C, 0x1_0004, 0x1_0005].map(|at| (0x12_2306_u32, at));
         for (group, offset) in by_name {

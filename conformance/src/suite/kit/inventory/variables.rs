@@ -13,12 +13,12 @@ use crate::suite::kit::{DescribedList, ItemKind, Probe};
 /// Maximum number of variables of a kind that are read.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
 
-/// The name in a description, as in a request.
+/// The name of a described variable, for a request.
 pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
 }
 
-/// The variable, if its name has room for its NUL: otherwise it cannot be requested.
+/// The variable, if its name has space for a NUL; otherwise it cannot be requested.
 fn requestable(variable: Description) -> Option<Description> {
     Some(variable).filter(|variable| variable.name.text.as_bytes().len() < TEXT_MAX)
 }
@@ -43,8 +43,8 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// All descriptions of a channel, for a case that needs to know what is not among them; `None`
-    /// if it has more than are read.
+    /// All descriptions of a channel, for a case that must know which names do not exist; `None` if
+    /// the channel has more variables than are read.
     pub(crate) fn all_variables(&mut self, channel: Channel) -> Step<Option<Vec<Description>>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -106,7 +106,7 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// A description that is judged, but read once for all cases.
+    /// A description that is judged, but read only once for all cases.
     pub(crate) fn judged_description(
         &mut self,
         rule: ClauseId,
@@ -133,7 +133,7 @@ impl Probe<'_> {
     {
         let exchange = self.send(request)?;
         let what = T::STREAM.layout().name;
-        let lacks = |why: String| Stop::Inconclusive(format!("no {what} to go by: {why}"));
+        let lacks = |why: String| Stop::Inconclusive(format!("no {what} could be read: {why}"));
         T::decode(exchange.success().ok_or_else(|| lacks(exchange.result()))?)
             .map_err(|error| lacks(error.to_string()))
     }

@@ -10,8 +10,8 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
-    /// Sends the queries that confirm the handle of a write: descriptions of the channel if they
-    /// were not read on this connection, and the handle by name.
+    /// Sends the queries that confirm the handle of a write: the handle by name, and the
+    /// descriptions of the channel unless they were read on this connection.
     pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {
@@ -31,7 +31,7 @@ impl Probe<'_> {
         {
             self.try_ask(HandleByName { channel: op.channel, name: name.as_cnc_str().into() })?;
         }
-        // The handle was requested on this connection, but the descriptions were read on another
+        // The handle was requested on this connection, but the descriptions were read on an earlier
         // one.
         if let Some(name) = self.unconfirmed(request)?
             && self.claims(Function::DescribeByName) != Claim::No
@@ -41,7 +41,7 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// The name of a handle that is not confirmed yet.
+    /// The name of the handle in a write, if the handle is not confirmed yet.
     fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
         Ok(match self.check_gate(request)? {
             Err(Some(Refusal {
@@ -52,7 +52,7 @@ impl Probe<'_> {
         })
     }
 
-    /// Whether a request can be sent, and why not if the gate rejects it. Nothing is sent.
+    /// Whether the gate lets a request pass, and why not. Sends nothing.
     pub(crate) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
         match self.target.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),

@@ -8,10 +8,10 @@ use crate::judge::{Checks as _, Rule, Rules, Step, Stop, Verdict};
 use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
-    /// Sends a request that must be rejected; `sibling` is the same request without the fault and
-    /// must be answered.
+    /// Sends a request that must be rejected. `sibling` is the same request without the fault, which
+    /// must succeed.
     ///
-    /// A success without data counts as an error: it returns no value of an object that does not
+    /// A success without data counts as a rejection: it returns no value of an object that does not
     /// exist.
     pub(crate) fn refuses<'a, 'b>(
         &mut self,
@@ -31,7 +31,7 @@ impl Probe<'_> {
             Some([]) if is_vacuous => {
                 self.last = shown;
                 let expected = || format!("{}, and a success without this fault", expected());
-                let found = || format!("an error without the fault too: {}", accepted.result());
+                let found = || format!("an error also without the fault: {}", accepted.result());
                 for rule in rules {
                     // A sibling that is only assumed may be rejected too.
                     let verdict = match rule.level {
@@ -50,7 +50,7 @@ impl Probe<'_> {
                     && rules.iter().any(|rule| rule.level == Some(Level::Must))
                 {
                     let (rule, last) = (Rule::from(ADS_7), &self.last);
-                    let found = "a success that gives nothing";
+                    let found = "a success without data";
                     let by_nothing = &mut self.target.refusals.by_nothing;
                     let verdict = rule.verdict(false);
                     by_nothing.add(rule, verdict, "an error number", found, || last.clone());
@@ -69,7 +69,8 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Sends a request for an item of an empty list, for which no valid sibling exists.
+    /// Like [`refuses`](Self::refuses), for an item of an empty list, for which no valid sibling
+    /// exists.
     pub fn refuses_alone<'a>(
         &mut self,
         rules: impl Rules,
@@ -82,8 +83,9 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Numbers beyond the last valid one. Far ones cannot become valid meanwhile; some have the
-    /// lower bytes of a valid number, which a CNC that truncates them would accept.
+    /// Numbers after the last valid one. Some are so large that they cannot become valid meanwhile;
+    /// some have the lower bytes of a valid number, which a CNC that truncates numbers would
+    /// accept.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
         let last = first.saturating_sub(1);
         let wide = |bits: &[u32]| -> Vec<u32> {
