@@ -1,11 +1,11 @@
-//! When a tool stops sending requests, however much remains to be read.
+//! The time at which a command stops sending requests, even if not everything was read.
 
 use std::fmt;
 use std::time::{Duration, Instant};
 
 use crate::text::shown_time;
 
-/// A moment after which no more requests are sent.
+/// The time after which a command sends no more requests.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
     at: Option<Instant>,
@@ -13,7 +13,7 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// This much time from now on; a time beyond the range of the clock means no deadline.
+    /// A deadline after `time` from now; none if that is beyond the range of the clock.
     pub fn after(time: Duration) -> Self {
         Self { at: Instant::now().checked_add(time), after: time }
     }
@@ -25,13 +25,13 @@ impl Deadline {
         left.map_or(time, |left| left.min(time))
     }
 
-    /// Whether it has passed.
+    /// Whether the deadline has passed.
     pub fn is_over(&self) -> bool {
         self.at.is_some_and(|at| Instant::now() >= at)
     }
 }
 
-/// The error text once it has passed.
+/// The error text after the deadline has passed.
 impl fmt::Display for Deadline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let limit = shown_time(self.after.as_secs());

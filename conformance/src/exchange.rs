@@ -1,4 +1,4 @@
-//! A request and its result, byte for byte.
+//! A request and its result, with all bytes.
 
 use std::fmt;
 use std::io;
@@ -19,31 +19,31 @@ use crate::text::plural;
 /// A request and its result.
 #[derive(Debug)]
 pub struct Exchange {
-    /// Port the request went to.
+    /// The AMS port of the request.
     pub port: AmsPort,
     pub service: Service,
     pub index_group: IndexGroup,
     pub index_offset: IndexOffset,
     pub read_length: u32,
     pub data: Vec<u8>,
-    /// The whole frame sent; empty if none was.
+    /// The whole frame that was sent; empty if none was sent.
     pub sent: Vec<u8>,
     /// The received frame, or the part of it that arrived.
     pub received: Vec<u8>,
-    /// The reply and its AMS header, or why there is no valid reply.
+    /// The reply and its AMS header, or the reason why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
-    /// Rules of AMS/TCP that the received frame breaks.
+    /// Rules of AMS/TCP that the received frame violates.
     pub violations: Vec<Violation>,
 }
 
-/// What a target answered.
+/// The reply of a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdsReply {
     /// Error of the AMS header.
     pub ams_error: AdsError,
     /// Result of the service.
     pub result: AdsError,
-    /// Data; `None` if the reply ends before its data.
+    /// The data; `None` if the reply ends before the data.
     pub data: Option<Vec<u8>>,
 }
 
@@ -70,19 +70,19 @@ impl fmt::Display for AdsReply {
     }
 }
 
-/// Why there is no answer.
+/// The reason why there is no valid reply.
 #[derive(Debug)]
 pub enum ExchangeError {
     /// The gate rejected the request.
     Refused(Box<Refusal>),
-    /// A dry run.
+    /// The request was not sent, because this is a dry run.
     NotSent,
-    /// The request has no form on the wire.
+    /// The request cannot be encoded.
     Unsendable(Error),
-    /// No reply arrived in this time.
+    /// No reply arrived within this time.
     Silence(Duration),
     Closed,
-    /// The reply is not looked at: the request alone is judged.
+    /// The reply was not examined, because only the request is judged.
     Unseen,
     /// The bytes received are not an AMS/TCP frame, or not a reply of the service.
     Malformed(Error),
@@ -106,19 +106,19 @@ impl fmt::Display for ExchangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Refused(why) => write!(f, "not sent, rejected for safety: {why}"),
-            Self::NotSent => f.write_str("not sent: a dry run"),
+            Self::NotSent => f.write_str("not sent (dry run)"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
-            Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
-            Self::Closed => f.write_str("connection closed without an answer"),
-            Self::Unseen => f.write_str("whatever it was: the request alone is judged"),
-            Self::Malformed(error) => write!(f, "malformed answer: {error}"),
+            Self::Silence(time) => write!(f, "no reply within {} ms", time.as_millis()),
+            Self::Closed => f.write_str("connection closed without a reply"),
+            Self::Unseen => f.write_str("not examined: only the request is judged"),
+            Self::Malformed(error) => write!(f, "malformed reply: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
             Self::Disconnected(error) => write!(f, "no connection: {error}"),
         }
     }
 }
 
-/// A rule that a frame itself breaks.
+/// A rule of AMS/TCP that a frame violates, independent of its data.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub requirement: ClauseId,
@@ -127,7 +127,7 @@ pub struct Violation {
 
 impl Violation {
     pub(crate) fn of_invoke_id(id: u32, asked: u32) -> Self {
-        let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
+        let what = format!("reply with invoke ID {id:#x} instead of {asked:#x}");
         Self { requirement: ADS_5, what }
     }
 }
@@ -148,7 +148,7 @@ impl Exchange {
         }
     }
 
-    /// The answer, if one came.
+    /// The reply, if a valid one arrived.
     pub fn answer(&self) -> Option<&AdsReply> {
         self.outcome.as_ref().ok().map(|(answer, _)| answer)
     }
@@ -158,19 +158,19 @@ impl Exchange {
         self.answer().and_then(AdsReply::success)
     }
 
-    /// Whether the reply is an error.
+    /// Whether the reply contains an error.
     pub fn is_error(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none())
     }
 
-    /// Whether the AMS header has an error and the data after it is a reply of success.
+    /// Whether the AMS header contains an error, but the data after it is a successful reply.
     pub(crate) fn contradicts_itself(&self) -> bool {
         let has_data = self.received.len() > FrameRef::HEADERS_LEN;
         let of_both = |answer: &AdsReply| !answer.ams_error.is_ok() && answer.result.is_ok();
         has_data && self.answer().is_some_and(of_both)
     }
 
-    /// Whether the reply is an error, or a success without data.
+    /// Whether the reply contains an error, or is a success without data.
     pub fn is_rejected(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none_or(<[u8]>::is_empty))
     }
@@ -183,7 +183,7 @@ impl Exchange {
         }
     }
 
-    /// As [`result`](Self::result), with the usual meaning of an error number.
+    /// Like [`result`](Self::result), with the usual meaning of an error number.
     pub(crate) fn result_in_words(&self) -> String {
         let error = self.answer().filter(|answer| answer.ams_error.is_ok());
         let meaning = error.and_then(|answer| meaning(answer.result));
@@ -221,7 +221,7 @@ impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
         let function = exchange.call().dispatch().ok().map(|request| request.function());
         let spec = function.map(Function::spec);
-        // An error comes without the stream that a success has.
+        // An error reply does not contain the stream of a successful reply.
         let has_stream = |data: &&[u8]| exchange.success().is_some() || !data.is_empty();
         let data = exchange.answer().and_then(|answer| answer.data.as_deref()).filter(has_stream);
         let evidence = Self {
@@ -241,18 +241,18 @@ impl From<&Exchange> for Evidence {
 /// The usual meaning of an error number; the CNC's numbers are not documented (ADS-7).
 pub(crate) const fn meaning(error: AdsError) -> Option<&'static str> {
     Some(match error {
-        AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",
+        AdsError::SERVICE_NOT_SUPPORTED => "service not supported",
         AdsError::INVALID_GROUP => "no such channel, axis or class",
         AdsError::INVALID_OFFSET => "no such object, element or function",
-        AdsError::INVALID_ACCESS => "this must not be read, or not be written",
-        AdsError::INVALID_SIZE => "the size does not fit",
-        AdsError::INVALID_DATA => "no such index or handle, or not now",
+        AdsError::INVALID_ACCESS => "read or write not allowed",
+        AdsError::INVALID_SIZE => "invalid size",
+        AdsError::INVALID_DATA => "no such index or handle, or invalid now",
         AdsError::SYMBOL_NOT_FOUND => "no such name",
         _ => return None,
     })
 }
 
-/// The AMS header of a frame, whatever its lengths.
+/// The AMS header of a frame, even if its lengths are inconsistent.
 fn header(frame: &[u8]) -> Option<AmsHeader> {
     let header = frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?;
     AmsHeader::decode(header).ok()
@@ -265,13 +265,13 @@ pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     headers.is_some_and(|(sent, got)| got.source == sent.target || got.target == sent.source)
 }
 
-/// Why the frame received is not the reply to the one sent: its invoke ID is another.
+/// The violation if the received frame has another invoke ID than the sent one.
 pub(crate) fn other_invoke_id(sent: &[u8], received: &[u8]) -> Option<Violation> {
     let (id, asked) = (header(received)?.invoke_id, header(sent)?.invoke_id);
     (id != asked).then(|| Violation::of_invoke_id(id, asked))
 }
 
-/// The rules of ADS-5 that the response's header breaks.
+/// The violations of ADS-5 in the header of a response.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let mut broken = Vec::new();
     let mut check = |kept: bool, what: fmt::Arguments<'_>| {
@@ -285,8 +285,8 @@ pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let is_response = flags == StateFlags::RESPONSE;
     check(is_response, format_args!("state flags {:#06x} instead of 0x0005", flags.0));
     let (to, from) = (got.target, sent.source);
-    check(to == from, format_args!("answered to {to}, asked by {from}"));
+    check(to == from, format_args!("target {to} instead of {from}"));
     let (by, asked) = (got.source, sent.target);
-    check(by == asked, format_args!("answered by {by}, asked {asked}"));
+    check(by == asked, format_args!("source {by} instead of {asked}"));
     broken
 }

@@ -1,49 +1,49 @@
-//! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]: all that
-//! opens a socket or a file.
+//! The conformance suite, the simulated CNC and the command-line tools around the codec
+//! [`ads_cnc`], which itself opens no sockets or files.
 //!
 //! A module imports only modules below it in this table; `tests/readme/floors.rs` checks that.
 //!
-//! | module | what it has |
+//! | module | content |
 //! |---|---|
 //! | [`cli`] | the command line of `ads-cnc` |
 //! | [`selftest`] | tests of the suite with seeded defects |
-//! | [`matrix`] | what covers each requirement |
-//! | [`capture`] | captured traffic: judged, or written for Wireshark |
-//! | [`clients`] | clients under test, and the CNC they talk to |
+//! | [`matrix`] | the cases, vectors and tests of each requirement |
+//! | [`capture`] | reads and judges captured traffic; writes captures for Wireshark |
+//! | [`clients`] | clients under test, and the simulated CNC that they connect to |
 //! | [`suite`] | the cases for a CNC |
 //! | [`testee`] | codecs under test, over stdin and stdout |
-//! | [`named`], [`objects`] | variables and objects of a CNC: one by its name, or all |
-//! | [`session`] | the typed connection of a tool to a CNC |
+//! | [`named`], [`objects`] | finds a variable or an object by its name, or lists all |
+//! | [`session`] | the typed connection of a command to a CNC |
 //! | [`report`] | the report of a run, in all its formats |
 //! | [`client`] | an AMS/TCP client that records every byte |
 //! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
 //! | [`simulator`] | the simulated CNC: data model, answers, AMS/TCP server |
 //! | [`net`] | the only module that opens sockets |
-//! | [`rules`] | the clauses as checks of requests, replies and what is known of a CNC |
+//! | [`rules`] | the requirements as checks of requests, replies and the known state of a CNC |
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
 //! | [`process`] | commands given by the user, and signals |
 //! | [`tables`] | the codec's tables as data, and a dissector made from them |
-//! | [`explain`] | bytes of any stream, field by field |
-//! | [`codec`], [`show`] | the codec with the names of the vectors, and their values as text |
+//! | [`explain`] | shows the bytes of any stream field by field |
+//! | [`codec`], [`show`] | the codec by the field names of the vectors, and their values as text |
 //! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
 //! | [`values`] | typed values: parsing and formatting |
 //! | [`profile`], [`edition`] | the claims of a target; features by edition and version |
 //! | [`wire_service`] | requirement, streams and reply of the three ADS services |
-//! | [`deadline`] | when a tool stops sending requests |
+//! | [`deadline`] | the time at which a command stops sending requests |
 //! | [`text`] | hex, escapes, times, JSON |
 //!
-//! Every byte the simulated CNC sends is encoded by [`ads_cnc`]; there is no second encoder.
+//! [`ads_cnc`] encodes every byte that the simulated CNC sends; there is no second encoder.
 //!
-//! What is stable is the command `ads-cnc`: its arguments, exit codes and JSON. This library is public
-//! for its tests and fuzz targets alone, and may change with any version.
+//! Only the command `ads-cnc` is stable: its arguments, exit codes and JSON. This library is public
+//! only for its tests and fuzz targets, and may change with any version.
 
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods)]
-// Code must not panic on bytes from outside, nor between a write and its restoring. Modules without
-// such code allow these lints, below or in their parent: a panic there ends one case as a harness
-// error, or a tool before its first request. In the modules `cli` and `suite` the files that write
-// to a target or restore a value deny them again.
+// Code must not panic on received bytes, nor between a write and the restoration of the value.
+// Modules without such code allow these lints, below or in their parent: a panic there only makes
+// one case a harness error, or ends a command before its first request. In `cli` and `suite`, the
+// files that write to a target or restore a value deny these lints again.
 #![cfg_attr(
     not(test),
     deny(

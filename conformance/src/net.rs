@@ -12,15 +12,16 @@ use std::time::Duration;
 
 use crate::gate::Permit;
 
-/// Listens on an address; the system picks the port if it is 0.
+/// Listens on an address; if the port is 0, the system chooses one.
 ///
 /// # Errors
-/// Those of the system: the port is taken, the address is not one of this machine.
+/// An error of the system, for example if the port is in use or the address belongs to another
+/// machine.
 pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
 
-/// Accepts the connections of a listener in a thread of its own, until dropped.
+/// Accepts the connections of a listener in its own thread, until dropped.
 #[derive(Debug)]
 pub struct Acceptor {
     addr: SocketAddr,
@@ -48,7 +49,7 @@ impl Acceptor {
             match accepted {
                 Ok((stream, peer)) => take(stream, peer),
                 Err(error) => {
-                    // Most likely no file descriptor is left: wait until other connections end.
+                    // The process probably has no file descriptor left: wait for connections to end.
                     tracing::warn!("no connection: {error}");
                     thread::sleep(Duration::from_millis(50));
                 }
@@ -58,24 +59,24 @@ impl Acceptor {
         Ok(Self { addr, stopped, thread: Some(thread) })
     }
 
-    /// The address it listens on.
+    /// The address that the acceptor listens on.
     pub const fn addr(&self) -> SocketAddr {
         self.addr
     }
 
-    /// Accepts no more connections.
+    /// Stops accepting connections.
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);
-        // The thread blocks in `accept` until a connection arrives; if none can be made, do not
-        // join it.
+        // The thread blocks in `accept` until a connection arrives: do not join it if no connection
+        // can be made.
         if self.wake_listener().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }
     }
 
     fn wake_listener(&self) -> io::Result<()> {
-        // A listener on all addresses is reached through the loopback address.
+        // Reach a listener on all addresses through the loopback address.
         let ip = match self.addr.ip() {
             IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
             IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
@@ -92,14 +93,14 @@ impl Drop for Acceptor {
     }
 }
 
-/// Connects without a gate to a listener on this machine: for a client that is wrong on purpose and
-/// the simulated CNC it talks to.
+/// Connects without a gate to a listener on this machine, for a client with defects and its
+/// simulated CNC.
 ///
 /// # Errors
-/// Those of the system, and [`io::ErrorKind::PermissionDenied`] for any other machine.
+/// An error of the system, or [`io::ErrorKind::PermissionDenied`] for another machine.
 pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
     if !addr.ip().is_loopback() {
-        let why = "a client that is wrong on purpose goes to this machine only";
+        let why = "a client with defects connects to this machine only";
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
     }
     let stream = TcpStream::connect_timeout(&addr, timeout)?;
@@ -108,25 +109,24 @@ pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result
     Ok(stream)
 }
 
-/// The other end of a [`Wire`]: a socket, or a CNC of this process.
+/// The other end of a [`Wire`]: a socket, or a simulated CNC of this process.
 pub trait Peer: fmt::Debug + Send {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
-    /// Receives bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end of the
-    /// connection.
+    /// Receives bytes within `timeout` and returns their number; 0 at the end of the connection.
     ///
     /// # Errors
-    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
+    /// An error of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
     /// bytes arrived.
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
 }
 
-/// Peers in this process, which need no socket, and their clock.
+/// Opens connections to a simulated CNC of this process without sockets, and controls its clock.
 pub trait LocalPeers: fmt::Debug + Send + Sync {
     /// Opens a connection.
     fn connect(&self) -> Box<dyn Peer>;
 
-    /// Advances the clock.
+    /// Advances the clock by `time`.
     fn pass(&self, time: Duration);
 }
 
@@ -141,7 +141,7 @@ impl Peer for TcpStream {
     }
 }
 
-/// A connection to a target. Every frame sent on it has passed the gate.
+/// A connection to a target. It only sends frames that the gate has permitted.
 #[derive(Debug)]
 pub struct Wire {
     peer: Box<dyn Peer>,
@@ -152,7 +152,7 @@ impl Wire {
     /// Connects to an address within `timeout`, without Nagle's algorithm.
     ///
     /// # Errors
-    /// Those of the system, and [`io::ErrorKind::TimedOut`].
+    /// An error of the system, or [`io::ErrorKind::TimedOut`].
     pub fn connect(addr: SocketAddr, timeout: Duration) -> io::Result<Self> {
         let stream = TcpStream::connect_timeout(&addr, timeout)?;
         stream.set_nodelay(true)?;
@@ -160,7 +160,7 @@ impl Wire {
         Ok(Self { peer: Box::new(stream), local })
     }
 
-    /// Connects to a peer of this process, without a socket.
+    /// Creates a connection to a peer of this process, without a socket.
     pub fn over(peer: Box<dyn Peer>) -> Self {
         Self { peer, local: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)) }
     }
@@ -174,7 +174,7 @@ impl Wire {
         self.peer.send(permit.frame())
     }
 
-    /// Like [`send`](Self::send), but in pieces of this many bytes with a pause between two.
+    /// Sends a permitted frame in pieces of this many bytes, with a pause after each but the last.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,
@@ -188,11 +188,10 @@ impl Wire {
         Ok(())
     }
 
-    /// Receives bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end of the
-    /// connection.
+    /// Receives bytes within `timeout` and returns their number; 0 at the end of the connection.
     ///
     /// # Errors
-    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
+    /// An error of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
     /// bytes arrived.
     pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
         self.peer.receive(buf, timeout)

@@ -1,4 +1,4 @@
-//! Requirement, streams and reply of the three ADS services (Read, Write, ReadWrite).
+//! Requirements, streams and replies of the three ADS services (Read, Write, ReadWrite).
 
 use ads_cnc::ads::{AdsError, Command, ReadReplyRef, ReadWriteReplyRef, WriteReply};
 use ads_cnc::layout::Stream;
@@ -44,7 +44,7 @@ pub(crate) const fn reply_stream(service: Service) -> Stream {
     }
 }
 
-/// Result and data of a service's reply; a Write's reply has no data.
+/// Decodes a service's reply to its result and data; the reply of a Write has no data.
 pub fn decode_reply(service: Service, payload: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {
     match service {
         Service::Read => ReadReplyRef::decode(payload).map(|reply| (reply.result, reply.data)),
@@ -55,7 +55,7 @@ pub fn decode_reply(service: Service, payload: &[u8]) -> Result<(AdsError, Optio
     }
 }
 
-/// Encodes a service's reply; a Write's reply omits the data.
+/// Encodes a service's reply; omits the data for a Write.
 pub fn encode_reply(
     service: Service,
     result: AdsError,

@@ -418,10 +418,10 @@ fn a_dry_run_lists_what_would_be_asked() {
     let dry = |more: &[&str]| ads_cnc(&[&["run", "--dry-run"], &target[..], more].concat());
     let listed = text(&dry(&[]).stdout);
     for part in [
-        "(no --profile: it first asks by the same functions which ports, channels",
+        "(without --profile, it first searches with the same functions for the ports",
         "  Read       port 553  number of objects (COM-1)\n",
         "  ReadWrite  port 551  object address (SDA-",
-        "  and a few times ReadDeviceInfo and ReadState at the ports 551, 552, 553\n",
+        "  and sometimes ReadDeviceInfo and ReadState at the ports 551, 552, 553\n",
         "  ReadWrite  port 552  read variable value by name (VAR-14)\n",
         "It writes nothing without a file for --allow-write.\n",
     ] {
@@ -459,8 +459,11 @@ fn a_file_that_lets_nothing_be_written_is_said() {
     };
     let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
     let (found, shown, code) = said(own, "2020-01-01T00:00:00Z", "V.E.vartest");
-    assert!(found.contains("nothing is written: the file of --allow-write expired at"), "{found}");
-    rejected(&shown, "nothing is written: the file of --allow-write expired at 2020-01-01");
+    assert!(
+        found.contains("nothing will be written: the file of --allow-write expired at"),
+        "{found}"
+    );
+    rejected(&shown, "nothing was written: the file of --allow-write expired at 2020-01-01");
     assert_eq!(code, Some(4), "{shown}");
     let (found, shown, code) = said("192.0.2.77.1.1", later, "V.E.vartest");
     assert!(found.contains("is for 192.0.2.77.1.1, not for 127.0.0.1.1.1"), "{found}");

@@ -123,7 +123,7 @@ fn a_command_answers() {
     let (told, said) = (text(&output.stdout), text(&output.stderr));
     let line = format!("{ID} \"04 00 00 02\", state 7: \"Variable handle by name");
     assert!(told.starts_with(&line) && told.ends_with(", state 1\n"), "{told}");
-    assert!(said.contains("warning: the response is cut to 127 bytes"), "{said}");
+    assert!(said.contains("warning: the response is truncated to 127 bytes"), "{said}");
 }
 
 /// The manual's own example: an NC program of the simulated CNC asks for square roots.
@@ -335,7 +335,7 @@ fn what_stays_behind_holds_nobody_up() {
     let ((response, state), output) =
         Bench::start().once(&[], &["sh", "-c", "sleep 1000 & echo $!"], "");
     assert_eq!(state, 1);
-    assert!(text(&output.stderr).contains("still had its stdout"));
+    assert!(text(&output.stderr).contains("kept its stdout open"));
     assert!(!runs(&response), "{response} runs");
 }
 
@@ -370,7 +370,7 @@ fn what_leaves_the_group_is_bounded() {
     assert_eq!((&states[..8], &states[8..], last), (&[1; 8][..], &[1004; 2][..], 1004), "{said}");
     assert!(threads <= 12, "{threads} threads");
     assert_eq!((status.code(), left.lines().count()), (Some(0), 8), "{said}");
-    assert!(said.contains("8 processes that earlier commands have started"), "{said}");
+    assert!(said.contains("8 processes started by earlier commands"), "{said}");
 }
 
 /// However much a command writes, it is not held up, and no more than fits is kept.
@@ -406,7 +406,7 @@ fn a_late_answer_is_dropped() {
     });
     wait_for("begun", &mut stderr);
     bench.with(ServiceInterface::reset);
-    wait_for("dropped, the request is no longer there", &mut stderr);
+    wait_for("dropped, because the request no longer exists", &mut stderr);
     assert_eq!(bench.ask(ID, "0"), ("0".to_owned(), 1));
     assert_eq!(text(&ended(tool).stdout).lines().count(), 1);
 }

@@ -96,7 +96,7 @@ fn a_program_arrives_whole() {
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert_eq!(text(&ran.lock().unwrap()), program.replace('\n', "\r\n"));
     assert!(shown.contains(": channel 1 has taken lines 1 to 1000 in 16 packets, "), "{shown}");
-    assert!(shown.contains(" refusals for the time being"), "{shown}");
+    assert!(shown.contains(" rejections as busy"), "{shown}");
     assert!(!shown.contains("not "), "{shown}");
 }
 
@@ -114,7 +114,7 @@ fn a_packet_is_given_up() {
     assert_eq!(packets.len(), 5);
     assert!(packets[1..].iter().all(|packet| *packet == packets[1]));
     assert!(shown.contains("has taken lines 1 to 72 in 1 packet, "), "{shown}");
-    assert!(shown.ends_with("\n  not sent or not taken: lines 73 to 1000\n"), "{shown}");
+    assert!(shown.ends_with("\n  not sent or not accepted: lines 73 to 1000\n"), "{shown}");
     assert!(said.contains("given up") && said.contains("--retries"), "{said}");
 }
 
@@ -127,7 +127,10 @@ fn a_lasting_refusal_stops() {
     let output = stream(b"N10 G0 X0\nN20 M30\n", addr, &allow, &[]);
     let (shown, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!((code(&output), packets.lock().unwrap().len()), (1, 1), "{said}");
-    assert!(shown.contains("has taken nothing\n  not sent or not taken: lines 1 to 2"), "{shown}");
+    assert!(
+        shown.contains("accepted nothing\n  not sent or not accepted: lines 1 to 2"),
+        "{shown}"
+    );
     assert!(said.contains("\"data streaming\" with 0x703"), "{said}");
 }
 
@@ -140,8 +143,8 @@ fn a_packet_without_an_answer_is_not_repeated() {
         let output = stream(program().as_bytes(), addr, &allow, &["--timeout", "300"]);
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "{said}");
-        let left = "\n  not known whether it was taken: lines 73 to 137\
-                    \n  not sent or not taken: lines 138 to 1000\n";
+        let left = "\n  unknown whether accepted: lines 73 to 137\
+                    \n  not sent or not accepted: lines 138 to 1000\n";
         assert!(shown.ends_with(left), "{shown}");
         assert!(said.contains("not sent again"), "{said}");
     }
@@ -155,7 +158,7 @@ fn a_packet_with_a_wrong_reply_may_have_been_taken() {
     let output = stream(b"X1\nX2\n", serve.addr.parse().unwrap(), &allow, &[]);
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 1, "{}", text(&output.stderr));
-    assert!(shown.contains("not known whether it was taken: lines 1 to 2"), "{shown}");
+    assert!(shown.contains("unknown whether accepted: lines 1 to 2"), "{shown}");
 }
 
 /// A faulty program is not begun. What only seems to end streaming can be sent all the same.
@@ -270,7 +273,7 @@ fn a_signal_says_what_was_sent() {
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "SIG{name}: {said}");
         assert!(shown.contains("has taken lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
-        let left = "\n  not sent or not taken: lines 73 to 1000\n";
+        let left = "\n  not sent or not accepted: lines 73 to 1000\n";
         assert!(shown.ends_with(left), "SIG{name}: {shown}");
         assert!(said.contains("interrupted"), "SIG{name}: {said}");
     }

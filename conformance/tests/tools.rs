@@ -220,7 +220,7 @@ fn channels_are_what_is_there() {
         (text(&output.stdout).lines().count(), text(&output.stderr))
     };
     let listed = browse(&["1,1,6"]);
-    let simulated = "ads-cnc: simulated CNC, no machine: --target is not given\n";
+    let simulated = "ads-cnc: using a simulated CNC, because --target is not given\n";
     assert_eq!(listed, (3, simulated.to_owned()));
     let listed = browse(&["9,1"]);
     assert_eq!(listed, (2, format!("{simulated}ads-cnc: channel 9: not there, or not active\n")));

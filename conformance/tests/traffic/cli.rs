@@ -63,7 +63,7 @@ fn what_tools_say_passes() {
     }
     // The simulated CNC listens at a port that the system picks, which is found.
     let found = ads_cnc(&["check", &folder.file("2.pcapng")]);
-    let note = "the connections at other ports are judged, as with --any-port";
+    let note = "judging the connections at other ports, as with --any-port";
     assert!(text(&found.stderr).contains(note), "{}", text(&found.stderr));
     assert_eq!(found.status.code(), Some(0));
     let streamed = text(&ads_cnc(&["check", "--any-port", "-v", &folder.file("4.pcapng")]).stdout);
