@@ -108,10 +108,11 @@ impl fmt::Display for ExchangeError {
             Self::Refused(why) => write!(f, "not sent, rejected for safety: {why}"),
             Self::NotSent => f.write_str("not sent (dry run)"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
-            Self::Silence(time) => write!(f, "no reply within {} ms", time.as_millis()),
-            Self::Closed => f.write_str("connection closed without a reply"),
+            // The hashes of `doc/detection.tsv` depend on the texts of these errors.
+            Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
+            Self::Closed => f.write_str("connection closed without an answer"),
             Self::Unseen => f.write_str("not examined: only the request is judged"),
-            Self::Malformed(error) => write!(f, "malformed reply: {error}"),
+            Self::Malformed(error) => write!(f, "malformed answer: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
             Self::Disconnected(error) => write!(f, "no connection: {error}"),
         }
@@ -127,7 +128,7 @@ pub struct Violation {
 
 impl Violation {
     pub(crate) fn of_invoke_id(id: u32, asked: u32) -> Self {
-        let what = format!("reply with invoke ID {id:#x} instead of {asked:#x}");
+        let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
         Self { requirement: ADS_5, what }
     }
 }
@@ -271,7 +272,8 @@ pub(crate) fn other_invoke_id(sent: &[u8], received: &[u8]) -> Option<Violation>
     (id != asked).then(|| Violation::of_invoke_id(id, asked))
 }
 
-/// The violations of ADS-5 in the header of a response.
+/// The violations of ADS-5 in the header of a response. The hashes of `doc/detection.tsv` depend on
+/// their texts.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let mut broken = Vec::new();
     let mut check = |kept: bool, what: fmt::Arguments<'_>| {
@@ -285,8 +287,8 @@ pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let is_response = flags == StateFlags::RESPONSE;
     check(is_response, format_args!("state flags {:#06x} instead of 0x0005", flags.0));
     let (to, from) = (got.target, sent.source);
-    check(to == from, format_args!("target {to} instead of {from}"));
+    check(to == from, format_args!("answered to {to}, asked by {from}"));
     let (by, asked) = (got.source, sent.target);
-    check(by == asked, format_args!("source {by} instead of {asked}"));
+    check(by == asked, format_args!("answered by {by}, asked {asked}"));
     broken
 }

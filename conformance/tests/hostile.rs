@@ -173,7 +173,7 @@ fn frames_without_end_that_nobody_asked_for() {
     let begun = Instant::now();
     let ended = run(&against(&addr, &["get", "V.E.Testvar", "--timeout", "60000"]));
     assert_eq!(ended.code, Some(1), "{}", ended.stderr);
-    assert!(ended.stderr.contains("reply with invoke ID"), "{}", ended.stderr);
+    assert!(ended.stderr.contains("an answer to invoke ID"), "{}", ended.stderr);
     assert!(begun.elapsed().as_secs() < 30, "{}", ended.stderr);
     for tool in [&["browse"][..], &["browse", "--variables"], &["run"]] {
         let ended = run(&against(&addr, tool));
@@ -191,7 +191,7 @@ fn frames_before_every_answer_of_a_run() {
     let addr = addr.to_string();
     let ended = run(&against(&addr, &["run", "--seed", "1"]));
     assert_eq!(ended.code, Some(1), "{}", ended.stderr);
-    assert!(ended.stdout.contains("reply with invoke ID"), "{}", ended.stdout);
+    assert!(ended.stdout.contains("an answer to invoke ID"), "{}", ended.stdout);
 }
 
 #[test]

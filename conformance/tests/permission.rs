@@ -130,7 +130,7 @@ fn a_stream_ends_when_its_file_expires() {
     let packets = *packets.lock().unwrap();
     assert!((2..10).contains(&packets), "{packets}");
     let shown = text(&ended.stdout);
-    assert!(shown.contains("has taken lines 1 to "), "{shown}");
+    assert!(shown.contains("accepted lines 1 to "), "{shown}");
     assert!(shown.ends_with(" to 1000\n") && shown.contains("not sent or not accepted"), "{shown}");
 }
 

@@ -279,7 +279,7 @@ fn who_is_no_cnc_is_not_judged() {
     let output = ads_cnc(&["run", "--target", &addr, "--net-id", "1.2.3.4.1.1"]);
     web.join().unwrap();
     assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
-    assert!(text(&output.stderr).contains("does not speak AMS/TCP"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("does not use AMS/TCP"), "{}", text(&output.stderr));
 }
 
 /// A device whose frames are wrong from the first one on is judged: the rule of the frame fails, with

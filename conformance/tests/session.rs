@@ -142,7 +142,7 @@ fn who_does_not_answer_is_told_apart() {
     // A route is missing.
     let (exit, text) = ask(device(drop));
     assert_eq!(exit, Exit::Nothing);
-    let parts = ["closed the connection without an answer", "route", "127.0.0.1.1.2"];
+    let parts = ["closed the connection without a reply", "route", "127.0.0.1.1.2"];
     assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 
     // It takes the request and is silent.
@@ -153,7 +153,7 @@ fn who_does_not_answer_is_told_apart() {
         });
     }));
     assert_eq!(exit, Exit::Nothing);
-    let parts = ["does not answer within 200 ms", "192.0.2.7.1.1", "--source-net-id"];
+    let parts = ["does not reply within 200 ms", "192.0.2.7.1.1", "--source-net-id"];
     assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 
     // Something else listens there.
@@ -163,7 +163,7 @@ fn who_does_not_answer_is_told_apart() {
         thread::sleep(Duration::from_millis(50));
     }));
     assert_eq!(exit, Exit::Nothing);
-    assert!(text.contains("does not speak AMS/TCP"), "{text}");
+    assert!(text.contains("does not use AMS/TCP"), "{text}");
 
     // The NetId is another's.
     let serve = Serve::start(&[]);
@@ -251,7 +251,7 @@ fn a_device_need_not_say_what_it_is() {
         let error = saying(0, data).device_state(Task::Com).unwrap_err();
         assert_eq!(error.ads_error(), Some(AdsError::SERVICE_NOT_SUPPORTED));
         assert_eq!(error.exit(), Exit::Failure);
-        assert_eq!(error.to_string(), "the device refuses ReadState with 0x701");
+        assert_eq!(error.to_string(), "the device rejects ReadState with 0x701");
     }
     let error = saying(6, &[]).device_info(Task::Com).unwrap_err();
     assert_eq!(error.exit(), Exit::Nothing);

@@ -95,7 +95,7 @@ fn a_program_arrives_whole() {
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert_eq!(text(&ran.lock().unwrap()), program.replace('\n', "\r\n"));
-    assert!(shown.contains(": channel 1 has taken lines 1 to 1000 in 16 packets, "), "{shown}");
+    assert!(shown.contains(": channel 1 accepted lines 1 to 1000 in 16 packets, "), "{shown}");
     assert!(shown.contains(" rejections as busy"), "{shown}");
     assert!(!shown.contains("not "), "{shown}");
 }
@@ -113,7 +113,7 @@ fn a_packet_is_given_up() {
     // One taken, one sent and sent again three times.
     assert_eq!(packets.len(), 5);
     assert!(packets[1..].iter().all(|packet| *packet == packets[1]));
-    assert!(shown.contains("has taken lines 1 to 72 in 1 packet, "), "{shown}");
+    assert!(shown.contains("accepted lines 1 to 72 in 1 packet, "), "{shown}");
     assert!(shown.ends_with("\n  not sent or not accepted: lines 73 to 1000\n"), "{shown}");
     assert!(said.contains("given up") && said.contains("--retries"), "{said}");
 }
@@ -243,7 +243,7 @@ fn a_program_comes_from_stdin_too() {
     process.stdin.take().unwrap().write_all(b"N10 M30").unwrap();
     let output = process.wait_with_output().unwrap();
     assert_eq!(code(&output), 0);
-    assert!(text(&output.stdout).starts_with("stdin: channel 1 has taken line 1 in 1 packet, "));
+    assert!(text(&output.stdout).starts_with("stdin: channel 1 accepted line 1 in 1 packet, "));
     assert_eq!(packets.lock().unwrap()[..], [(1, b"N10 M30\r\n".to_vec())]);
 }
 
@@ -272,7 +272,7 @@ fn a_signal_says_what_was_sent() {
         let output = process.wait_with_output().unwrap();
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "SIG{name}: {said}");
-        assert!(shown.contains("has taken lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
+        assert!(shown.contains("accepted lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
         let left = "\n  not sent or not accepted: lines 73 to 1000\n";
         assert!(shown.ends_with(left), "SIG{name}: {shown}");
         assert!(said.contains("interrupted"), "SIG{name}: {said}");
@@ -291,7 +291,7 @@ fn a_slow_cnc_runs_every_line_once() {
     let output = stream(program().as_bytes(), server.addr(), &allow, &["--retry-after", "10ms"]);
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-    assert!(shown.contains("has taken lines 1 to 1000 in 16 packets"), "{shown}");
+    assert!(shown.contains("accepted lines 1 to 1000 in 16 packets"), "{shown}");
     assert!(shown.contains(" for the time being"), "{shown}");
     let begun = Instant::now();
     let executed = loop {

@@ -247,7 +247,7 @@ impl Explain {
         parse_hex(&text).map(Some).map_err(|error| match self.hex_bytes.as_slice() {
             [file] if Path::new(file).is_file() => {
                 format!(
-                    "{file} is a file: use --file {file} for bytes, ads-cnc check {file} for a capture"
+                    "{file} is a file: use --file {file}, or for a capture ads-cnc check {file}"
                 )
             }
             _ => error.to_string(),

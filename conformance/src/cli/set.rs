@@ -124,7 +124,7 @@ impl Set {
         self.show(&object, &ty, old.as_deref(), new.as_deref())?;
         if session.is_simulated() {
             print_error(
-                "written to a temporary simulated CNC, which has ended; use --target for a running CNC",
+                "written to a temporary simulated CNC, which has ended; --target writes to a running CNC",
             );
         }
         Ok(judge(&ty, &bytes, new.as_deref()))

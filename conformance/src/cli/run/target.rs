@@ -163,7 +163,7 @@ impl Run {
         let is_whole = outcomes.iter().all(|one| one.verdict() != Verdict::Interrupted);
         if allow && usable.is_ok() && is_whole && !outcomes.iter().any(has_written) {
             print_error(
-                "nothing was written: the device has none of the items in the file for --allow-write",
+                "nothing was written: the device has no item of the file for --allow-write",
             );
         }
         let (outcomes, left_out) = plan.finish(outcomes);
