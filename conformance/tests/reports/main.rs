@@ -158,7 +158,7 @@ fn what_is_no_report_is_refused() {
     let odd = folder.path("odd.json");
     for (text, why) in [
         ("", "EOF while parsing a value at line 1"),
-        ("{\"format\":2}", "a report of format 2; this version reads 1"),
+        ("{\"format\":2}", "report format 2 instead of 1"),
         ("{\"format\":1,\n\"suit\":1}", "line 2"),
     ] {
         fs::write(&odd, text).unwrap();
@@ -264,10 +264,10 @@ fn statements_and_comparisons_are_made_of_reports() {
     let (code, shown) = against(&now, &before);
     assert!(code == Some(1) && shown.contains("\nnewly failing     VAR-8    codec  "), "{shown}");
     let (code, shown) = against(&before, &now);
-    assert!(code == Some(0) && shown.contains("\nmended            VAR-8    codec  "), "{shown}");
+    assert!(code == Some(0) && shown.contains("\nfixed             VAR-8    codec  "), "{shown}");
     let (code, shown) = against(&now, &now);
     assert!(
-        code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 mended, "),
+        code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 fixed, "),
         "{shown}"
     );
 }
@@ -295,9 +295,9 @@ fn a_comparison_is_no_success_if_less_is_judged() {
     assert_eq!(shown.matches("no longer judged  ").count(), 1, "{shown}");
     for part in [
         " verdicts: the run was interrupted\n",
-        "\nwarning  not the same target: ",
-        "\nwarning  not the same claims of the profile: platform_axes\n",
-        "\nwarning  not the same selection: VAR-11 before, VAR now\n",
+        "\nwarning  different target: ",
+        "\nwarning  different claims of the profile: platform_axes\n",
+        "\nwarning  different selection: VAR-11 before, VAR now\n",
     ] {
         assert!(shown.contains(part), "{part:?}: {shown}");
     }
