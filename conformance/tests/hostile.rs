@@ -496,7 +496,8 @@ fn requests_without_answers_are_forgotten() {
         }
         capture.finish().unwrap();
         let ended = run(&["check", file.path()]);
-        let told = "of these forgotten: more than 4096 on a connection, or 16 MiB, waited";
+        let told =
+            "of these dropped: more than 4096 on a connection, or 16 MiB, waited for replies";
         assert!(ended.stdout.contains(told), "{connections}: {}", ended.stdout);
     }
 }

@@ -330,7 +330,7 @@ fn a_handle_of_another_variable_is_not_written_by() {
         let shown = String::from_utf8(output.stdout).unwrap();
         // A safety refusal, and no verdict on the device.
         assert_eq!(output.status.code(), Some(4), "{shown}");
-        assert!(shown.contains("which the file does not name"), "{shown}");
+        assert!(shown.contains("which is not in the file"), "{shown}");
         assert!(!shown.contains("FAIL"), "{shown}");
         assert_eq!(cnc.end(), BTreeMap::new());
 
@@ -420,7 +420,7 @@ fn what_is_not_restored_says_why() {
     let said = String::from_utf8(output.stderr).unwrap();
     let last = said.lines().last().unwrap();
     assert!(last.contains("LEFT CHANGED: "), "{said}");
-    let why = "the file of --allow-write does not name this)";
+    let why = "no entry in the file of --allow-write allows it)";
     assert!(last.contains("(not restored: ") && last.ends_with(why), "{said}");
 }
 
@@ -433,7 +433,7 @@ fn an_address_of_two_objects_is_not_written() {
     let output = run(&addr, &file, OBJECT.cases);
     let shown = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(4), "{shown}");
-    assert!(shown.contains("the device gives it to mc_command_single_block_w too"), "{shown}");
+    assert!(shown.contains("the device also uses it for mc_command_single_block_w"), "{shown}");
     let set = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
         .args(["set", "example_subroutine_w", "TRUE", "--target", &addr])
         .args(["--net-id", "127.0.0.1.1.1", "--allow-write", file.path()])

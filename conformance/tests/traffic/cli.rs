@@ -96,7 +96,7 @@ fn what_is_missing_is_said_everywhere() {
     let checked =
         ads_cnc(&["check", "--any-port", "-q", &file, "--html", &page, "--markdown", &note]);
     let shown = text(&checked.stdout);
-    let why = "judged up to a cut of the file";
+    let why = "the file was judged only in part";
     assert!(shown.starts_with(&format!("note: {why}")), "{shown}");
     assert_eq!(shown.lines().count(), 2, "{shown}");
     for file in [page, note] {

@@ -224,13 +224,13 @@ fn a_netmon_file_is_compared_with_its_frame_table() {
     other[place] ^= 1;
     assert_eq!(
         end(&other),
-        "the frame table lists 6 packets, and 6 were found one after the other; convert the file \
+        "the frame table lists 6 packets, but 6 consecutive ones were found; convert the file \
          with editcap -F pcapng"
     );
     let mut long = file.clone();
     long[128 + 12..128 + 16].copy_from_slice(&u32::MAX.to_le_bytes());
-    assert_eq!(end(&long), "packet 1: it has 4294967295 bytes, at most 8388608 are read");
+    assert_eq!(end(&long), "packet 1: 4294967295 bytes, more than the maximum of 8388608");
     let mut old = file;
     old[..6].copy_from_slice(b"RTSS\x01\x01");
-    assert_eq!(end(&old), "a capture of NetMon 1.1, not 2.x; convert it with editcap -F pcapng");
+    assert_eq!(end(&old), "NetMon 1.1 instead of 2.x; convert it with editcap -F pcapng");
 }
