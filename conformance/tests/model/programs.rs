@@ -147,8 +147,8 @@ fn the_program_asks_as_the_model_says() {
 fn each_fault_is_refused_with_its_line() {
     let long = format!("request = \"{}\"", "3".repeat(128));
     for (from, to, reason) in [
-        ("number = 1", "number = 1 #\n[[channel]]\nnumber = 1", "there twice"),
-        ("times = 2", "times = 0", "once at least"),
+        ("number = 1", "number = 1 #\n[[channel]]\nnumber = 1", "configured twice"),
+        ("times = 2", "times = 0", "expected at least 1"),
         ("times = 2", "time = 2", "unknown field `time`"),
         ("pause = \"2s\"", "pause = \"2\"", "a number and its unit"),
         ("cycle = \"10ms\"", "cycle = \"0s\"", "at least 1ms"),
@@ -172,7 +172,7 @@ fn each_fault_is_refused_with_its_line() {
     }
     let empty = "[[channel]]\nnumber = 1\n[channel.service]\nrequests = []\n";
     let error = Model::from_toml(empty, "m").unwrap_err().to_string();
-    assert_eq!(error, "m:4: no request is configured");
+    assert_eq!(error, "m:4: expected at least one request");
     let old = format!("cnc-version = \"V2.11.2029.0\"\n{SERVICE}");
     let error = Model::from_toml(&old, "m").unwrap_err().to_string();
     assert_eq!(error, "m:5: a CNC of this version has no Service Interface");
