@@ -1,4 +1,4 @@
-//! Models in files: the default one comes back as it went out, bad ones are refused.
+//! Models in files: the printed default model is unchanged, and invalid models are rejected.
 
 use std::process::{Command, Stdio};
 
@@ -18,7 +18,7 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
     (run.status.code(), text(run.stdout), text(run.stderr))
 }
 
-/// Where a file is no text is said as everything else is.
+/// An encoding error has a line like any other error.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
@@ -28,7 +28,7 @@ fn a_file_in_another_encoding_has_a_line() {
 }
 
 #[test]
-fn what_is_printed_is_the_same_model() {
+fn the_printed_model_is_the_default_model() {
     let (code, printed, errors) = ads_cnc(&["--print-model"]);
     assert_eq!((code, errors.as_str()), (Some(0), ""));
     let model = Model::from_toml(&printed, "printed").unwrap();
@@ -39,15 +39,15 @@ fn what_is_printed_is_the_same_model() {
     let bare = printed.lines().filter(|line| !line.trim_start().starts_with('#'));
     let bare: Vec<&str> = bare.collect();
     assert_eq!(Model::from_toml(&bare.join("\n"), "bare"), Ok(model));
-    // Served, it answers.
+    // The simulated CNC with this model replies.
     let file = TestFile::new(".toml", printed.as_bytes());
     let cnc = Cnc::start(&["--model", file.path()]);
     assert_eq!(cnc.sda().ask(CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
 }
 
-/// What is not said is 0, empty or not there.
+/// Omitted settings are 0, empty or absent.
 #[test]
-fn a_smallest_model() {
+fn a_minimal_model_is_valid() {
     let file = TestFile::new(".toml", b"[[channel]]\nnumber = 3\n");
     let cnc = Cnc::start(&["--model", file.path()]);
     assert_eq!(cnc.sda().ask(0x12_2303, 0x44, b"V.E\0"), Ok(vec![0; 4]));
@@ -58,7 +58,7 @@ fn a_smallest_model() {
 }
 
 #[test]
-fn bad_models_are_usage_errors() {
+fn invalid_models_are_usage_errors() {
     let file =
         TestFile::new(".toml", b"[[channel]]\nnumber = 1\nvariables = [\n  { name = \"x\" },\n]\n");
     let (code, out, errors) = ads_cnc(&["--model", file.path()]);
@@ -70,9 +70,9 @@ fn bad_models_are_usage_errors() {
     assert!(errors.contains("no such file: "), "{errors}");
 }
 
-/// A change of the default model that makes it bad, and what is said of it, where.
+/// Each change makes the default model invalid; the error contains the reason and the line.
 #[test]
-fn each_fault_is_refused_with_its_line() {
+fn each_error_has_its_line() {
     let mut wrong = Vec::new();
     for (from, to, reason) in FAULTS {
         assert_eq!(DEFAULT_MODEL.matches(from).count(), 1, "{from}");
