@@ -115,7 +115,7 @@ fn retries_are_limited() {
     assert!(packets[1..].iter().all(|packet| *packet == packets[1]));
     assert!(shown.contains("accepted lines 1 to 72 in 1 packet, "), "{shown}");
     assert!(shown.ends_with("\n  not sent or not accepted: lines 73 to 1000\n"), "{shown}");
-    assert!(said.contains("given up") && said.contains("--retries"), "{said}");
+    assert!(said.contains("gave up") && said.contains("--retries"), "{said}");
 }
 
 /// A packet that is rejected with another error is not sent again.
@@ -292,7 +292,7 @@ fn a_slow_cnc_executes_every_line_once() {
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert!(shown.contains("accepted lines 1 to 1000 in 16 packets"), "{shown}");
-    assert!(shown.contains(" for the time being"), "{shown}");
+    assert!(shown.contains(" rejections as busy"), "{shown}");
     let begun = Instant::now();
     let executed = loop {
         let executed = cnc.with_program(1, |program| program.executed().clone()).unwrap();

@@ -139,7 +139,7 @@ proptest! {
 
     /// Both sides together: a CNC that reads occasionally receives the whole text.
     #[test]
-    fn a_cnc_receives_the_text(
+    fn a_cnc_gets_the_text(
         lines in vec("[ -~]{0,90}", 0..60),
         reads in vec(any::<bool>(), 1..20),
         end in prop::sample::select(vec!["\n", "\r\n", "\r"]),

@@ -12,7 +12,7 @@ pub(crate) fn with_steps() -> impl Iterator<Item = &'static Sequence> {
 }
 
 #[test]
-fn the_simulated_cnc_passes_each_golden_sequence() {
+fn the_simulated_cnc_goes_through_each_golden_sequence() {
     for sequence in with_steps() {
         if let Err(why) = play(&Target::new(None), sequence) {
             panic!("{}: {why:?}", sequence.id);
