@@ -43,7 +43,7 @@ fn a_signal_ends_the_server() {
         assert_eq!(status.code(), Some(0));
         let mut log = String::new();
         serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
-        assert!(log.contains("interrupted"), "{log}");
+        assert!(log.contains("stopped by a signal"), "{log}");
         assert_eq!(log.contains("connected"), with_clients, "{log}");
         if let Some(client) = &mut client {
             // The end of the stream, or a reset.
