@@ -1,13 +1,13 @@
-//! The simulated CNC under load, for a bounded time: clients with mixed operations, a long NC
-//! program through a slow decoder, malformed frames beside a client that works on undisturbed.
+//! The simulated CNC under load for a limited time: clients with mixed operations, a long NC program
+//! with a slow decoder, and malformed frames in parallel with a working client.
 //!
 //! ```text
 //! cargo run --release -p ads-cnc-load --bin soak [SECONDS [FRAMES [MEGABYTES]]]
 //! ```
 //!
-//! Whatever goes wrong ends it with an error. The seed of the malformed frames is fixed.
+//! Any failure ends the program with an error. The seed of the malformed frames is fixed.
 
-#![allow(clippy::disallowed_methods, reason = "bare clients of a server in this process")]
+#![allow(clippy::disallowed_methods, reason = "clients of a server in this process")]
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -31,7 +31,7 @@ use ads_cnc_conformance::simulator::{Cnc, NET_ID, Server};
 
 type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
 
-/// How many V.E variables channel 1 has: ReadWrite at 0x122301, 0x44.
+/// Request for the number of V.E variables of channel 1: ReadWrite at 0x122301, 0x44.
 const REQUEST: &[u8] = b"\0\0\x34\0\0\0\x7f\0\0\x01\x01\x01\x28\x02\x7f\0\0\x01\x01\x02\x01\x80\
     \x09\0\x04\0\x14\0\0\0\0\0\0\0\x07\0\0\0\x01\x23\x12\0\x44\0\0\0\x04\0\0\0\x04\0\0\0V.E\0";
 
@@ -57,7 +57,7 @@ fn session(addr: SocketAddr, tables: &str) -> Result<Session> {
     Session::connect(Target::local(addr, NET_ID), gate).map_err(|error| error.to_string().into())
 }
 
-/// Eight clients for so long, each with a variable of its own that it writes and reads back.
+/// Runs eight clients for this time; each writes its own variable and reads it back.
 fn mixed(addr: SocketAddr, time: Duration) -> Result<()> {
     const NAMES: [&str; 8] = [
         "V.E.sgn32",
@@ -121,14 +121,14 @@ fn client(addr: SocketAddr, name: &str, end: Instant) -> Result<u64> {
     Ok(count)
 }
 
-/// KiB of memory of this process, where the system says.
+/// Resident memory of this process in KiB, if the system provides it.
 fn resident() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
     line.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// So many frames that no client should send, while another client works on.
+/// Sends malformed frames while another client works.
 fn malformed(addr: SocketAddr, frames: u64) -> Result<()> {
     let over = AtomicBool::new(false);
     let (asked, connections) = thread::scope(|scope| {
@@ -156,9 +156,9 @@ fn malformed(addr: SocketAddr, frames: u64) -> Result<()> {
     if asked == 0 { Err("the other client was not answered".into()) } else { Ok(()) }
 }
 
-/// Sends the frames; how many connections that took.
+/// Sends the frames; returns the number of connections.
 fn disturb(addr: SocketAddr, frames: u64) -> Result<u64> {
-    // Numerical Recipes' generator: the same frames each time.
+    // The generator of Numerical Recipes, for the same frames each time.
     let mut state = 0x5EED_u32;
     let mut random = move || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -172,8 +172,8 @@ fn disturb(addr: SocketAddr, frames: u64) -> Result<u64> {
         stream.set_read_timeout(Some(Duration::from_millis(1)))?;
         while sent < frames {
             let mut frame = REQUEST.to_vec();
-            // Behind the lengths of the frame: that is answered. One in 64 lies about its length,
-            // is cut, or is noise: that ends the connection.
+            // Most frames have wrong bytes after the lengths and are answered. One in 64 has a wrong
+            // length, is truncated, or is noise, which ends the connection.
             match random() % 64 {
                 0 => frame[2..6].copy_from_slice(&random().to_le_bytes()),
                 1 => frame.truncate(random() as usize % REQUEST.len()),
@@ -193,14 +193,14 @@ fn disturb(addr: SocketAddr, frames: u64) -> Result<u64> {
             if !framed {
                 break;
             }
-            // Read what is there, so that neither side waits for the other.
+            // Read available bytes, so that neither side waits for the other.
             let _nothing_yet = stream.read(&mut [0; 4096]);
         }
     }
     Ok(connections)
 }
 
-/// A long program through a decoder that is slower than the sender.
+/// Streams a long program to a decoder that is slower than the sender.
 fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
     let mut program = String::new();
     let mut line = 0_u32;
@@ -225,7 +225,7 @@ fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
         match ack {
             Ack::Accepted => {}
             Ack::Busy => thread::sleep(Duration::from_micros(500)),
-            Ack::Rejected => return Err("the stream was refused".into()),
+            Ack::Rejected => return Err("the stream was rejected".into()),
         }
     }
     let (lines, bytes, found, refusals) = loop {
@@ -239,11 +239,11 @@ fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
         thread::sleep(Duration::from_millis(10));
     };
     println!(
-        "{bytes} bytes in {lines} lines run within {:.1} s, after {refusals} refusals",
+        "{bytes} bytes in {lines} lines executed within {:.1} s, after {refusals} rejections as busy",
         begun.elapsed().as_secs_f64()
     );
     if (lines, bytes, found) != (line.into(), wire.len() as u64, digest(wire.as_bytes())) {
-        return Err("what was run is not what was sent".into());
+        return Err("the executed lines differ from the sent ones".into());
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 """Packs the command `ads-cnc` of one target: an archive and a wheel.
 
-    conformance/packages/pack.py TARGET FOLDER      FOLDER has the command
+    conformance/packages/pack.py TARGET FOLDER      FOLDER contains the command
 """
 
 import gzip

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::text::shown_time;
 
-/// A moment after which no more requests are sent.
+/// The time after which a command sends no more requests.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
     at: Option<Instant>,

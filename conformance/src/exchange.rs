@@ -19,18 +19,18 @@ use crate::text::plural;
 /// A request and its result.
 #[derive(Debug)]
 pub struct Exchange {
-    /// Port to which the request was sent.
+    /// The AMS port of the request.
     pub port: AmsPort,
     pub service: Service,
     pub index_group: IndexGroup,
     pub index_offset: IndexOffset,
     pub read_length: u32,
     pub data: Vec<u8>,
-    /// The frame sent; empty if nothing was sent.
+    /// The whole frame that was sent; empty if none was sent.
     pub sent: Vec<u8>,
     /// The frame received, or the part of it that arrived.
     pub received: Vec<u8>,
-    /// The reply and its AMS header, or why there is no valid reply.
+    /// The reply and its AMS header, or the reason why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
     /// Rules of AMS/TCP that the received frame violates.
     pub violations: Vec<Violation>,
@@ -43,7 +43,7 @@ pub struct AdsReply {
     pub ams_error: AdsError,
     /// Result of the service.
     pub result: AdsError,
-    /// Data; `None` if the reply ends before its data.
+    /// The data; `None` if the reply ends before the data.
     pub data: Option<Vec<u8>>,
 }
 
@@ -70,19 +70,19 @@ impl fmt::Display for AdsReply {
     }
 }
 
-/// Why there is no valid reply.
+/// The reason why there is no valid reply.
 #[derive(Debug)]
 pub enum ExchangeError {
     /// The gate rejected the request.
     Refused(Box<Refusal>),
-    /// The request was not sent in a dry run.
+    /// The request was not sent, because this is a dry run.
     NotSent,
     /// The request cannot be encoded.
     Unsendable(Error),
     /// No reply arrived within this time.
     Silence(Duration),
     Closed,
-    /// The reply is ignored, because only the request is judged.
+    /// The reply was not examined, because only the request is judged.
     Unseen,
     /// The received bytes are not an AMS/TCP frame, or not a reply of the service.
     Malformed(Error),
@@ -106,19 +106,20 @@ impl fmt::Display for ExchangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Refused(why) => write!(f, "not sent, rejected for safety: {why}"),
-            Self::NotSent => f.write_str("not sent: a dry run"),
+            Self::NotSent => f.write_str("not sent (dry run)"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
-            Self::Silence(time) => write!(f, "no reply within {} ms", time.as_millis()),
-            Self::Closed => f.write_str("connection closed without a reply"),
-            Self::Unseen => f.write_str("not judged: only the request is"),
-            Self::Malformed(error) => write!(f, "malformed reply: {error}"),
+            // The hashes of `doc/detection.tsv` depend on the texts of these errors.
+            Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
+            Self::Closed => f.write_str("connection closed without an answer"),
+            Self::Unseen => f.write_str("not examined: only the request is judged"),
+            Self::Malformed(error) => write!(f, "malformed answer: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
             Self::Disconnected(error) => write!(f, "no connection: {error}"),
         }
     }
 }
 
-/// A rule that a frame violates.
+/// A rule of AMS/TCP that a frame violates, independent of its data.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub requirement: ClauseId,
@@ -148,7 +149,7 @@ impl Exchange {
         }
     }
 
-    /// The reply, if one arrived.
+    /// The reply, if a valid one arrived.
     pub fn answer(&self) -> Option<&AdsReply> {
         self.outcome.as_ref().ok().map(|(answer, _)| answer)
     }
@@ -158,19 +159,19 @@ impl Exchange {
         self.answer().and_then(AdsReply::success)
     }
 
-    /// Whether the reply is an error.
+    /// Whether the reply contains an error.
     pub fn is_error(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none())
     }
 
-    /// Whether the AMS header has an error, but the data after it is that of a success.
+    /// Whether the AMS header contains an error, but the data after it is a successful reply.
     pub(crate) fn contradicts_itself(&self) -> bool {
         let has_data = self.received.len() > FrameRef::HEADERS_LEN;
         let of_both = |answer: &AdsReply| !answer.ams_error.is_ok() && answer.result.is_ok();
         has_data && self.answer().is_some_and(of_both)
     }
 
-    /// Whether the reply is an error, or a success without data.
+    /// Whether the reply contains an error, or is a success without data.
     pub fn is_rejected(&self) -> bool {
         self.answer().is_some_and(|answer| answer.success().is_none_or(<[u8]>::is_empty))
     }
@@ -221,7 +222,7 @@ impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
         let function = exchange.call().dispatch().ok().map(|request| request.function());
         let spec = function.map(Function::spec);
-        // An error has no stream of reply data.
+        // An error reply does not contain the stream of a successful reply.
         let has_stream = |data: &&[u8]| exchange.success().is_some() || !data.is_empty();
         let data = exchange.answer().and_then(|answer| answer.data.as_deref()).filter(has_stream);
         let evidence = Self {
@@ -244,15 +245,15 @@ pub(crate) const fn meaning(error: AdsError) -> Option<&'static str> {
         AdsError::SERVICE_NOT_SUPPORTED => "service not supported",
         AdsError::INVALID_GROUP => "no such channel, axis or class",
         AdsError::INVALID_OFFSET => "no such object, element or function",
-        AdsError::INVALID_ACCESS => "reading or writing is not permitted",
-        AdsError::INVALID_SIZE => "wrong size",
-        AdsError::INVALID_DATA => "no such index or handle, or not at the moment",
+        AdsError::INVALID_ACCESS => "read or write not allowed",
+        AdsError::INVALID_SIZE => "invalid size",
+        AdsError::INVALID_DATA => "no such index or handle, or invalid now",
         AdsError::SYMBOL_NOT_FOUND => "no such name",
         _ => return None,
     })
 }
 
-/// The AMS header of a frame, whatever its length fields.
+/// The AMS header of a frame, even if its lengths are inconsistent.
 fn header(frame: &[u8]) -> Option<AmsHeader> {
     let header = frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?;
     AmsHeader::decode(header).ok()
@@ -265,13 +266,14 @@ pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     headers.is_some_and(|(sent, got)| got.source == sent.target || got.target == sent.source)
 }
 
-/// The violation if the invoke ID of the received frame differs from that of the frame sent.
+/// The violation if the received frame has another invoke ID than the sent one.
 pub(crate) fn other_invoke_id(sent: &[u8], received: &[u8]) -> Option<Violation> {
     let (id, asked) = (header(received)?.invoke_id, header(sent)?.invoke_id);
     (id != asked).then(|| Violation::of_invoke_id(id, asked))
 }
 
-/// The rules of ADS-5 that the header of a reply violates.
+/// The violations of ADS-5 in the header of a response. The hashes of `doc/detection.tsv` depend on
+/// their texts.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let mut broken = Vec::new();
     let mut check = |kept: bool, what: fmt::Arguments<'_>| {

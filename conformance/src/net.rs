@@ -75,7 +75,7 @@ impl Acceptor {
     }
 
     fn wake_listener(&self) -> io::Result<()> {
-        // A listener on all addresses is reached through the loopback address.
+        // Reach a listener on all addresses through the loopback address.
         let ip = match self.addr.ip() {
             IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
             IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
@@ -96,7 +96,7 @@ impl Drop for Acceptor {
 /// simulated CNC.
 ///
 /// # Errors
-/// Those of the system, and [`io::ErrorKind::PermissionDenied`] for any other machine.
+/// An error of the system, or [`io::ErrorKind::PermissionDenied`] for another machine.
 pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
     if !addr.ip().is_loopback() {
         let why = "a deliberately faulty client connects only to this machine";
@@ -121,12 +121,12 @@ pub trait Peer: fmt::Debug + Send {
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
 }
 
-/// Peers in this process, which need no socket, and their clock.
+/// Opens connections to a simulated CNC of this process without sockets, and controls its clock.
 pub trait LocalPeers: fmt::Debug + Send + Sync {
     /// Opens a connection.
     fn connect(&self) -> Box<dyn Peer>;
 
-    /// Advances the clock.
+    /// Advances the clock by `time`.
     fn pass(&self, time: Duration);
 }
 
@@ -141,7 +141,7 @@ impl Peer for TcpStream {
     }
 }
 
-/// A connection to a target. Every frame sent on it has passed the gate.
+/// A connection to a target. It only sends frames that the gate has permitted.
 #[derive(Debug)]
 pub struct Wire {
     peer: Box<dyn Peer>,
@@ -152,7 +152,7 @@ impl Wire {
     /// Connects to an address within `timeout`, without Nagle's algorithm.
     ///
     /// # Errors
-    /// Those of the system, and [`io::ErrorKind::TimedOut`].
+    /// An error of the system, or [`io::ErrorKind::TimedOut`].
     pub fn connect(addr: SocketAddr, timeout: Duration) -> io::Result<Self> {
         let stream = TcpStream::connect_timeout(&addr, timeout)?;
         stream.set_nodelay(true)?;

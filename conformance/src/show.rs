@@ -25,7 +25,7 @@ fn show_tagged(one: &Tagged) -> String {
         (_, None, hex) => hex.as_ref().map_or_else(String::new, Hex::to_string),
     };
     if let Some(tail) = &one.tail {
-        // Padding would hide the fields after it.
+        // Long padding would hide the fields after it.
         if tail.len() > 4 && tail.iter().all(|&byte| byte == 0) {
             text.push_str(&format!(" and after its NUL {} × 00", tail.len()))
         } else {

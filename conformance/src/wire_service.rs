@@ -1,4 +1,4 @@
-//! Requirement, streams and reply of the three ADS services (Read, Write, ReadWrite).
+//! Requirements, streams and replies of the three ADS services (Read, Write, ReadWrite).
 
 use ads_cnc::ads::{AdsError, Command, ReadReplyRef, ReadWriteReplyRef, WriteReply};
 use ads_cnc::layout::Stream;

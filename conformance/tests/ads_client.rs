@@ -1,5 +1,5 @@
-//! The crate `ads` as published, a client that knows nothing of this project, reads the simulated
-//! CNC. What it has to get is written here byte for byte: no codec stands in between.
+//! The published crate `ads`, a client that is independent of this project, reads the simulated CNC.
+//! The expected bytes are literals, not encoded by this project's codec.
 
 mod common;
 
@@ -21,7 +21,7 @@ const BY_RANK: [(u32, u8); 3] = [(0x02_2301, 1), (0x02_2302, 2), (0x02_2303, 6)]
 const BY_NUMBER: [(u32, u8); 3] = [(0x12_2301, 1), (0x12_2302, 2), (0x12_2306, 6)];
 
 impl Serve {
-    /// The client takes the address of its socket as its own: 127.0.0.1.1.1.
+    /// A client that uses the address of its socket as its own: 127.0.0.1.1.1.
     fn client(&self) -> Client {
         Client::new(&*self.addr, Timeouts::new(Duration::from_secs(5)), Source::Auto).unwrap()
     }
@@ -31,7 +31,7 @@ impl Serve {
     }
 }
 
-/// Runs `body` with a client and the NetId of a CNC of its own.
+/// Runs `body` with a client and the NetId of a new CNC.
 fn with_cnc(options: &[&str], body: impl FnOnce(&Client, AmsNetId)) {
     let serve = Serve::start(options);
     let client = serve.client();
@@ -61,7 +61,7 @@ fn objects() {
             BOOL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
         assert_eq!(read(com, 0x13_0101, 0x10, 84), Ok(printed.to_vec()));
         assert_eq!(read(com, 0x13_0101, 0x10, 168), Ok([&printed[..], command].concat()));
-        // A length between asks for one, a longer one than there are for what there are.
+        // A length between one and two descriptors reads one; a larger length than the list reads all.
         assert_eq!(read(com, 0x13_0101, 0x10, 100), Ok(printed.to_vec()));
         assert_eq!(read(com, 0x13_0101, 29, 10 * 84).map(|bytes| bytes.len()), Ok(168));
         assert_eq!(read(com, 0x13_0101, 1, 30 * 84).map(|bytes| bytes.len()), Ok(30 * 84));
@@ -84,7 +84,7 @@ fn printed_variables() {
         assert_eq!(ask(0x47, b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0"), [77, 1, 0, 0]);
         assert_eq!(ask(0x47, b"\x34\x12\x00\x02\0\0\0\0"), array);
         assert_eq!(ask(0x48, b"V.E.Testvar\0"), array);
-        // Its element as the whole array has it: the other example reads 333 here.
+        // The element of the array above; the other printed example contains 333 here (E-27).
         assert_eq!(ask(0x48, b"V.E.Testvar[3]\0"), [200, 1, 0, 0]);
         assert_eq!(ask(0x48, b"V.E.test[4]\0"), [55, 2, 0, 0]);
     });
@@ -103,11 +103,11 @@ fn other_variables() {
         assert_eq!(ask(0x48, b"V.A.ACT_POS.Z\0"), [0; 8]);
         let real = [0xCD, 0xCC, 0xCC, 0xCC, 0xCC, 0x48, 0x93, 0x40];
         assert_eq!(ask(0x47, b"\x1B\0\x02\x01\0\0\0\0"), real);
-        // CP1252 in a name and in a text, with bytes behind the NUL.
+        // CP1252 in a name and in a text, with bytes after the NUL.
         let value = [0x00, 0x00, 0x00, 0x00, 0x00, 0x4A, 0x93, 0x40];
         assert_eq!(ask(0x48, b"V.E.L\xE4nge\0"), value);
         assert_eq!(ask(0x48, b"V.E.text\0"), b"L\xE4nge 5\x80\0rest\0\0\0\0\0\0\0\0");
-        // Last index fastest.
+        // The last index changes fastest.
         assert_eq!(ask(0x48, b"V.E.matrix[1][0]\0"), [21, 0]);
         assert_eq!(ask(0x48, b"V.E.cube[1][2][3]\0"), [23]);
         // An index before a dot is part of the name.
@@ -117,7 +117,7 @@ fn other_variables() {
 }
 
 #[test]
-fn a_rank_is_no_number() {
+fn a_rank_is_not_a_number() {
     with_cnc(&[], |client, net_id| {
         for (group, number) in BY_RANK.into_iter().chain(BY_NUMBER) {
             for task in [GEO, SDA] {
@@ -129,15 +129,15 @@ fn a_rank_is_no_number() {
 }
 
 #[test]
-fn refusals_are_error_numbers() {
+fn invalid_requests_return_error_numbers() {
     with_cnc(&[], |client, net_id| {
         let (sda, com) = (port(client, net_id, SDA), port(client, net_id, COM));
         let refused = |group, offset, data: &[u8]| ask(sda, group, offset, data).unwrap_err();
-        // A group without functions, channels that are not there, by number and by rank.
+        // A group without functions, and channels that do not exist, by number and by rank.
         for group in [0xF005, 0x12_2303, 0x12_2305, 0x02_2304] {
             assert_eq!(refused(group, 0x44, b"V.E\0"), 0x702, "{group:#x}");
         }
-        // A name is read, not asked for.
+        // The service of a name is Read, not ReadWrite.
         assert_eq!(refused(0x12_2401, 0x44, b"V.E\0"), 0x701);
         assert_eq!(refused(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
         assert_eq!(refused(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
@@ -173,13 +173,13 @@ fn refusals_are_error_numbers() {
         assert_eq!(ask(plc, CHANNEL_1, 0x44, b"V.E\0"), Err(0x6));
         let other = port(client, AmsNetId::new(192, 0, 2, 1, 1, 1), SDA);
         assert_eq!(ask(other, CHANNEL_1, 0x44, b"V.E\0"), Err(0x7));
-        // And it still answers.
+        // The CNC still replies after these requests.
         assert_eq!(ask(sda, CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
     });
 }
 
 #[test]
-fn it_says_what_it_is_and_that_it_runs() {
+fn device_info_and_state_are_returned() {
     with_cnc(&[], |client, net_id| {
         for task in [GEO, SDA, COM] {
             let device = port(client, net_id, task);
@@ -205,14 +205,14 @@ fn two_clients_at_once() {
 }
 
 #[test]
-fn a_defect_shows_over_the_wire() {
+fn a_defect_changes_replies() {
     with_cnc(&["--defect", "variable-count.count.flip"], |client, net_id| {
         let sda = port(client, net_id, SDA);
         assert_eq!(ask(sda, CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![122, 0, 0, 0]));
     });
 }
 
-/// Ends with a code and says why.
+/// The exit code and the error message.
 fn fails(options: &[&str]) -> (Option<i32>, String) {
     let serve = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
         .arg("serve")
@@ -225,7 +225,7 @@ fn fails(options: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
-fn what_serve_refuses() {
+fn serve_rejects_invalid_options() {
     let (code, why) = fails(&["--listen", "0.0.0.0:0"]);
     assert_eq!(code, Some(2));
     assert!(why.contains("not a loopback address"), "{why}");

@@ -1,4 +1,5 @@
-//! A capture has what went over the connection, byte for byte. `.ci/wireshark` has another program read one.
+//! A capture contains exactly the bytes of the connections. `.ci/wireshark` reads a capture with
+//! Wireshark.
 
 use std::fs;
 use std::net::SocketAddr;
@@ -16,7 +17,7 @@ use ads_cnc_conformance::simulator::{Cnc, Server};
 use pcap_parser::pcapng::Block;
 use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
-/// The bytes of a connection, each way, with the ports of its two ends.
+/// The bytes of a connection in each direction, with the ports of both ends.
 #[derive(Debug, Default)]
 struct Flow {
     ports: (u16, u16),
@@ -32,7 +33,7 @@ fn long(bytes: &[u8], at: usize) -> u32 {
     u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap())
 }
 
-/// The sum of all words, which with a right checksum is all ones.
+/// The sum of all words; all ones if the checksum is correct.
 fn sum(parts: &[&[u8]]) -> u16 {
     let bytes = parts.concat();
     let words = bytes.chunks(2).map(|two| [two[0], *two.get(1).unwrap_or(&0)]);
@@ -43,7 +44,7 @@ fn sum(parts: &[&[u8]]) -> u16 {
     sum as u16
 }
 
-/// The packets, in whole and in the order of their times.
+/// The packets, which must be complete and in the order of their times.
 fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
     let mut reader = create_reader(1 << 20, capture).unwrap();
     let (mut packets, mut last) = (Vec::new(), (0, 0));
@@ -74,7 +75,7 @@ fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
     }
 }
 
-/// Puts the connections of a capture together, and checks every header on the way.
+/// Reassembles the connections of a capture and checks every header.
 fn flows(capture: &[u8]) -> Vec<Flow> {
     let (mut flows, mut numbers): (Vec<Flow>, (u32, u32)) = (Vec::new(), (0, 0));
     for packet in packets(capture) {
@@ -117,7 +118,7 @@ fn flows(capture: &[u8]) -> Vec<Flow> {
     flows
 }
 
-/// A client's own record of what it exchanged is in the capture, nothing else, in each connection.
+/// Compares each connection of a capture with the client's own record of its exchanges.
 fn conversation(listen: SocketAddr) {
     let cnc = Arc::new(Cnc::with_default_model().unwrap());
     let server = Server::start(net::listen(listen).unwrap(), cnc).unwrap();
@@ -133,7 +134,7 @@ fn conversation(listen: SocketAddr) {
     let (mut sent, mut received) = (Vec::new(), Vec::new());
     let requests: [Request<'_>; 3] = [
         CountVariables::new(channel, Kind::V_E).into(),
-        // More than a segment has room for.
+        // The value does not fit into one segment.
         ReadByName::new(channel, "V.E.largest").unwrap().into(),
         ReadByName::new(channel, "V.E.no such variable").unwrap().into(),
     ];
@@ -153,14 +154,14 @@ fn conversation(listen: SocketAddr) {
 }
 
 #[test]
-fn a_capture_has_what_a_client_exchanged() {
+fn a_capture_contains_the_exchanges_of_a_client() {
     conversation(SocketAddr::from(([127, 0, 0, 1], 0)));
     conversation(SocketAddr::from(([0, 0, 0, 0, 0, 0, 0, 1], 0)));
 }
 
-/// Every frame of a run is in it, with what the CNC was asked before the first case.
+/// The capture contains every frame of a run, including the queries before the first case.
 #[test]
-fn a_run_is_captured_whole() {
+fn a_run_is_captured_completely() {
     let stem = std::env::temp_dir().join(format!("ads-cnc-capture-run-{}", std::process::id()));
     let (capture, json) = (stem.with_extension("pcapng"), stem.with_extension("json"));
     let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
@@ -189,7 +190,7 @@ fn a_run_is_captured_whole() {
 }
 
 #[test]
-fn a_capture_that_cannot_be_written_is_told() {
+fn a_capture_that_cannot_be_written_is_an_error() {
     let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
         .args(["run", "--only", "COM-1", "--capture", "/no/such/folder/run.pcapng"])
         .output()

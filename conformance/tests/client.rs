@@ -1,5 +1,5 @@
-//! Clients under test: this project's own passes everything, and each of its defects is seen by the
-//! requirement it is about.
+//! Clients under test: this project's own client passes everything, and each of its defects fails
+//! the requirement that it breaks.
 
 use std::net::SocketAddr;
 use std::thread;
@@ -17,21 +17,21 @@ fn stage() -> TestServer {
 
 #[test]
 fn the_own_client_passes_everything() {
-    let judged = raises_nothing(None);
+    let judged = judge_without_findings(None);
     assert!(judged.requests > 200, "{}", judged.requests);
 }
 
-/// What is done otherwise, and is as right.
+/// Correct variants of the client fail nothing.
 #[test]
-fn habits_raise_nothing() {
+fn valid_variants_pass() {
     thread::scope(|scope| {
         for variant in variants() {
-            scope.spawn(|| raises_nothing(Some(variant.fault)));
+            scope.spawn(|| judge_without_findings(Some(variant.fault)));
         }
     });
 }
 
-fn raises_nothing(fault: Option<ClientFault>) -> JudgedClient {
+fn judge_without_findings(fault: Option<ClientFault>) -> JudgedClient {
     let judged = judge(&mut ReferenceClient { fault }, &stage(), &scenarios());
     let mut raised = Vec::new();
     for outcome in &judged.outcomes {
@@ -46,8 +46,8 @@ fn raises_nothing(fault: Option<ClientFault>) -> JudgedClient {
 }
 
 #[test]
-fn every_defect_is_seen_by_its_requirement() {
-    // Most of the time is waiting.
+fn every_defect_fails_its_requirement() {
+    // Use threads, because the defects mostly wait.
     let missed: Vec<&str> = thread::scope(|scope| {
         let part = |part| {
             move || defects().iter().skip(part).step_by(PARTS).filter(missed).map(id).collect()
@@ -69,7 +69,7 @@ fn missed(defect: &&ClientDefect) -> bool {
     !verdicts.any(|one| one.requirement == whole(defect) && told(one.verdict))
 }
 
-/// The requirement that it breaks, or breaks a part of.
+/// The requirement that the defect breaks, entirely or in part.
 fn whole(defect: &ClientDefect) -> &'static str {
     clause(defect.requirement).map_or(defect.requirement, |clause| &clause.requirement.id)
 }
@@ -78,9 +78,9 @@ fn id(defect: &ClientDefect) -> &'static str {
     defect.id
 }
 
-/// Every defect is about a requirement that a scenario judges, and is found by its ID.
+/// Every defect breaks a requirement that a scenario judges, and is found by its ID.
 #[test]
-fn defects_are_about_something() {
+fn every_defect_breaks_a_judged_requirement() {
     for defect in defects() {
         assert_eq!(find_defect(defect.id), Some(defect));
         let judges = |one: &Scenario| one.case().requirements.contains(&whole(defect));
@@ -88,9 +88,9 @@ fn defects_are_about_something() {
     }
 }
 
-/// A scenario is called one thing, tells a client something, and is about what it claims.
+/// Each scenario has a unique name, sends actions to a client, and judges the requirements it claims.
 #[test]
-fn scenarios_are_told_apart() {
+fn scenarios_are_distinct() {
     let all = scenarios();
     let mut ids: Vec<&str> = all.iter().map(|one| one.id.as_str()).collect();
     ids.sort_unstable();
@@ -104,9 +104,9 @@ fn scenarios_are_told_apart() {
     }
 }
 
-/// The description for those who write glue has every word as it is.
+/// The description for authors of adapters contains every action.
 #[test]
-fn the_vocabulary_is_written_down() {
+fn the_vocabulary_is_documented() {
     let text = include_str!("../adapters/CLIENTS.md");
     for word in VOCABULARY {
         let row = format!("| `{}` | {} | {} |", word.name, word.arguments.join(" "), word.gives);

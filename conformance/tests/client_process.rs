@@ -1,5 +1,5 @@
-//! Clients as processes: spoken with, started for each action, dying, hanging, or coming of
-//! themselves.
+//! Clients as processes: running for the whole run or started for each action, crashing, hanging, or
+//! connecting by themselves.
 
 mod common;
 
@@ -24,7 +24,7 @@ fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), report)
 }
 
-/// The failures of a case: requirement, what was found, the bytes that came last.
+/// The failures of a case: requirement, found result, last received bytes.
 fn failures(report: &Value, id: &str) -> Vec<(String, String, Value)> {
     let cases = report["cases"].as_array().unwrap();
     let case = cases.iter().find(|case| case["id"] == id).unwrap();
@@ -37,7 +37,7 @@ fn failures(report: &Value, id: &str) -> Vec<(String, String, Value)> {
 }
 
 #[test]
-fn one_that_stays_passes_everything() {
+fn a_running_client_passes_everything() {
     let (code, report) = run("", &[]);
     assert_eq!(code, Some(0), "{report:#}");
     assert_eq!(report["target"]["name"], "ads-cnc");
@@ -46,9 +46,10 @@ fn one_that_stays_passes_everything() {
     assert!(report["frames"].as_u64().unwrap() > 200);
 }
 
-/// A client that does not answer hello, or misspells an action there, is reported in a few lines.
+/// A client that does not answer hello, or misspells an action in its answer, is reported in a few
+/// lines.
 #[test]
-fn one_that_does_not_begin_is_told_shortly() {
+fn a_failed_start_is_reported_briefly() {
     let hello = r#"{"protocol":1,"client":{"name":"x"},"actions":["read-by-nam"]}"#;
     for (option, command, parts) in [
         ("--client", format!("echo '{hello}'"), ["\"read-by-nam\"", "did you mean read-by-name"]),
@@ -65,21 +66,21 @@ fn one_that_does_not_begin_is_told_shortly() {
         assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
         assert!(shown.lines().count() <= 8, "{shown}");
     }
-    // The steps of the protocol are those of a testee.
+    // Only the protocol of testees can be checked step by step.
     let output = ads_cnc(&["run", "--client", "exit 7", "--check-protocol"]);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
 
 #[test]
-fn one_that_is_started_for_each_action_passes() {
+fn a_client_started_for_each_action_passes() {
     let (code, report) = run("--once", &["--only", "VAR-14", "--only", "STM"]);
     assert_eq!(code, Some(0), "{report:#}");
     assert!(report["cases"].as_array().unwrap().len() > 30);
 }
 
-/// A death is reported with the bytes that did it, and the run goes on.
+/// A crash is reported with the bytes that caused it, and the run continues.
 #[test]
-fn a_death_is_told_with_its_bytes() {
+fn a_crash_is_reported_with_its_bytes() {
     for options in ["--defect client.dies", "--once --defect client.dies"] {
         let (code, report) = run(options, &["--only", "ADS-3"]);
         assert_eq!(code, Some(1));
@@ -93,9 +94,9 @@ fn a_death_is_told_with_its_bytes() {
     }
 }
 
-/// The traffic of a client is captured, and the file shows the same mistake.
+/// The traffic of a client is captured, and `check` detects the same error.
 #[test]
-fn its_traffic_is_captured() {
+fn the_traffic_of_a_client_is_captured() {
     let file = TestFile::new(".pcapng", b"");
     let only = ["--only", "client-handle", "--capture", file.path()];
     let (code, report) = run("--defect client.port", &only);
@@ -108,9 +109,9 @@ fn its_traffic_is_captured() {
     assert!(found.any(|id| id == "GEN-4"), "{report:#}");
 }
 
-/// One answer that is not of the protocol is the client's fault there, and of nothing else.
+/// An answer that violates the protocol fails only the requirement of the protocol.
 #[test]
-fn an_answer_of_no_protocol_fails_by_the_protocol_alone() {
+fn an_invalid_answer_fails_only_the_protocol() {
     let (code, report) = run("--defect client.garbles", &["--only", "VAR-14"]);
     assert_eq!(code, Some(1), "{report:#}");
     let cases = report["cases"].as_array().unwrap().iter();
@@ -120,7 +121,7 @@ fn an_answer_of_no_protocol_fails_by_the_protocol_alone() {
     assert!(failed.iter().all(|one| one["requirement"] == "CLIENT"), "{failed:#?}");
 }
 
-/// What a client answers follows from a request that went to the wrong port.
+/// A wrong result follows from a request to the wrong port.
 #[test]
 fn a_result_follows_from_the_request() {
     let (_, report) = run("--defect client.port", &["--only", "client-read-real"]);
@@ -134,7 +135,7 @@ fn a_result_follows_from_the_request() {
 }
 
 #[test]
-fn a_hang_is_told_and_ended() {
+fn a_hanging_client_is_reported_and_ended() {
     let (code, report) = run(
         "--defect client.hangs",
         &[
@@ -152,7 +153,7 @@ fn a_hang_is_told_and_ended() {
     assert!(failures(&report, "client-name-more").is_empty());
 }
 
-/// Starting takes longer than any action.
+/// Starting may take longer than the time limit of an action.
 #[cfg(unix)]
 #[test]
 fn hello_has_time_to_start() {
@@ -163,10 +164,10 @@ fn hello_has_time_to_start() {
     assert_eq!(output.status.code(), Some(0), "{report:#}");
 }
 
-/// One line is an answer, two are none; whether it stays or not.
+/// Two lines are not an answer, for either kind of client.
 #[cfg(unix)]
 #[test]
-fn a_second_line_is_told() {
+fn a_second_line_is_reported() {
     let told = |stays: bool, said: &str| {
         let hello = format!(
             r#"{{"protocol":1,"client":{{"name":"sh"}},"actions":["read-by-name"],"stays":{stays}}}"#
@@ -189,12 +190,12 @@ fn a_second_line_is_told() {
     }
 }
 
-/// What a client that stays is told in the end.
+/// The message that tells a running client to end.
 #[cfg(unix)]
 const BYE: &str = r#"{"cmd":"bye"}"#;
 
 #[test]
-fn who_does_not_answer_fails_by_the_protocol_alone() {
+fn a_missing_answer_fails_only_the_protocol() {
     let output = ads_cnc(&["run", "--client", "no-such-client-anywhere", "--json", "-"]);
     assert_eq!(output.status.code(), Some(1));
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -204,9 +205,9 @@ fn who_does_not_answer_fails_by_the_protocol_alone() {
     assert_eq!(ads_cnc(&["run", "--client", "x", "--only", "VRA"]).status.code(), Some(2));
 }
 
-/// One that comes of itself is judged by what it asks.
+/// A client that connects by itself is judged by its requests.
 #[test]
-fn who_connects_is_judged() {
+fn a_connecting_client_is_judged() {
     let listen = |request: &[u8]| {
         let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
             .args(["run", "--client-listen", "127.0.0.1:0", "--json", "-"])
@@ -230,7 +231,7 @@ fn who_connects_is_judged() {
     request.extend([1, 1, 0x13, 0, 0, 0, 0, 0, 4, 0, 0, 0]);
     let (code, report) = listen(&request);
     assert_eq!(code, Some(0), "{report:#}");
-    // The same to the port of another task.
+    // The same request to the port of another task.
     request[12] = 0x28;
     let (code, report) = listen(&request);
     assert_eq!(code, Some(1));

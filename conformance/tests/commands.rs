@@ -1,10 +1,10 @@
-//! The README of this package names the commands that there are, and no others.
+//! The README of this package names all commands, and no others.
 
 use std::collections::BTreeSet;
 use std::process::Command;
 
 #[test]
-fn the_readme_has_every_command_and_no_other() {
+fn the_readme_has_exactly_the_commands() {
     let help = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).arg("--help").output().unwrap();
     let help = String::from_utf8(help.stdout).unwrap();
     let (commands, _) = help.split_once("\nOptions:").unwrap();

@@ -1,9 +1,9 @@
-//! `ads-cnc completions` as a person calls it.
+//! `ads-cnc completions` as users call it.
 
 use std::process::Command;
 
 #[test]
-fn every_shell_has_a_script_with_every_tool() {
+fn every_script_contains_every_command() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
         let output = command.args(["completions", shell]).output().unwrap();

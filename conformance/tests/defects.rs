@@ -1,4 +1,4 @@
-//! The suite can fail: a wrong field anywhere is seen by its vectors and by its cases.
+//! The suite detects a wrong field anywhere, both by vectors and by cases.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ fn run_against(
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 
-/// The cases with a fail, or of a should with a warning, or with one that follows from another case.
+/// The cases that fail, warn about a should, or follow from another case.
 fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     let follows = |outcome: &CaseOutcome| {
         let mut judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
@@ -48,7 +48,7 @@ fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     failed.map(|outcome| outcome.case.id.as_str()).collect()
 }
 
-/// What is tried of a field: both changes alter any bytes there can be.
+/// The tried defects of a field; both changes alter any bytes.
 fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     let all = field
         .stream()
@@ -58,18 +58,18 @@ fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     all.filter(|defect| matches!(defect.change, FieldChange::FlipLow | FieldChange::Invert))
 }
 
-/// Every defect of every field of `stream` fails a vector and a case of the target that is not
-/// made of a vector, or, where only a printed example can tell, one that is, or a test of the simulated
-/// CNC.
-fn every_field_is_seen(stream: Stream, only_printed_can_tell: &[&str]) {
+/// Checks that every defect of every field of `stream` fails a vector, and a case of the target that is
+/// not made of a vector. For the fields in `only_printed`, a printed example or a test of the simulated
+/// CNC must fail instead.
+fn every_field_is_seen(stream: Stream, only_printed: &[&str]) {
     for defect in stream.fields().flat_map(defects) {
-        // By what is of its own area; what carries all others is in every one.
+        // Run the cases of the field's area; fields of frames are in every area.
         let spec = defect.field.spec().map_or("", |spec| spec.clause);
         let area = spec.split('-').next().unwrap().to_owned();
         let near =
             |case: &Case| area == "ADS" || case.requirements.iter().any(|id| id.starts_with(&area));
         let vectors = run(Some(&defect), |case| case.needs == Needs::Codec && near(case));
-        // By what the codec reads: that it writes the same bytes again says nothing here.
+        // Only decoding detects the defect, because encoding returns the same bytes.
         let by_vectors = vectors.iter().filter(|outcome| outcome.verdict() == Verdict::Fail);
         let misread = by_vectors.flat_map(|outcome| &outcome.verdicts).any(|judged| {
             let failed = |one: &Judgement| {
@@ -81,7 +81,7 @@ fn every_field_is_seen(stream: Stream, only_printed_can_tell: &[&str]) {
         let cases = run(Some(&defect), |case| case.needs != Needs::Codec && near(case));
         let by_cases = failed(&cases);
         let telling = by_cases.iter().any(|id| !id.starts_with("printed-"));
-        let printed = only_printed_can_tell.contains(&defect.field.name());
+        let printed = only_printed.contains(&defect.field.name());
         let is_unseen = UNSEEN.contains(&defect.id.as_str());
         let seen = telling || is_unseen || printed && !by_cases.is_empty();
         assert!(seen, "{}: {by_cases:?}", defect.id);
@@ -97,7 +97,7 @@ fn every_field_of_the_description_is_seen() {
 
 #[test]
 fn every_field_of_the_descriptor_is_seen() {
-    // Number, name, type and the bytes without meaning are told by the printed example alone.
+    // Only the printed example determines number, name, type and the unassigned bytes.
     let printed = ["id", "not_assigned", "name", "type"];
     every_field_is_seen(Stream::ObjectDescriptor, &printed);
 }
@@ -118,7 +118,7 @@ fn every_attribute_of_elements_is_seen() {
     every_field_is_seen(Stream::ElementCount, &[]);
     every_field_is_seen(Stream::ElementLength, &[]);
     every_field_is_seen(Stream::ElementWriteFlag, &[]);
-    // Name, type and unit are texts, of which a printed one alone tells that it is another.
+    // Only a printed example determines the texts of name, type and unit.
     every_field_is_seen(Stream::ElementText, &["text"]);
 }
 
@@ -128,7 +128,7 @@ fn every_field_of_dynamic_parameters_is_seen() {
     every_field_is_seen(Stream::DynamicIndex, &[]);
     every_field_is_seen(Stream::DynamicName, &[]);
     every_field_is_seen(Stream::DynamicNameRequest, &[]);
-    // By name and by index it is the same: only what is printed has another source.
+    // The values by name and by index are equally wrong: only a printed example differs.
     every_field_is_seen(Stream::DynamicValue, &["value"]);
 }
 
@@ -159,7 +159,7 @@ fn every_field_of_the_program_stream_is_seen() {
     every_field_is_seen(Stream::ProgramStream, &[]);
 }
 
-/// A should: what is done otherwise is a warning.
+/// The level is should, so a deviation is a warning.
 #[test]
 fn every_field_of_the_description_by_name_is_seen() {
     for defect in Stream::VariableDescriptionByName.fields().flat_map(defects) {
@@ -170,12 +170,12 @@ fn every_field_of_the_description_by_name_is_seen() {
     }
 }
 
-/// Without a defect nothing is raised, and everything that can be judged is.
+/// Without a defect, nothing fails, and every requirement that can be judged is judged.
 #[test]
-fn the_simulated_cnc_raises_nothing() {
+fn the_simulated_cnc_passes() {
     for outcome in run(None, |_| true) {
         let verdict = outcome.verdict();
-        // One example contradicts another, and of V.P, V.L, V.S only the German edition speaks.
+        // One example contradicts another, and only the German edition documents V.P, V.L and V.S.
         let other =
             ["printed-value-printed-name-element", "var-dynamic-by-name", "write-dynamic-by-name"];
         let other = other.contains(&outcome.case.id.as_str());
@@ -187,9 +187,9 @@ fn the_simulated_cnc_raises_nothing() {
     }
 }
 
-/// The German edition has V.P, V.L and V.S among the variables too, without handles.
+/// In the German edition, the variables include V.P, V.L and V.S, without handles.
 #[test]
-fn a_cnc_of_the_german_edition_raises_nothing() {
+fn a_cnc_of_the_german_edition_passes() {
     let edition = Edition::German;
     let settings = Settings { edition: Some(edition), version: None };
     let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();

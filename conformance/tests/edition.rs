@@ -1,4 +1,4 @@
-//! Editions and versions: what each has, and how versions are printed.
+//! The features of editions and versions, and the format of versions.
 
 mod kept;
 
@@ -32,10 +32,10 @@ fn assert_answer(support: Support, (available, assumed): (bool, bool), requireme
     assert_eq!(support.requirement, requirement);
 }
 
-/// Each as it is printed: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03,
-/// section 1; the last two in the vendors' public help pages.
+/// Versions as printed in `ads-de` 1.051, section 4.1, and in `service-en` and `service-de` 1.03,
+/// section 1; the last two are from the vendors' public help pages.
 #[test]
-fn printed_versions_are_read_and_written() {
+fn printed_versions_are_parsed_and_formatted() {
     let mut all = BTreeSet::new();
     for (printed, (major, minor, build, patch), shown) in [
         ("V.2.11.2077", (2, 11, 2077, 0), "V2.11.2077"),
@@ -53,7 +53,7 @@ fn printed_versions_are_read_and_written() {
         let parts = (found.major(), found.minor(), found.build(), found.patch());
         assert_eq!(parts, (major, minor, build, patch), "{printed}");
         assert_eq!(found.to_string(), shown);
-        // With and without the V.
+        // The V is optional.
         assert_eq!(version(shown.trim_start_matches('V')), found);
         assert_eq!(shown.parse(), Ok(found));
         all.insert(found);
@@ -63,7 +63,7 @@ fn printed_versions_are_read_and_written() {
 }
 
 #[test]
-fn malformed_versions_are_refused_where_they_are_wrong() {
+fn malformed_versions_are_rejected_with_the_offset() {
     let unexpected = |part: &str, offset: usize, found: char| {
         let found = match found {
             '!'..='~' => format!("'{found}'"),
@@ -115,7 +115,7 @@ fn malformed_versions_are_refused_where_they_are_wrong() {
 }
 
 #[test]
-fn versions_count_by_their_numbers() {
+fn versions_are_ordered_by_their_numbers() {
     let ascending = [
         "V2.11.2030.01",
         "V2.11.2077",
@@ -132,10 +132,10 @@ fn versions_count_by_their_numbers() {
     assert!(ascending.map(version).is_sorted_by(|one, next| one < next));
 }
 
-/// VAR-19 and SVC-11 from one version below each that is printed to one above, and branches that
-/// are not.
+/// VAR-19 and SVC-11 for the versions below, at and above each printed one, and for branches that are
+/// not printed.
 #[test]
-fn versions_have_what_is_printed_for_them() {
+fn versions_have_their_printed_features() {
     let cases: [(Feature, &str, &[_]); 3] = [
         (
             Feature::DynamicVariables,
@@ -144,7 +144,7 @@ fn versions_have_what_is_printed_for_them() {
                 ("V2.11.2076.99", NO),
                 ("V2.11.2077", YES),
                 ("V2.11.2077.01", YES),
-                // A later one is printed for the branch, so this one need not have it.
+                // A later version is printed for this branch, so this one need not have the feature.
                 ("V2.11.2078", NO_ASSUMED),
                 ("V2.11.2846.99", NO_ASSUMED),
                 ("V2.11.2847", YES),
@@ -217,7 +217,7 @@ fn versions_have_what_is_printed_for_them() {
     }
 }
 
-/// Section 4.2.1 of either edition: which kinds 0x46, 0x47 and 0x49 are not available for.
+/// Section 4.2.1 of either edition: the kinds for which 0x46, 0x47 and 0x49 are not available.
 #[test]
 fn handles_by_edition() {
     let newest = Some(version("V4.18.0"));
@@ -243,8 +243,8 @@ fn handles_by_edition() {
     assert_eq!(Edition::German.by_name_only(), german);
 }
 
-/// Section 4.1 of either edition: V.CYC by name in both, V.P, V.L and V.S in `ads-de` from some
-/// version on.
+/// Section 4.1 of either edition: V.CYC by name in both; V.P, V.L and V.S in `ads-de` from certain
+/// versions on.
 #[test]
 fn names_by_edition_and_version() {
     let with = [Some(version("V3.1.3115")), Some(version("V2.11.2077"))];
@@ -273,7 +273,7 @@ fn names_by_edition_and_version() {
 
 /// Sections 4.3.1, 4.3.2 and 4.3.8: V.G, V.E and V.A; E-39.
 #[test]
-fn requests_by_index_take_three_kinds() {
+fn requests_by_index_accept_three_kinds() {
     for edition in Edition::ALL {
         for function in BY_INDEX {
             let may = |kind| edition.permits(function, kind, None);
@@ -289,9 +289,9 @@ fn requests_by_index_take_three_kinds() {
     }
 }
 
-/// Section 4.1: the axis interface is V.A's.
+/// Section 4.1: the axis interface is only for V.A.
 #[test]
-fn the_axis_interface_has_axis_variables() {
+fn the_axis_interface_has_only_axis_variables() {
     for edition in Edition::ALL {
         for function in ON_AXIS {
             assert_answer(edition.permits(function, Kind::V_A, None), YES, "VAR-26");
@@ -304,9 +304,9 @@ fn the_axis_interface_has_axis_variables() {
     }
 }
 
-/// A server asks with the kind as it was received.
+/// A server passes the kind as received, with any number of NULs.
 #[test]
-fn how_a_kind_ends_does_not_matter() {
+fn the_nuls_of_a_kind_are_ignored() {
     let request = VariableKindRef::decode(b"V.CYC\0\0\0").unwrap();
     let answer = Edition::English.permits(Function::HandleByName, request.kind, None);
     assert_answer(answer, NO, "VAR-18");
@@ -326,7 +326,7 @@ fn editions_versions_and_support_are_as_printed() {
     assert_eq!(not.to_string(), "no (VAR-1, assumed)");
 }
 
-/// The documents are called as the vectors call them.
+/// Editions and vectors use the same names of documents.
 #[test]
 fn editions_are_documents_of_the_vectors() {
     for edition in Edition::ALL {
@@ -341,7 +341,7 @@ proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
     #[test]
-    fn versions_come_back(
+    fn formatted_versions_are_parsed_again(
         numbers in any::<(u16, u16, u16, u16)>(),
         v in proptest::sample::select(vec!["", "V", "V."]),
     ) {
@@ -353,14 +353,14 @@ proptest! {
     }
 
     #[test]
-    fn versions_order_as_their_numbers(one in any::<[u16; 4]>(), other in any::<[u16; 4]>()) {
+    fn any_versions_are_ordered_by_their_numbers(one in any::<[u16; 4]>(), other in any::<[u16; 4]>()) {
         let version = |[a, b, c, d]: [u16; 4]| CncVersion::from_parts(a, b, c, d);
         prop_assert_eq!(version(one).cmp(&version(other)), one.cmp(&other));
     }
 
-    /// What is accepted is one of the forms, and no text panics.
+    /// Accepted texts have one of the forms, and no text causes a panic.
     #[test]
-    fn any_text_is_a_version_or_refused(text in "[V.0-9\u{e4} ]{0,14}") {
+    fn any_text_is_a_version_or_rejected(text in "[V.0-9\u{e4} ]{0,14}") {
         if let Ok(version) = CncVersion::new(&text) {
             let numbers = text.trim_start_matches('V').trim_start_matches('.');
             let numbers: Vec<u16> = numbers.split('.').map(|n| n.parse().unwrap()).collect();
@@ -370,9 +370,9 @@ proptest! {
         }
     }
 
-    /// A later patch of a version that has something has it too.
+    /// A later patch of a version has the same features.
     #[test]
-    fn later_patches_have_it_too(
+    fn later_patches_keep_features(
         feature in proptest::sample::select(Feature::ALL.to_vec()),
         [major, build] in any::<[u16; 2]>(),
         minor in 0..40_u16,
@@ -386,7 +386,7 @@ proptest! {
     }
 }
 
-/// The description by name, 0x4C: by the version, and of the kinds that are reached by name.
+/// The description by name (0x4C): the versions, and the kinds that are accessible by name.
 #[test]
 fn descriptions_by_name() {
     let may =
@@ -406,9 +406,9 @@ fn descriptions_by_name() {
     assert_answer(may(Edition::English, Kind::V_P, new), NO_ASSUMED, "VAR-19");
 }
 
-/// What is not about variables is there in each edition, whatever kind stands beside it.
+/// Functions that are not for variables are available in each edition, with any kind.
 #[test]
-fn kinds_have_no_part_in_other_functions() {
+fn other_functions_ignore_kinds() {
     let about_variables = |function: &&Function| function.spec().clause.starts_with("VAR");
     let others: Vec<_> = Function::ALL.iter().filter(|of| !about_variables(of)).collect();
     assert!(
@@ -424,7 +424,7 @@ fn kinds_have_no_part_in_other_functions() {
     }
 }
 
-/// No printed edition has these functions, so `Feature::of` needs the versions that do.
+/// No printed edition has these functions, so `Feature::of` must contain their versions.
 #[test]
 fn functions_documented_online_have_a_feature() {
     for &function in Function::ALL {

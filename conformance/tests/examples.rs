@@ -13,10 +13,10 @@ use ads::{AmsAddr, Client, Device, Source, Timeouts};
 use common::Serve;
 use common::file::TestFile;
 
-/// How long an example may take, once it is built.
+/// Time limit of an example, without the build.
 const TIME: Duration = Duration::from_secs(60);
 
-/// Builds the examples, or finds them built by the run that this test is part of.
+/// Builds the examples, unless the current test run has built them.
 fn built() -> &'static [PathBuf] {
     static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
     BUILT.get_or_init(|| {
@@ -40,7 +40,7 @@ fn built() -> &'static [PathBuf] {
     })
 }
 
-/// An example under way, ended when it is dropped.
+/// A running example that is ended when dropped.
 struct Example(Child);
 
 impl Example {
@@ -56,14 +56,14 @@ impl Example {
         Self(example.unwrap())
     }
 
-    /// What it printed, once it has ended well.
+    /// Waits for success and returns stdout.
     fn output(self) -> String {
         let (is_success, out, errors) = self.ended();
         assert!(is_success, "{errors}");
         out
     }
 
-    /// What it complained of, once it has failed.
+    /// Waits for a failure and returns stderr.
     fn failure(self) -> String {
         let (is_success, out, errors) = self.ended();
         assert!(!is_success, "{out}");
@@ -71,7 +71,7 @@ impl Example {
     }
 
     fn ended(mut self) -> (bool, String, String) {
-        // Read while it runs: a full pipe would stop it.
+        // Read while the example runs, because a full pipe would block it.
         let mut out = self.0.stdout.take().unwrap();
         let reader = thread::spawn(move || {
             let mut text = String::new();
@@ -93,7 +93,7 @@ impl Example {
 
 impl Drop for Example {
     fn drop(&mut self) {
-        // Ended already is ended too.
+        // This fails if the process has already ended.
         let _ended = self.0.kill().and_then(|()| self.0.wait());
     }
 }
@@ -117,7 +117,7 @@ fn list_objects() {
     }
 }
 
-/// VAR-5: the value is of the type that the description says, whole or an element of it.
+/// VAR-5: the whole value and each element have the type from the description.
 #[test]
 fn read_variable() {
     let serve = Serve::start(&[]);
@@ -129,13 +129,14 @@ fn read_variable() {
         let read = Example::start("read_variable", &serve, &["1", name]).output();
         assert_eq!(read, format!("{name}: {printed}"));
     }
-    // No description by name there: it looks through the kind.
+    // This CNC has no description by name, so the example searches the variables of the kind.
     let older = Serve::start(&["--cnc-version", "V4.20.0"]);
     let read = Example::start("read_variable", &older, &["1", "V.G.NP[1].V[2]"]).output();
     assert_eq!(read, "V.G.NP[1].V[2]: REAL64\n  6\n");
 }
 
-/// STM-3, STM-6: more than the interface holds, so that it has to wait and send again.
+/// STM-3, STM-6: the program does not fit into the interface, so the example must wait and send
+/// packets again.
 #[test]
 fn stream_program() {
     let serve = Serve::start(&["--pace", "200"]);
@@ -149,7 +150,7 @@ fn stream_program() {
     assert!(errors.starts_with("line 1, column 5: $FOR in a stream (STM-8)\n"), "{errors}");
 }
 
-/// SVC-9: 1.732051 for 3, and an answer for a number that has no root.
+/// SVC-9: 1.732051 for 3, and an error for a number without a square root.
 #[test]
 fn square_root_service() {
     let serve = Serve::start(&[]);

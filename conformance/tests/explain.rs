@@ -1,11 +1,11 @@
-//! `ads-cnc explain` as a person calls it: the printed examples of the manuals, whole and cut.
+//! `ads-cnc explain` as users call it: the printed examples of the manuals, complete and truncated.
 
 use std::io::Write as _;
 use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
-/// The examples. The bytes are put down by hand from what the manuals print.
+/// The examples, with bytes written by hand from the manuals.
 mod printed {
     /// Section 4.3.2.
     pub(crate) const DESCRIPTION: &str = "02 00 00 02  01 00 00 00  01 00 00 00  02 00 00 00 \
@@ -17,7 +17,7 @@ mod printed {
         00 00 00 00 00 00 00 00 00 00 00 00";
     /// Section 4.3.4, second example: 0x2001234, 0.
     pub(crate) const HANDLE_READ: &str = "34 12 00 02  00 00 00 00";
-    /// Section 4.3.4, what the second example gives: 123 234 345 456 567.
+    /// Section 4.3.4, the result of the second example: 123 234 345 456 567.
     pub(crate) const VALUES: &str =
         "7b 00 00 00  ea 00 00 00  59 01 00 00  c8 01 00 00  37 02 00 00";
     /// Section 2.2.2, the HLD of channel 1.
@@ -26,7 +26,7 @@ mod printed {
     pub(crate) const REQUEST_FRAME: &str = "00 00 3c 00 00 00 \
         c0 00 02 0a 01 01 28 02 c0 00 02 14 01 01 00 80 09 00 04 00 1c 00 00 00 00 00 00 00 07 00 00 00 \
         01 23 12 00 46 00 00 00 04 00 00 00 0c 00 00 00 56 2e 45 2e 76 61 72 74 65 73 74 00";
-    /// And its answer, 0x2000004.
+    /// The reply to it: 0x2000004.
     pub(crate) const REPLY_FRAME: &str = "00 00 2c 00 00 00 \
         c0 00 02 14 01 01 00 80 c0 00 02 0a 01 01 28 02 09 00 05 00 0c 00 00 00 00 00 00 00 07 00 00 00 \
         00 00 00 00 04 00 00 00 04 00 00 02";
@@ -41,7 +41,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// What is shown, with the exit code behind it.
+/// The output, followed by the exit code.
 fn shown(args: &[&str]) -> String {
     let output = ads_cnc(args);
     let code = output.status.code().unwrap();
@@ -96,7 +96,7 @@ fn printed_examples() {
 }
 
 #[test]
-fn faults_are_marked() {
+fn errors_are_marked() {
     let cut = |text: &str, digits: usize| -> String {
         text.chars().filter(|character| *character != ' ').take(digits).collect()
     };
@@ -123,7 +123,7 @@ fn faults_are_marked() {
     }
 }
 
-/// Each meaning of an address that has several.
+/// Addresses with several meanings.
 #[test]
 fn addresses() {
     let places = [
@@ -148,11 +148,11 @@ fn addresses() {
 }
 
 #[test]
-fn what_is_wrong_usage() {
+fn wrong_usage_is_rejected() {
     for (args, says) in [
         (&["01 0g"][..], "line 1, column 5: 'g' is not a hex digit"),
-        (&["--stream", "variable-handle", "1"], "a byte must have two hex digits"),
-        (&["--stream", "variable-handel", "00"], "no stream is called variable-handel"),
+        (&["--stream", "variable-handle", "1"], "a byte has two hex digits"),
+        (&["--stream", "variable-handel", "00"], "no stream has the name variable-handel"),
         (&["04 00 00 02"], "--group NUMBER --offset NUMBER"),
         (&["04 00 00 02"], "variable-handle"),
         (&[], "no bytes are given"),
@@ -167,14 +167,14 @@ fn what_is_wrong_usage() {
         assert!(said.contains(says), "{args:?}: {said}");
         assert!(output.stdout.is_empty(), "{args:?}");
     }
-    // What nobody knows anything of is neither explained nor faulty.
+    // An unknown address is neither explained nor an error.
     let unknown = ads_cnc(&["--group", "0xf005", "--offset", "0", "00"]);
     assert_eq!(unknown.status.code(), Some(3));
 }
 
-/// The same bytes from an argument, from stdin in hex and as they are, and from a file.
+/// The same bytes from an argument, from stdin in hex and in binary, and from a file.
 #[test]
-fn all_ways_in_are_the_same() {
+fn all_inputs_give_the_same_result() {
     let bytes = [0x34, 0x12, 0, 2, 0, 0, 0, 0];
     let stdin = |args: &[&str], given: &[u8]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
@@ -197,18 +197,18 @@ fn all_ways_in_are_the_same() {
     assert_eq!(stdin(&["--file", "-", "--hex"], b"3412000200000000"), from_hex);
 }
 
-/// An empty file is not everything that may be empty.
+/// An empty file does not match every stream that may be empty.
 #[test]
-fn no_bytes_are_none() {
+fn an_empty_file_is_an_error() {
     let output = ads_cnc(&["--file", if cfg!(windows) { "NUL" } else { "/dev/null" }]);
     let why = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{why}");
     assert!(why.starts_with("ads-cnc: no bytes are given\n"), "{why}");
 }
 
-/// No escape sequence in a pipe, and none from the bytes even where there is colour.
+/// A pipe gets no escape sequences, and the bytes add none even with colour.
 #[test]
-fn colour_is_for_terminals() {
+fn colour_is_only_for_terminals() {
     let args = ["--stream", "element-text", "1b 5b 32 4a 00"];
     assert!(!ads_cnc(&args).stdout.contains(&0x1B));
     let coloured = ads_cnc(&[&args[..], &["--color", "always"]].concat()).stdout;
@@ -218,7 +218,7 @@ fn colour_is_for_terminals() {
 }
 
 #[test]
-fn json_is_the_same_data() {
+fn json_contains_the_same_data() {
     let frames = format!("{} {}", printed::REQUEST_FRAME, printed::REPLY_FRAME);
     let output = ads_cnc(&[&frames, "--json"]);
     assert_eq!(output.status.code(), Some(0));

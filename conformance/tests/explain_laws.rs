@@ -1,4 +1,4 @@
-//! What holds of the explanation of any bytes whatever.
+//! Properties of the explanation of any bytes.
 
 mod kept;
 
@@ -28,10 +28,10 @@ fn schema() -> Validator {
     jsonschema::validator_for(&schema).unwrap()
 }
 
-/// Explains, and holds the explanation to the laws.
+/// Explains bytes and checks the properties of the explanation.
 fn check(question: &ExplainQuery, bytes: &[u8], schema: &Validator) -> Explanation {
     let explanation = explain(question, bytes);
-    // An address alone has no bytes.
+    // An address without data has no bytes.
     let bytes = if matches!(question.subject, ExplainSubject::Address(_)) { &[] } else { bytes };
     check_explanation(&Explanation { length: bytes.len(), ..explanation.clone() }, bytes);
     check_printed(&printed(&explanation));
@@ -56,7 +56,7 @@ fn services() -> impl Strategy<Value = Option<Service>> {
     proptest::option::of(select(vec![Service::Read, Service::Write, Service::ReadWrite]))
 }
 
-/// Where functions are, and anywhere.
+/// Addresses of functions, and any others.
 fn places() -> impl Strategy<Value = ServiceAddress> {
     let examples: Vec<(u32, u32)> = Function::ALL
         .iter()
@@ -94,7 +94,7 @@ fn subjects() -> impl Strategy<Value = ExplainSubject> {
     ]
 }
 
-/// Numbers that streams are made of, and any bytes.
+/// Typical numbers of streams, and any bytes.
 fn bytes() -> impl Strategy<Value = Vec<u8>> {
     let word = prop_oneof![
         4 => (0..12_u32).prop_map(|number| number.to_le_bytes().to_vec()),
@@ -106,7 +106,7 @@ fn bytes() -> impl Strategy<Value = Vec<u8>> {
     proptest::collection::vec(word, 0..24).prop_map(|words| words.concat())
 }
 
-/// One to three frames that are whole, then cut or changed in one place.
+/// One to three complete frames, then truncated or changed at one offset.
 fn frames() -> impl Strategy<Value = Vec<u8>> {
     let command = prop_oneof![4 => select(vec![2_u16, 3, 9]), 1 => any::<u16>()];
     let flags = prop_oneof![4 => 4..6_u16, 1 => any::<u16>()];
@@ -158,7 +158,7 @@ proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
     #[test]
-    fn any_bytes_to_any_question(subject in subjects(), values in values(), bytes in bytes()) {
+    fn any_bytes_with_any_query(subject in subjects(), values in values(), bytes in bytes()) {
         SCHEMA.with(|schema| check(&ExplainQuery { subject, values }, &bytes, schema));
     }
 
@@ -169,9 +169,9 @@ proptest! {
         });
     }
 
-    /// Every stream by its name, with the same bytes.
+    /// Explains the same bytes as every stream.
     #[test]
-    fn every_stream_says_what_its_walk_says(bytes in bytes()) {
+    fn every_explanation_agrees_with_the_walk(bytes in bytes()) {
         for named in Stream::all() {
             let explanation = SCHEMA.with(|schema| check(&stream(named), &bytes, schema));
             let walked = named.walk(&bytes, |_| ());
@@ -183,16 +183,16 @@ proptest! {
     }
 
     #[test]
-    fn any_text_is_hex_or_refused(text in "\\PC*") {
+    fn any_text_is_hex_or_rejected(text in "\\PC*") {
         if let Err(error) = parse_hex(&text) {
             prop_assert!(error.line >= 1 && error.column >= 1);
         }
     }
 }
 
-/// Each golden vector of a stream is explained, or shown as faulty, as it says.
+/// Each golden vector of a stream is explained or shown with an error, as the vector expects.
 #[test]
-fn vectors_are_explained_as_they_say() {
+fn explanations_agree_with_the_vectors() {
     let schema = schema();
     let (mut seen, mut refused, mut same) = (0, 0, 0);
     for vector in vectors() {
@@ -212,7 +212,7 @@ fn vectors_are_explained_as_they_say() {
         match (&vector.expect, fault) {
             (Expect::Accept(_), None) => {}
             (Expect::Reject(reject), Some(fault)) => {
-                // Class and place are advice in vectors; they are mostly the codec's all the same.
+                // Class and offset in vectors are only advice, but most are those of the codec.
                 refused += 1;
                 same += usize::from((fault.class, fault.offset) == (&reject.class, reject.offset));
             }
@@ -223,9 +223,9 @@ fn vectors_are_explained_as_they_say() {
     assert!(seen > 100 && same * 10 > refused * 8, "{seen} {refused} {same}");
 }
 
-/// An answer whose request is not there is of nobody knows what: its data are shown all the same.
+/// The data of a reply without its request is shown, although its stream is unknown.
 #[test]
-fn what_an_unasked_answer_brings_is_shown() {
+fn the_data_of_a_reply_without_request_is_shown() {
     let mut frame = vec![0, 0, 44, 0, 0, 0];
     frame.extend([192, 0, 2, 20, 1, 1, 0, 0x80, 192, 0, 2, 10, 1, 1, 0x28, 2]);
     frame.extend([2, 0, 5, 0, 12, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0]);

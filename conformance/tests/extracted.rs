@@ -1,5 +1,5 @@
-//! Vectors made of captured traffic are as the schema of the golden vectors has them, which is in the
-//! folder beside this package.
+//! Vectors extracted from captured traffic match the schema of the golden vectors, which is in the
+//! folder next to this package.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,14 @@ use serde_json::Value;
 const SCHEMA: &str =
     concat!(env!("CARGO_MANIFEST_DIR"), "/../spec-vectors/schema/vectors.schema.json");
 
-/// What is said, and the least kinds of streams in it.
+/// Calls whose traffic is captured, and the minimum number of streams in it.
 const CALLS: [(&[&str], usize); 3] = [
     (&["browse", "--content"], 10),
     (&["browse", "--variables"], 9),
     (&["set", "V.E.Testvar[1]", "7"], 3),
 ];
 
-/// A folder of this process, gone when it is dropped.
+/// A folder of this process that is removed when dropped.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
@@ -31,7 +31,7 @@ fn ads_cnc(folder: &Path, args: &[&str]) -> Output {
 }
 
 #[test]
-fn extracted_vectors_are_as_the_schema_has_them() {
+fn extracted_vectors_match_the_schema() {
     let folder =
         Folder(std::env::temp_dir().join(format!("ads-cnc-extracted-{}", std::process::id())));
     fs::create_dir_all(&folder.0).unwrap();

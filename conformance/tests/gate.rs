@@ -1,4 +1,4 @@
-//! Nothing passes the gate that is not allowed, whatever the bytes are.
+//! The gate permits only allowed frames, for any bytes.
 
 mod common;
 mod kept;
@@ -11,7 +11,7 @@ use proptest::sample::select;
 
 const NET_ID: [u8; 6] = [192, 0, 2, 7, 1, 1];
 
-/// A file that allows one of each.
+/// A file with one entry of each kind.
 const FILE: &str = r#"
 target = "192.0.2.7.1.1"
 expires = 2026-05-04T17:30:00Z
@@ -47,7 +47,7 @@ fn frame(net_id: [u8; 6], port: u16, command: u16, flags: u16, payload: &[u8]) -
     frame
 }
 
-/// Frames that are near to what passes: addresses of functions and what is beside them.
+/// Frames similar to permitted ones: addresses of functions and neighbouring ones.
 fn near() -> impl Strategy<Value = Vec<u8>> {
     let net_id = select(vec![NET_ID, [127, 0, 0, 1, 1, 1]]);
     let port = prop_oneof![9 => 551..554_u16, 1 => any::<u16>()];
@@ -73,7 +73,7 @@ fn near() -> impl Strategy<Value = Vec<u8>> {
         ]).prop_map(<[u8]>::to_vec),
         1 => vec(any::<u8>(), 0..40),
     ];
-    // Lengths lie now and then.
+    // Lengths are sometimes wrong.
     let lie = prop_oneof![9 => Just(0_u32), 1 => any::<u32>()];
     (net_id, port, command, flags, group, offset, data, lie).prop_map(
         |(net_id, port, command, flags, group, offset, data, lie)| {
@@ -94,7 +94,7 @@ fn near() -> impl Strategy<Value = Vec<u8>> {
     )
 }
 
-/// Writes that the file above allows, and queries.
+/// Writes that [`FILE`] allows, and queries.
 fn good() -> Vec<Vec<u8>> {
     let service = |port, command, group: u32, offset: u32, data: &[u8]| {
         let len = u32::try_from(data.len()).unwrap().to_le_bytes();
@@ -116,7 +116,7 @@ fn good() -> Vec<Vec<u8>> {
     ]
 }
 
-/// A good frame, with up to two bytes changed.
+/// A permitted frame with up to two changed bytes.
 fn damaged() -> impl Strategy<Value = Vec<u8>> {
     let change = (any::<prop::sample::Index>(), 0..8_u32);
     (select(good()), vec(change, 0..3)).prop_map(|(mut frame, changes)| {
@@ -132,13 +132,13 @@ fn frames() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![near(), damaged()]
 }
 
-/// Whether the lengths say that this is one frame, and no more of them.
+/// Whether the bytes are exactly one frame according to the lengths.
 fn is_whole(frame: &[u8]) -> bool {
     let (after_tcp, after_ams) = (number(frame, 2) as usize, number(frame, 26) as usize);
     frame[..2] == [0, 0] && after_tcp + 6 == frame.len() && after_ams + 38 == frame.len()
 }
 
-/// Whether the file above allows the write that this frame is.
+/// Whether the frame is a write that [`FILE`] allows.
 fn is_allowed(frame: &[u8]) -> bool {
     if !is_whole(frame) || frame[6..12] != NET_ID || frame[22..26] != [3, 0, 4, 0] {
         return false;
@@ -167,18 +167,18 @@ proptest! {
     #![proptest_config(kept::cases(10_000, file!()))]
 
     #[test]
-    fn only_what_is_harmless_passes_by_default(frame in frames()) {
+    fn only_harmless_frames_pass_by_default(frame in frames()) {
         prop_assert!(gate::check(&frame).is_err() || is_harmless(&frame), "{frame:02x?}");
     }
 
     #[test]
-    fn a_file_adds_what_it_names_and_no_more(frame in frames()) {
+    fn a_file_adds_only_its_entries(frame in frames()) {
         let gate = Gate::queries().with_allowed(Some(Allowed::from_toml(FILE).unwrap()));
         let passes = gate.check(&frame, moment("2026-05-04T17:29:59Z")).is_ok();
         prop_assert!(!passes || is_harmless(&frame) || is_allowed(&frame), "{frame:02x?}");
         let late = gate.check(&frame, moment("2026-05-04T17:30:00Z")).is_ok();
         prop_assert!(!late || is_harmless(&frame), "{frame:02x?}");
-        // What passes by default passes with a file.
+        // Frames that pass by default also pass with a file.
         prop_assert!(passes || gate::check(&frame).is_err());
     }
 
@@ -188,16 +188,16 @@ proptest! {
     }
 
     #[test]
-    fn what_passes_is_one_frame_to_the_last_byte(frame in frames(), extra in any::<u8>()) {
+    fn only_exactly_one_frame_passes(frame in frames(), extra in any::<u8>()) {
         if gate::check(&frame).is_ok() {
             prop_assert!(gate::check(&frame[..frame.len() - 1]).is_err());
             prop_assert!(gate::check(&[&frame[..], &[extra]].concat()).is_err());
         }
     }
 
-    /// Where a file permits malformed requests, these are still not sent.
+    /// A file that permits malformed requests does not allow these frames.
     #[test]
-    fn an_opt_in_has_its_limits(frame in frames()) {
+    fn permitted_malformed_requests_have_limits(frame in frames()) {
         let (head, _) = FILE.split_once("[[").unwrap();
         let allowed = Allowed::from_toml(&format!("{head}malformed = true")).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed)).and_malformed();
@@ -205,15 +205,15 @@ proptest! {
             let command = u16::from_le_bytes([frame[22], frame[23]]);
             prop_assert!(!(5..9).contains(&command), "{frame:02x?}");
             prop_assert!(is_harmless(&frame) || frame[6..12] == NET_ID, "{frame:02x?}");
-            // What is documented to write is not sent, at the port it is for.
+            // A documented write at its port is still rejected.
             prop_assert!(!is_allowed(&frame), "{frame:02x?}");
         }
     }
 }
 
-/// The strategy reaches what it is for: some of everything passes, and is refused.
+/// The strategy generates frames of every kind that pass, and frames that are rejected.
 #[test]
-fn the_frames_are_near_enough() {
+fn the_strategy_covers_both_results() {
     use proptest::strategy::ValueTree as _;
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let gate = Gate::queries().with_allowed(Some(Allowed::from_toml(FILE).unwrap()));

@@ -1,5 +1,5 @@
-//! Which of the tasks SDA and GEO has a class no manual says: what one of them does not have, the
-//! tools find at the other.
+//! The manuals do not state whether SDA or GEO has a class: if one task does not have it, the tools
+//! query the other.
 
 mod common;
 
@@ -13,12 +13,12 @@ use ads_cnc::operation::Call;
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use common::fake::{Reaction, reacting};
 
-/// Who has the position controller.
+/// The task that has the position controller.
 #[derive(Clone, Copy, Debug)]
 enum Only {
-    /// GEO; SDA refuses.
+    /// GEO; SDA rejects it.
     Geo,
-    /// Nobody; there is no GEO at all.
+    /// No task; the port of GEO does not exist.
     Nobody,
 }
 
@@ -48,7 +48,7 @@ fn cnc(only: Only) -> SocketAddr {
     })
 }
 
-/// The answer to a request.
+/// The reply to a request.
 fn to(asked: AmsHeader, error: AdsError, data: &[u8]) -> Vec<u8> {
     let header = AmsHeader { error, ..asked.response() };
     FrameRef::new(header, data).unwrap().encode_to_vec().unwrap()
@@ -67,7 +67,7 @@ fn text(bytes: &[u8]) -> String {
 }
 
 #[test]
-fn what_sda_has_not_is_found_at_geo() {
+fn classes_missing_at_sda_are_found_at_geo() {
     let addr = cnc(Only::Geo);
     let found = call(addr, &["browse", "--content"]);
     assert_eq!(text(&found.stdout), text(&ads_cnc(&["browse", "--content"]).stdout));
@@ -80,7 +80,7 @@ fn what_sda_has_not_is_found_at_geo() {
     let object = &value["objects"][0];
     assert_eq!((&object["port"], &object["value"]), (&551.into(), &33.5.into()));
 
-    // No entry is about GEO.
+    // No entry allows writes to GEO.
     let set = call(addr, &[&["set"], &place[..], &["1"]].concat());
     let why = text(&set.stderr);
     assert_eq!(set.status.code(), Some(4), "{why}");
@@ -88,7 +88,7 @@ fn what_sda_has_not_is_found_at_geo() {
 }
 
 #[test]
-fn a_cnc_need_not_have_geo() {
+fn geo_is_optional() {
     let found = call(cnc(Only::Nobody), &["browse", "--of", "*controller*"]);
     assert_eq!(found.status.code(), Some(3));
     let said = text(&found.stderr);

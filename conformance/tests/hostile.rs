@@ -1,5 +1,5 @@
-//! What peers that mean harm can make the tools keep and do: the built command against servers,
-//! testees, clients and captures that have no end of anything.
+//! Limits of memory and time with hostile peers: runs the built command against servers, testees,
+//! clients and captures that send without end.
 
 mod common;
 
@@ -21,10 +21,10 @@ use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use common::connect;
 use common::file::TestFile;
 
-/// The most memory that a tool may ever have had.
+/// Maximum peak memory of a tool in bytes.
 const MEMORY_MAX: u64 = 100 << 20;
 
-/// What came of a tool.
+/// The result of a tool.
 struct Ended {
     code: Option<i32>,
     stdout: String,
@@ -32,13 +32,13 @@ struct Ended {
     time: Duration,
 }
 
-/// Runs the command to its end; it may not take more memory than `MEMORY_MAX` at any time.
+/// Runs the command to its end and checks that it never uses more than `MEMORY_MAX`.
 #[track_caller]
 fn run(args: &[&str]) -> Ended {
     run_beside(args, || ()).0
 }
 
-/// The same while something else is done.
+/// Like [`run`], with something else running at the same time.
 #[track_caller]
 fn run_beside<T>(args: &[&str], beside: impl FnOnce() -> T) -> (Ended, T) {
     let (out, err) = (TestFile::new(".out", b""), TestFile::new(".err", b""));
@@ -53,7 +53,7 @@ fn run_beside<T>(args: &[&str], beside: impl FnOnce() -> T) -> (Ended, T) {
     let id = child.id();
     let watch = thread::spawn(move || {
         let mut most = 0;
-        // Zombies have no such line.
+        // A zombie process has no such line.
         while let Some(now) = peak(id) {
             most = now.max(most);
             thread::sleep(Duration::from_millis(2));
@@ -79,7 +79,7 @@ fn run_beside<T>(args: &[&str], beside: impl FnOnce() -> T) -> (Ended, T) {
     (Ended { code: status.code(), stdout: read(&out), stderr: read(&err), time }, done)
 }
 
-/// The most memory that a process has had.
+/// The peak memory of a process.
 #[cfg(target_os = "linux")]
 fn peak(id: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{id}/status")).ok()?;
@@ -87,13 +87,13 @@ fn peak(id: u32) -> Option<u64> {
     Some(line.trim().strip_suffix(" kB")?.trim().parse::<u64>().unwrap() << 10)
 }
 
-/// Elsewhere the tools have to end, and to say what they have to.
+/// On other systems, only the end and the output of the tools are checked.
 #[cfg(not(target_os = "linux"))]
 fn peak(_: u32) -> Option<u64> {
     None
 }
 
-/// A server that does this for each request.
+/// A server that calls `react` for each request.
 fn serving(
     react: impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()> + Send + Sync + 'static,
 ) -> SocketAddr {
@@ -103,7 +103,7 @@ fn serving(
     thread::spawn(move || {
         for stream in listener.incoming() {
             let react = Arc::clone(&react);
-            // The tool may be gone at any time.
+            // The tool may disconnect at any time.
             thread::spawn(move || serve(stream.unwrap(), &*react));
         }
     });
@@ -128,21 +128,21 @@ fn serve(
     }
 }
 
-/// The simulated CNC's answer.
+/// The reply of the simulated CNC.
 fn right(cnc: &Cnc, frame: &FrameRef<'_>) -> Vec<u8> {
     let mut answer = Vec::new();
     cnc.respond(NET_ID, frame, &mut answer);
     answer
 }
 
-/// A frame to the client of this one, with another invoke ID.
+/// A frame to the client of this frame, with another invoke ID.
 fn stray(frame: &FrameRef<'_>) -> Vec<u8> {
     let header = frame.header();
     let header = AmsHeader { invoke_id: header.invoke_id ^ 0x8000_0000, ..header.response() };
     FrameRef::new(header, &[0; 8]).unwrap().encode_to_vec().unwrap()
 }
 
-/// A success with data, as the service of the request has it.
+/// A successful reply with data, for the service of the request.
 fn success(frame: &FrameRef<'_>, data: &[u8]) -> Vec<u8> {
     let mut payload = vec![0; 4];
     if frame.header().command != AdsCommand::WRITE {
@@ -162,7 +162,7 @@ fn against<'a>(addr: &'a str, args: &[&'a str]) -> Vec<&'a str> {
 }
 
 #[test]
-fn frames_without_end_that_nobody_asked_for() {
+fn unsolicited_frames_without_end() {
     let addr = serving(|frame, out| {
         let strays = stray(frame).repeat(1000);
         loop {
@@ -182,7 +182,7 @@ fn frames_without_end_that_nobody_asked_for() {
 }
 
 #[test]
-fn frames_before_every_answer_of_a_run() {
+fn unsolicited_frames_before_every_reply_of_a_run() {
     let cnc = Cnc::with_default_model().unwrap();
     let addr = serving(move |frame, out| {
         out.write_all(&stray(frame).repeat(300))?;
@@ -195,7 +195,7 @@ fn frames_before_every_answer_of_a_run() {
 }
 
 #[test]
-fn answers_of_a_megabyte_with_wrong_flags_and_addresses() {
+fn replies_of_a_megabyte_with_wrong_flags_and_addresses() {
     let data = vec![0x41; 1 << 20];
     let addr = serving(move |frame, out| {
         let right = frame.header().response();
@@ -219,7 +219,7 @@ fn answers_of_a_megabyte_with_wrong_flags_and_addresses() {
     assert!(report.contains("the first 4096 are kept"), "nothing says that evidence is cut");
 }
 
-/// Everything is there, as often as it is asked for.
+/// A device on which every requested item exists.
 fn everything() -> SocketAddr {
     const DESCRIPTION: &[u8] = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
     serving(|frame, out| {
@@ -249,7 +249,7 @@ fn everything() -> SocketAddr {
 }
 
 #[test]
-fn a_device_where_everything_is_there() {
+fn a_device_on_which_everything_exists() {
     let addr = everything().to_string();
     for tool in [&["browse"][..], &["browse", "--variables"], &["browse", "--format", "json"]] {
         let ended = run(&against(&addr, tool));
@@ -262,7 +262,7 @@ fn a_device_where_everything_is_there() {
         assert!(ended.stderr.contains(&why), "{tool:?}: {}", ended.stderr);
         assert!(ended.stdout.lines().count() > least, "{tool:?}");
     }
-    // No name fits, so that nothing is found, and all is asked.
+    // No name matches, so that the tool requests everything.
     let ended =
         run(&against(&addr, &["browse", "--variables", "--filter", "no", "--deadline", "3"]));
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
@@ -274,8 +274,7 @@ fn a_device_where_everything_is_there() {
     assert!(matches!(ended.code, Some(1 | 3)), "{}", ended.stderr);
 }
 
-/// A device that takes its time makes nobody wait beyond the deadline, and the cases that were not
-/// run because of it say so.
+/// With a slow device, a run ends at the deadline, and the notes of the remaining cases state this.
 #[test]
 fn a_deadline_ends_a_run() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -293,9 +292,9 @@ fn a_deadline_ends_a_run() {
     assert!(report.matches("the deadline of 2 s has passed").count() > 50);
 }
 
-/// What has been begun to be changed is restored after the deadline, and no other value is changed.
+/// A changed value is restored after the deadline, and no other value is changed.
 #[test]
-fn a_deadline_ends_what_writes() {
+fn a_deadline_ends_writes() {
     let cnc = Cnc::with_default_model().unwrap();
     let addr = serving(move |frame, out| {
         thread::sleep(Duration::from_millis(100));
@@ -319,7 +318,7 @@ fn a_deadline_ends_what_writes() {
         assert_eq!(value(Some(&addr)), value(None));
     }
 
-    // An object is looked for by name in lists that have no end.
+    // The search for an object by its name reads lists without end.
     let allow = TestFile::allowing("[[object]]\nchannel = 1\nname = \"no_such_object\"\n");
     let addr = everything().to_string();
     let set = ["set", "no_such_object", "1", "--allow-write", allow.path(), "--deadline", "2"];
@@ -328,7 +327,7 @@ fn a_deadline_ends_what_writes() {
     assert!(ended.stderr.contains("the deadline of 2 s has passed"), "{}", ended.stderr);
 }
 
-/// A testee that takes half a second for each answer, and a client that never ends.
+/// A testee that needs half a second for each answer, and a client that never ends.
 #[cfg(unix)]
 #[test]
 fn a_deadline_ends_a_testee_and_a_client() {
@@ -351,17 +350,17 @@ fn a_deadline_ends_a_testee_and_a_client() {
     }
 }
 
-/// A testee with long words, and one with longer ones still.
+/// Testees with long answers.
 #[cfg(unix)]
 #[test]
-fn a_testee_that_says_much() {
+fn a_testee_with_long_answers() {
     const HELLO: &str = r#"{"protocol":1,"testee":{"name":"much"},"capabilities":{"ops":["decode","encode"],"streams":["variable-description","variable-value","variable-name-write"],"editions":["en-1.05"]}}"#;
     for (bytes, of, answer) in [
         (250_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
         (120_000, "a", r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
         (250_000, "a", r#"{"seq":%s,"ok":{"value":"%s"}}"#),
         (300_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
-        // The most memory for a byte of JSON.
+        // The JSON that needs the most memory per byte.
         (4000, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
         (500, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
     ] {
@@ -400,7 +399,7 @@ fn try_connect(addr: SocketAddr) -> Option<TcpStream> {
     TcpStream::connect(addr).ok()
 }
 
-/// A client that sends much, over more connections than are served.
+/// A client that sends without end, over more connections than allowed.
 #[test]
 fn a_client_without_end() {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
@@ -422,7 +421,7 @@ fn a_client_without_end() {
     };
     let args = ["run", "--client-listen", &listen, "--seed", "1"];
     let (ended, ()) = run_beside(&args, || {
-        // It takes a moment to listen.
+        // The tool needs some time before it listens.
         let first = (0..200).find_map(|_| {
             thread::sleep(Duration::from_millis(50));
             try_connect(addr)
@@ -447,13 +446,13 @@ fn a_client_without_end() {
 }
 
 #[test]
-fn a_client_is_waited_for_on_loopback_only() {
+fn clients_are_awaited_on_loopback_only() {
     let ended = run(&["run", "--client-listen", "0.0.0.0:0"]);
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
     assert!(ended.stderr.contains("--allow-remote"), "{}", ended.stderr);
 }
 
-/// A capture of requests on one connection; each is answered as is said.
+/// A capture of requests on one connection, with the given replies.
 fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -> TestFile {
     let file = TestFile::new(".pcapng", b"");
     let mut capture = Capture::create(&file.0).unwrap();
@@ -473,9 +472,9 @@ fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -
     file
 }
 
-/// Long and short requests that nobody answers, on one connection or on many that stay open.
+/// Long and short requests without replies, on one connection or on many open ones.
 #[test]
-fn requests_without_answers_are_forgotten() {
+fn requests_without_replies_are_dropped() {
     for (connections, requests, bytes) in
         [(1, 1800_u32, 60_000_u32), (200, 1800, 60_000), (1800, 1800, 60_000), (80, 320_000, 4)]
     {
@@ -496,12 +495,13 @@ fn requests_without_answers_are_forgotten() {
         }
         capture.finish().unwrap();
         let ended = run(&["check", file.path()]);
-        let told = "of these forgotten: more than 4096 on a connection, or 16 MiB, waited";
+        let told =
+            "of these dropped: more than 4096 on a connection, or 16 MiB, waited for replies";
         assert!(ended.stdout.contains(told), "{connections}: {}", ended.stdout);
     }
 }
 
-/// Twice as many requests take no more than about twice the time, however they are answered.
+/// Twice the number of requests takes at most about twice the time, with any replies.
 #[test]
 fn captures_are_checked_in_linear_time() {
     type Answer = fn(u32, &AmsHeader) -> Option<AmsHeader>;
@@ -528,7 +528,7 @@ fn captures_are_checked_in_linear_time() {
         if usual.is_zero() {
             usual = ended.time;
         }
-        // With a scan of what waits it was thirty times as long and more.
+        // With a linear search of the waiting requests, this took more than thirty times as long.
         assert!(ended.time < usual * 6 + Duration::from_secs(2), "{what}: {:?}", ended.time);
     }
 }

@@ -1,5 +1,5 @@
-//! A run that writes and is interrupted, or whose restoring writes are lost or rejected: what it has
-//! changed is as it was, or it says what is not.
+//! Runs that write and are interrupted, or whose restoring writes are lost or rejected: every changed
+//! value is restored, or reported as left changed.
 
 #![cfg(unix)]
 
@@ -24,10 +24,10 @@ use common::proxy::{Deed, is_write, proxy};
 use common::signal;
 use serde_json::Value;
 
-/// Variables of the default model that may be written.
+/// Writable variables of the default model.
 const NAMES: [&str; 4] = ["V.E.test", "V.E.vartest", "V.E.Testvar", "V.E.Variable_1"];
 
-/// Cases that write them.
+/// Cases that write these variables.
 const CASES: [&str; 4] =
     ["write-by-name", "write-by-handle", "write-elements-by-name", "write-elements-by-handle"];
 
@@ -39,7 +39,7 @@ struct Bench {
     server: Server,
     allow: TestFile,
     json: TestFile,
-    /// In milliseconds.
+    /// The timeout in milliseconds.
     timeout: u32,
 }
 
@@ -69,7 +69,7 @@ impl Bench {
         tool
     }
 
-    /// A connection that no proxy is in between.
+    /// A connection without a proxy.
     fn session(&self) -> Session {
         Session::connect(Target::local(self.server.addr(), NET_ID), Gate::queries()).unwrap()
     }
@@ -96,21 +96,21 @@ fn verdicts(report: &Value) -> Vec<&str> {
     cases.iter().map(|case| case["verdict"].as_str().unwrap()).collect()
 }
 
-/// Runs it with a signal at the nth write: as the proxy has it, or as the CNC has answered it.
+/// Runs the tool with a signal at the nth write, before the CNC receives it or after the CNC replied.
 fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) -> Output {
     let process = Arc::new(AtomicU32::new(0));
     let (to, mut writes) = (Arc::clone(&process), 0);
     let addr = proxy(bench.server.addr(), move |frame| {
         let was = writes;
         writes += usize::from(is_write(frame));
-        // Even ones before the CNC has the write, odd ones at the request that follows it.
+        // Even: before the CNC receives the write; odd: at the next request.
         let is_due = match nth.is_multiple_of(2) {
             true => was < nth && writes == nth,
             false => was == nth,
         };
         if is_due && let id @ 1.. = to.swap(0, Ordering::SeqCst) {
             signal(name, id);
-            // It has seen it before the next answer comes.
+            // Let the tool handle the signal before the next reply arrives.
             thread::sleep(Duration::from_millis(50));
         }
         Deed::Pass
@@ -120,7 +120,7 @@ fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) ->
     tool.wait_with_output().unwrap()
 }
 
-/// Whenever the signal comes, the CNC has its old values, and the reports are there.
+/// After a signal at any time, the CNC has its old values, and the reports exist.
 #[test]
 fn a_signal_at_any_write_leaves_nothing_changed() {
     let each = |name: &'static str, writes: &mut dyn Iterator<Item = usize>| {
@@ -149,8 +149,8 @@ fn a_signal_at_any_write_leaves_nothing_changed() {
     });
 }
 
-/// The four ways to a value, and the cases that write it alone: the third write is the one that
-/// restores.
+/// The four ways to write a value, each with a case that only writes it; its third write restores the
+/// value.
 fn ways() -> [(&'static str, String, &'static str); 4] {
     let name = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n".to_owned();
     let object = "[[object]]\nchannel = 1\nname = \"mc_command_single_block_w\"\n".to_owned();
@@ -163,10 +163,10 @@ fn ways() -> [(&'static str, String, &'static str); 4] {
     ]
 }
 
-/// What the CNC has at the end is what each write that it took says; the first is of what was there.
+/// The writes and their handling. The first write contains the original value.
 type Writes = Arc<Mutex<Vec<(Vec<u8>, Deed)>>>;
 
-/// A CNC that takes two writes, and of which these deeds become of those that follow.
+/// A CNC that accepts two writes; `deed` determines the handling of the following writes.
 fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (SocketAddr, Writes) {
     let writes = Writes::default();
     let keep = Arc::clone(&writes);
@@ -182,7 +182,7 @@ fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (Soc
     (addr, writes)
 }
 
-/// A restoring write that is lost or rejected once is done again.
+/// A restoring write that is lost or rejected once is repeated.
 #[test]
 fn a_lost_or_rejected_restore_is_repeated() {
     for (what, table, case) in ways() {
@@ -192,24 +192,24 @@ fn a_lost_or_rejected_restore_is_repeated() {
                 hostile(&bench, move |number| if number == 0 { deed } else { Deed::Pass });
             let output = bench.tool(addr, &[case]).output().unwrap();
             let said = text(&output.stderr);
-            // A device that does so fails, and yet nothing is left changed.
+            // The device fails, but no value is left changed.
             assert_eq!(output.status.code(), Some(1), "{what} {case} {deed:?}: {said}");
             assert!(!said.contains("LEFT CHANGED"), "{what} {case} {deed:?}: {said}");
             let writes = writes.lock().unwrap();
             let restored = writes.iter().rev().find(|(_, deed)| *deed != Deed::Lose).unwrap();
             assert_ne!(writes[1].0, writes[0].0, "nothing was changed");
             assert_eq!(restored.0, writes[0].0, "{what} {case} {deed:?}: {said}");
-            // What was done though its answer was lost is not done again.
+            // A write whose reply was lost is not repeated if it was executed.
             let expected = if deed == Deed::LoseAnswer { 3 } else { 4 };
             assert_eq!(writes.len(), expected, "{what} {case} {deed:?}");
         }
     }
 }
 
-/// A device that says it restores a value, does not, and loses the answer to one of the reads that
-/// follow: that read shows nothing.
+/// A device confirms a restoring write without executing it, and the reply to one of the following
+/// reads is lost: the lost read proves nothing.
 #[test]
-fn a_lost_read_does_not_pass_for_a_value_that_moves() {
+fn a_lost_read_is_not_taken_for_a_changing_value() {
     thread::scope(|scope| {
         for (what, table, case) in ways() {
             for lost in 0..8 {
@@ -238,9 +238,10 @@ fn lost_read(bench: &Bench, lost: usize, (what, case): (&str, &str)) {
     assert!(last.starts_with(&format!("LEFT CHANGED: {what}")), "{case} {lost}: {said}");
 }
 
-/// One that is never done is given up after a bounded number of tries, and said at every place.
+/// A restoring write that always fails is tried a limited number of times, and every report names the
+/// value.
 #[test]
-fn what_cannot_be_restored_is_said_everywhere() {
+fn every_report_names_a_value_left_changed() {
     for (what, table, case) in ways() {
         let bench = Bench::start(&table);
         let (addr, writes) = hostile(&bench, |_| Deed::Reject);
@@ -255,7 +256,7 @@ fn what_cannot_be_restored_is_said_everywhere() {
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!(output.status.code(), Some(6), "{what} {case}: {said}");
         let writes = writes.lock().unwrap();
-        // The one of the case, and two times five.
+        // One attempt of the case, and two times five.
         assert_eq!(writes.len(), 2 + 1 + 5 + 5, "{what} {case}");
 
         let line = said.lines().last().unwrap();
@@ -277,42 +278,42 @@ fn what_cannot_be_restored_is_said_everywhere() {
         assert!(first.starts_with("name=\"left-changed\"") && first.contains(line), "{first}");
         let badge: Value = serde_json::from_str(&of(3)).unwrap();
         let badge = badge["message"].as_str().unwrap();
-        // 40 characters of each value.
+        // A badge contains 40 characters of each value.
         let front =
             |text: &str| text.get(..40).map_or(text.to_owned(), |front| format!("{front}…"));
         let named = format!("left changed: {what}");
         assert!(badge.starts_with(&named) && badge.contains(&front(was)), "{badge}");
-        // The forms that are made later are the same.
+        // The formats that are converted later are the same.
         let again = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["report", &json]).output();
         assert!(text(&again.unwrap().stdout).lines().any(|shown| shown == line));
     }
 }
 
-/// What was there before the value that is left changed.
+/// The original value of the value that is left changed.
 fn old_value(report: &Value) -> Vec<u8> {
     let was = report["left_changed"][0]["was"].as_str().unwrap();
     was.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect()
 }
 
-/// Nothing more is written when something could not be restored.
+/// After a value could not be restored, nothing else is written.
 #[test]
-fn no_other_value_is_changed_then() {
+fn no_other_value_is_changed_after_a_failed_restore() {
     let bench = Bench::of_variables(&NAMES);
     let (addr, writes) = hostile(&bench, |_| Deed::Reject);
     let output = bench.tool(addr, &CASES).output().unwrap();
     assert_eq!(output.status.code(), Some(6));
     let writes = writes.lock().unwrap();
     let report = bench.report();
-    // By its handle at first, and then by its name.
+    // The run writes by handle first, and then by name.
     assert!(writes[2..].iter().all(|(data, _)| data.ends_with(&old_value(&report))));
     let notes = report["cases"].as_array().unwrap().iter().filter_map(|case| case["note"].as_str());
     let note = "no more writes are sent after a value could not be restored";
     assert_eq!(notes.filter(|one| one.contains(note)).count(), CASES.len() - 1, "{report}");
 }
 
-/// A device that is gone in the middle is not waited for without end.
+/// The wait for a device that disappears during a run is limited.
 #[test]
-fn a_device_that_is_gone_is_said() {
+fn a_lost_device_is_reported() {
     for deed in [Deed::Close, Deed::Lose] {
         let bench = Bench::of_variables(&["V.E.vartest"]);
         let mut writes = 0;
@@ -331,10 +332,10 @@ fn a_device_that_is_gone_is_said() {
     }
 }
 
-/// A signal while restoring writes are rejected or lost: it goes on to restore, and says what it
-/// could not. The one that is lost fails.
+/// After a signal while restoring writes are rejected or lost, the run continues to restore values and
+/// reports those left changed. A lost write fails.
 #[test]
-fn a_signal_does_not_end_the_restoring() {
+fn a_signal_does_not_end_the_restoration() {
     for (deed, code) in [(Deed::Pass, 1), (Deed::Reject, 6)] {
         let bench = Bench::of_variables(&["V.E.vartest"]);
         let before = bench.values(&["V.E.vartest"]);
@@ -358,7 +359,7 @@ fn a_signal_does_not_end_the_restoring() {
     }
 }
 
-/// A second signal ends it at once, and says what is left changed.
+/// A second signal ends the run at once, with the values left changed.
 #[test]
 fn a_second_signal_ends_at_once() {
     let bench = Bench { timeout: 20_000, ..Bench::of_variables(&["V.E.vartest"]) };
@@ -381,11 +382,11 @@ fn a_second_signal_ends_at_once() {
     assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{said}");
 }
 
-/// Elements and objects are restored as well, at any write.
+/// Elements and objects are restored after a signal at any write, too.
 #[test]
-fn a_signal_leaves_objects_and_elements_as_they_were() {
+fn objects_and_elements_are_restored_after_a_signal() {
     for (name, table, case) in ways().into_iter().skip(2) {
-        // Of three writes each: of what is there, of another value, and of what was there.
+        // Each case has three writes: the current value, another value, and the original value.
         for nth in 1..=3 {
             let bench = Bench::start(&table);
             let value = || {

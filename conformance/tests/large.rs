@@ -1,4 +1,4 @@
-//! CNCs with more objects and variables than a person would write into a model.
+//! CNCs with very many objects and variables.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -52,21 +52,21 @@ fn requests(cnc: Cnc, sample: Sample, only: &[&str]) -> usize {
     target.frames - before
 }
 
-/// The index after the last is that after all variables, not after those that are read.
+/// The index after the last item is that after all variables, not after the sample.
 #[test]
-fn more_variables_than_are_read() {
+fn a_sample_keeps_the_index_after_the_last() {
     let cnc = || with_variables(10_100);
     requests(cnc(), Sample::BySeed(1), &["var-extended-beyond-last"]);
     requests(cnc(), Sample::All, &["var-extended-beyond-last"]);
-    // With more names than are read no case knows a name that nobody has.
+    // Without all names, no case can know that a name does not exist.
     let (mut target, _) = connected(cnc(), Sample::BySeed(1));
     for outcome in outcomes(&mut target, &["var-descriptions", "var-similar-name"]) {
         assert_eq!(outcome.verdict(), Verdict::Pass, "{outcome:?}");
     }
 }
 
-/// A sample has the first and the last of a list, and is reported; with `Sample::All` everything is
-/// read.
+/// A sample contains the first and the last item of a list, and is reported; `Sample::All` reads
+/// everything.
 #[test]
 fn a_long_list_is_sampled() {
     let (_, Discovery { found, .. }) = connected(with_variables(1000), Sample::BySeed(1));
@@ -83,12 +83,12 @@ fn a_long_list_is_sampled() {
 
     let asked = |sample| requests(with_variables(1000), sample, &["var-extended-descriptions"]);
     assert_eq!(asked(Sample::All) - asked(Sample::BySeed(1)), 1123 - 256);
-    // Names are unique among all variables, whatever is sampled.
+    // The check for unique names needs all variables, even in a sample.
     let described = requests(with_variables(1000), Sample::BySeed(1), &["var-descriptions"]);
     assert!(described > 1123, "{described}");
 }
 
-/// What is said before the cases is what they send, within a quarter.
+/// The forecast before the cases differs by at most a quarter from the number of requests.
 #[test]
 fn the_forecast_is_about_right() {
     for more in [0, 3000] {

@@ -1,4 +1,4 @@
-//! A run of a testee or a client that is interrupted leaves no process behind.
+//! An interrupted run leaves no process of a testee or a client behind.
 
 #![cfg(unix)]
 
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use common::file::TestFile;
 use common::signal;
 
-/// How long anything may take.
+/// Maximum time of any wait.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
 fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
@@ -22,14 +22,14 @@ fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
     }
 }
 
-/// Whether a process runs; one that has ended and that nobody has waited for does not.
+/// Whether a process runs; a zombie does not.
 fn runs(id: &str) -> bool {
     let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
     let state = String::from_utf8(shown.stdout).unwrap();
     !state.trim().is_empty() && !state.trim_start().starts_with('Z')
 }
 
-/// Runs a command that looks at neither stdin nor signals, and starts another; sends these signals.
+/// Runs a command that ignores stdin and signals and starts another process; sends these signals.
 fn interrupted(option: &str, greeting: &str, names: &[&str]) -> (Option<i32>, TestFile, String) {
     let (ids, json) = (TestFile::new(".txt", b""), TestFile::new(".json", b""));
     let command = format!(
@@ -62,7 +62,7 @@ fn interrupted(option: &str, greeting: &str, names: &[&str]) -> (Option<i32>, Te
 const HELLO: &str = r#"printf '{"protocol":1,"testee":{"name":"deaf"},"capabilities":{"ops":["decode"],"streams":["object-count"],"editions":["en-1.05"]}}\n';"#;
 
 #[test]
-fn a_signal_ends_a_testee_with_all_it_has_started() {
+fn a_signal_ends_a_testee_and_its_processes() {
     for (name, greeting) in
         [("INT", HELLO), ("TERM", HELLO), ("HUP", HELLO), ("QUIT", HELLO), ("TERM", "")]
     {
@@ -76,7 +76,7 @@ fn a_signal_ends_a_testee_with_all_it_has_started() {
 }
 
 #[test]
-fn a_signal_ends_a_client_with_all_it_has_started() {
+fn a_signal_ends_a_client_and_its_processes() {
     for name in ["INT", "TERM", "HUP", "QUIT", "USR1"] {
         let (code, json, said) = interrupted("--client", "", &[name]);
         assert_eq!(code, Some(3), "SIG{name}: {said}");
@@ -85,9 +85,9 @@ fn a_signal_ends_a_client_with_all_it_has_started() {
     }
 }
 
-/// Also if it ends at once.
+/// The processes also end if the run ends at once.
 #[test]
-fn two_signals_end_them_too() {
+fn two_signals_also_end_the_processes() {
     for option in ["--testee", "--client"] {
         let (code, ..) = interrupted(option, "", &["INT", "TERM"]);
         assert!(matches!(code, Some(3 | 130)), "{code:?}");

@@ -1,4 +1,5 @@
-//! Codecs that do otherwise what no manual says: each is minimal but right, and fails nothing.
+//! Codecs that differ from this project where the manuals state nothing: each is correct, and fails
+//! nothing.
 
 use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Exit, Needs, Verdict};
 use ads_cnc_conformance::suite;
@@ -8,7 +9,7 @@ use ads_cnc_conformance::testee::{
 };
 use ads_cnc_vectors::{Level, sequence, vector};
 
-/// The project's own codec, with other answers to some questions.
+/// This project's codec with other answers to some questions.
 struct StepError<F>(F);
 
 impl<F: Fn(&CodecTestee, &Question) -> Answer> Testee for StepError<F> {
@@ -29,7 +30,7 @@ fn cases() -> Vec<Case> {
     suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
 }
 
-/// How the judgement of such a codec ends, and what it is not the same in.
+/// The exit code for such a codec, and the cases in which it differs.
 fn judged(codec: impl Fn(&CodecTestee, &Question) -> Answer) -> (Exit, Vec<String>) {
     let terms = Terms { seed: 3, subject: CaseSubject::Testee, edition: None, strict: false };
     let outcomes = judge(&mut StepError(codec), cases(), terms).outcomes;
@@ -47,13 +48,12 @@ fn accepted() -> Answer {
     Answer::Ok(Output { value: Some(serde_json::json!({})), ..Output::default() })
 }
 
-/// The answer to the question with other bytes.
+/// The answer to the same question with other bytes.
 fn of_bytes(own: &CodecTestee, question: &Question, bytes: Vec<u8>) -> Answer {
     own.answer(&Question { hex: Some(bytes), ..question.clone() })
 }
 
-/// A codec that reads and writes the numbers of a stream in 2 bytes each, where none of the manuals
-/// gives a width.
+/// A codec that uses 2 bytes for each number of a stream for which the manuals state no width.
 fn of_two_bytes(own: &CodecTestee, question: &Question, of: &str) -> Answer {
     if question.stream != of {
         return own.answer(question);
@@ -73,7 +73,7 @@ fn of_two_bytes(own: &CodecTestee, question: &Question, of: &str) -> Answer {
     }
 }
 
-/// The vectors and sequences that a codec differs in, and nothing else: it passes all others.
+/// Checks that a codec differs in exactly these vectors and sequences, and passes all others.
 fn assert_differs(codec: impl Fn(&CodecTestee, &Question) -> Answer, expected: &[&str]) {
     let (exit, other) = judged(codec);
     assert_eq!(exit, Exit::Success, "{other:?}");
@@ -103,7 +103,7 @@ fn bytes_after_the_nul_of_a_request_may_be_ignored() {
         let Some(bytes) = &question.hex else { return own.answer(question) };
         let nul = bytes.iter().skip(from).position(|byte| *byte == 0);
         let end = nul.map_or(bytes.len(), |at| from + at + 1);
-        // Beyond its limit a request stays too long.
+        // A request beyond its limit is still too long.
         match bytes.len() > most {
             true => own.answer(question),
             false => of_bytes(own, question, bytes[..end].to_vec()),
@@ -132,9 +132,9 @@ fn an_extended_description_may_be_longer() {
     assert_differs(codec, &["vec-extended-trailing"]);
 }
 
-/// Both editions print two lengths; the vendors' help pages have one.
+/// Both editions print two lengths; the vendors' help pages have only one.
 #[test]
-fn a_write_may_have_the_two_lengths_that_are_printed() {
+fn a_write_may_have_both_printed_lengths() {
     let codec = |own: &CodecTestee, question: &Question| {
         if question.stream != "write-request" {
             return own.answer(question);
@@ -187,10 +187,10 @@ fn the_largest_index_of_a_name_may_be_accepted() {
     assert_differs(codec, &["vec-path-index-too-large"]);
 }
 
-/// One that knows no small letters, no nesting of parentheses and no quotes, and takes a jump to its
-/// own line, a block without an end and labels with other zeros for what they are on their face.
+/// A checker without lower-case letters, nested parentheses and quotes, which does not treat a jump to
+/// its own line, a block without an end or labels with leading zeros specially.
 #[test]
-fn a_checker_may_know_no_more_of_nc_text_than_the_manual_says() {
+fn a_checker_may_know_only_the_manuals_nc_text() {
     const OTHERWISE: [&str; 10] = [
         "loop-lower-case",
         "comment-nested",
@@ -235,9 +235,9 @@ fn level(case: &Case) -> Level {
     }
 }
 
-/// Whatever a codec makes of what is assumed fails it in nothing; of the rest everything does.
+/// The opposite of every assumed answer fails nothing, and the opposite of every other answer fails.
 #[test]
-fn the_opposite_of_what_is_assumed_fails_nobody() {
+fn the_opposite_of_assumptions_fails_nothing() {
     let of = |levels: &[Level]| -> Vec<Question> {
         let chosen = cases().into_iter().filter(|case| levels.contains(&level(case)));
         chosen.flat_map(|case| questions(&case, "en-1.05")).collect()
@@ -249,16 +249,16 @@ fn the_opposite_of_what_is_assumed_fails_nobody() {
         true => opposite(own.answer(question)),
         false => own.answer(question),
     });
-    // A rejected vector may be met by its sibling's rejection; all others differ.
+    // A rejected vector may be vacuous because its sibling is rejected; all others differ.
     assert_eq!(exit, Exit::Success);
     assert!(other.len() > 350, "{}", other.len());
     let (exit, _) = judged(|own, question| opposite(own.answer(question)));
     assert_eq!(exit, Exit::Failure);
 }
 
-/// A name that one edition alone prints binds nobody of the other edition.
+/// A name that only one edition prints does not bind codecs of the other edition.
 #[test]
-fn what_another_edition_prints_fails_nobody() {
+fn names_of_another_edition_fail_nothing() {
     let judged = |edition| {
         let mut codec = StepError(|own: &CodecTestee, question: &Question| match &question.hex {
             Some(bytes) if bytes == b"V.E.trajectory.vector.x" => rejected(),
@@ -274,7 +274,7 @@ fn what_another_edition_prints_fails_nobody() {
     assert_eq!(judged("de-1.051"), Verdict::Differs);
 }
 
-/// The levels of what the manuals say, and of what they do not.
+/// The levels of documented and undocumented requirements.
 #[test]
 fn levels_are_in_the_data() {
     for (id, expected) in [

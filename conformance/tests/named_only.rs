@@ -1,5 +1,5 @@
-//! Nothing is written but what a file for `--allow-write` names, whatever the device says of handles
-//! and addresses. What is written is counted in the simulated CNC, behind its defect, by its log.
+//! Only values in the file for `--allow-write` are written, whatever handles and addresses the device
+//! returns. The log of the simulated CNC, after its defect, counts the writes.
 
 mod common;
 
@@ -39,7 +39,7 @@ impl Logged {
         Self { serve, log }
     }
 
-    /// How often each variable, parameter and content was written.
+    /// The number of writes to each variable, parameter and content.
     fn end(self) -> BTreeMap<String, usize> {
         drop(self.serve);
         let mut writes = BTreeMap::new();
@@ -51,7 +51,7 @@ impl Logged {
     }
 }
 
-/// The cases that write, to what the file names.
+/// Runs the cases that write, with this file.
 fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
     let only: Vec<&str> = cases.iter().flat_map(|case| ["--only", case]).collect();
     let target = ["--target", addr, "--net-id", "127.0.0.1.1.1", "--timeout", "500"];
@@ -60,7 +60,7 @@ fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
     command.arg("run").args(target).args(allow).args(only).output().unwrap()
 }
 
-/// A file, the one thing that it names as the log has it, and the cases that write such things.
+/// A file with one entry, the entry as it appears in the log, and the cases that write such values.
 struct Named {
     table: &'static str,
     log: &'static str,
@@ -83,18 +83,20 @@ const OBJECT: Named = Named {
     cases: &["write-objects", "write-objects-by-index"],
 };
 
-/// What of a run against a CNC with this defect is written beside the named, and how often that is.
+/// Runs against a CNC with this defect: the number of writes to the named value, and the writes to
+/// others.
 fn tried(defect: &str, named: &Named) -> (usize, BTreeMap<String, usize>) {
     let cnc = Logged::start(&["--defect", defect]);
     let file = TestFile::allowing(named.table);
     let output = run(&cnc.serve.addr, &file, named.cases);
-    // A CNC that does not write as it is asked to is left changed at times, which is exit code 6.
+    // A CNC that writes wrongly may be left changed, which is exit code 6.
     assert!(matches!(output.status.code(), Some(0..=4 | 6)), "{defect}: {output:?}");
     let mut writes = cnc.end();
     (writes.remove(named.log).unwrap_or(0), writes)
 }
 
-/// Tries defects in turn; those that write what is not named, and how many write what is.
+/// Tries defects; returns the writes to values that are not named, and the number of defects with
+/// writes to the named value.
 fn all(defects: Vec<(&'static str, &'static Named)>) -> (BTreeMap<String, usize>, usize) {
     let (queue, found) = (Mutex::new(defects.into_iter()), Mutex::new((BTreeMap::new(), 0)));
     thread::scope(|scope| {
@@ -121,25 +123,25 @@ fn seeds(is: impl Fn(&str) -> bool, named: &'static Named) -> Vec<(&'static str,
     seeds.map(|seed| (seed.id.as_str(), named)).collect()
 }
 
-/// Every defect of handles: told, described, kept, and how they are understood.
+/// Every defect of handles: returned by name, described, stored and interpreted.
 #[test]
-fn wrong_handles_reach_nothing_else() {
+fn wrong_handles_write_nothing_else() {
     let is = |id: &str| id.contains("handle");
     let of_array = |id: &str| is(id) && id.starts_with("cnc.");
     let defects = [seeds(is, &VARIABLE), seeds(of_array, &ARRAY)].concat();
     assert!(defects.len() > 50, "{}", defects.len());
     let (mut others, written) = all(defects);
-    // It says nothing wrong of any handle: it takes that of a good write for another one.
+    // This defect returns correct handles, but interprets the handle of a write as another one.
     let misread = "variable-handle-write.handle.flip: variable channel=1 name=V.E.Variable_2";
     assert!(others.remove(misread).is_some_and(|count| count < 3), "{others:?}");
     assert!(others.is_empty(), "{others:#?}");
     assert!(written > 40, "{written}");
 }
 
-/// Every defect of descriptors of objects, of their lists and of addresses, but for those that do a
-/// good write elsewhere.
+/// Every defect of descriptors of objects, of their lists and of addresses, except those that execute
+/// an allowed write elsewhere.
 #[test]
-fn wrong_addresses_reach_nothing_else() {
+fn wrong_addresses_write_nothing_else() {
     let is = |id: &str| {
         let of_fields = ["object-descriptor.", "object-count."];
         let of_functions = ["count-objects.", "read-descriptors.", "cnc.com.", "cnc.adr."];
@@ -152,7 +154,7 @@ fn wrong_addresses_reach_nothing_else() {
     assert!(written > 60, "{written}");
 }
 
-/// Lines of a log that the simulated CNC writes in this process.
+/// The log of a simulated CNC in this process.
 #[derive(Clone, Default)]
 struct Lines(Arc<Mutex<Vec<u8>>>);
 
@@ -166,7 +168,7 @@ impl Write for Lines {
     }
 }
 
-/// What a CNC of this process with this defect is written, as its log has it.
+/// The writes in the log of a CNC of this process with this defect.
 fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
     let lines = Lines::default();
     let writer = lines.clone();
@@ -192,8 +194,8 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
     lines.lines().filter_map(|line| Some(line.split_once("write to a ")?.1.to_owned())).collect()
 }
 
-/// Of all defects these alone write what no file names: they say nothing wrong of a handle or an
-/// address, but take those of a good write for others.
+/// The only defects that write values that the file does not name: they return correct handles and
+/// addresses, but interpret those of an allowed write as others.
 const MISREAD: [&str; 3] = [
     "variable-handle-write.handle.flip",
     "write-request.data.flip",
@@ -202,7 +204,7 @@ const MISREAD: [&str; 3] = [
 
 /// Every defect of the CNC, in this process.
 #[test]
-fn no_defect_has_anything_else_written() {
+fn no_other_defect_writes_other_values() {
     let seeds: Vec<_> = faults::all().iter().filter(|seed| seed.is_for_cnc()).collect();
     assert!(seeds.len() > 900, "{}", seeds.len());
     let queue = Mutex::new(seeds.into_iter());
@@ -231,7 +233,7 @@ fn no_defect_has_anything_else_written() {
     assert!(written > 1200, "{written}");
 }
 
-/// A frame to its last byte; none if the connection ends.
+/// Reads a complete frame; `None` if the connection ends.
 fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
     let mut frame = vec![0; 6];
     stream.read_exact(&mut frame).ok()?;
@@ -240,7 +242,7 @@ fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
     Some(frame)
 }
 
-/// A device that answers as the CNC does, but for what is changed of its replies.
+/// A device that replies like the CNC, except for the changes to replies.
 fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let (addr, cnc) = (listener.local_addr().unwrap(), cnc.parse().unwrap());
@@ -262,7 +264,7 @@ fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
     addr
 }
 
-/// Where the data of a reply begin: behind the headers, the result and the length.
+/// The offset of the data of a reply, after the headers, the result and the length.
 const DATA: usize = 46;
 
 fn is_asked(request: &[u8], group: u32, offset: u32) -> bool {
@@ -275,7 +277,7 @@ fn put(reply: &mut [u8], at: usize, value: u32) {
     }
 }
 
-/// Gives example_subroutine_w the address of mc_command_single_block_w.
+/// Returns the address of mc_command_single_block_w for example_subroutine_w.
 fn shares_an_address(request: &[u8], reply: &mut [u8]) {
     if request.len() < 42 || number(request, 38) & !0x10_0000 != 0x3_0101 {
         return;
@@ -286,7 +288,7 @@ fn shares_an_address(request: &[u8], reply: &mut [u8]) {
     }
 }
 
-/// V.E.Testvar's, as the simulated CNC has it.
+/// The handle of V.E.Testvar in the simulated CNC.
 fn handle_of_another(cnc: &str) -> u32 {
     let target = ["--target", cnc, "--net-id", "127.0.0.1.1.1"];
     let get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
@@ -301,10 +303,10 @@ fn handle_of_another(cnc: &str) -> u32 {
 
 const OTHER: u32 = 0x4040_0003;
 
-/// The handle of one variable for the name of another, for all names, and in the descriptions by name
-/// too.
+/// The device returns the handle of one variable for another name, for all names, and also in the
+/// descriptions by name.
 #[test]
-fn a_handle_of_another_variable_is_not_written_by() {
+fn a_handle_of_another_variable_is_not_written() {
     let every: fn(&[u8], &mut [u8]) = |request, reply| {
         if is_asked(request, 0x12_2301, 0x46) {
             put(reply, DATA, OTHER);
@@ -328,13 +330,13 @@ fn a_handle_of_another_variable_is_not_written_by() {
         let file = TestFile::allowing(ARRAY.table);
         let output = run(&addr, &file, &["write-by-handle", "write-elements-by-handle"]);
         let shown = String::from_utf8(output.stdout).unwrap();
-        // A safety refusal, and no verdict on the device.
+        // The write is rejected for safety, without a verdict on the device.
         assert_eq!(output.status.code(), Some(4), "{shown}");
-        assert!(shown.contains("which the file does not name"), "{shown}");
+        assert!(shown.contains("which is not in the file"), "{shown}");
         assert!(!shown.contains("FAIL"), "{shown}");
         assert_eq!(cnc.end(), BTreeMap::new());
 
-        // By its name it is written all the same.
+        // A write by name is still allowed.
         let cnc = Logged::start(&[]);
         let addr = lying(&cnc.serve.addr, change).to_string();
         run(&addr, &file, &["write-by-name"]);
@@ -344,8 +346,7 @@ fn a_handle_of_another_variable_is_not_written_by() {
     }
 }
 
-/// A new connection has confirmed no handle: it is confirmed anew for the write that puts the value
-/// back.
+/// On a new connection, the handle is confirmed again before the write that restores the value.
 #[test]
 fn a_lost_connection_leaves_nothing_changed() {
     let cnc = Logged::start(&[]);
@@ -360,7 +361,7 @@ fn a_lost_connection_leaves_nothing_changed() {
                 let Some(reply) = frame(&mut cnc) else { break };
                 client.write_all(&reply).unwrap();
                 writes += usize::from(is_asked(&request, 0x12_2301, 0x49));
-                // Behind the write of another value.
+                // After the write of another value.
                 if writes == 2 && connection == 1 {
                     break;
                 }
@@ -385,10 +386,10 @@ fn a_lost_connection_leaves_nothing_changed() {
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
-/// After a lost connection the list gives the object's address to another one too: the value is not
-/// restored, and the last line says why.
+/// After a lost connection, the list contains the object's address for another object, too: the value
+/// is not restored, and the last line contains the reason.
 #[test]
-fn what_is_not_restored_says_why() {
+fn a_value_that_is_not_restored_has_a_reason() {
     let cnc = Logged::start(&[]);
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let (addr, to) = (listener.local_addr().unwrap(), cnc.serve.addr.parse().unwrap());
@@ -402,7 +403,7 @@ fn what_is_not_restored_says_why() {
                 if connection > 1 {
                     shares_an_address(&request, &mut reply);
                 }
-                // The tool may be gone.
+                // The tool may have disconnected.
                 if client.write_all(&reply).is_err() {
                     break;
                 }
@@ -420,11 +421,11 @@ fn what_is_not_restored_says_why() {
     let said = String::from_utf8(output.stderr).unwrap();
     let last = said.lines().last().unwrap();
     assert!(last.contains("LEFT CHANGED: "), "{said}");
-    let why = "the file of --allow-write does not name this)";
+    let why = "no entry in the file of --allow-write allows it)";
     assert!(last.contains("(not restored: ") && last.ends_with(why), "{said}");
 }
 
-/// A list in which an object has the address of another.
+/// The list contains two objects with the same address.
 #[test]
 fn an_address_of_two_objects_is_not_written() {
     let cnc = Logged::start(&[]);
@@ -433,7 +434,7 @@ fn an_address_of_two_objects_is_not_written() {
     let output = run(&addr, &file, OBJECT.cases);
     let shown = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(4), "{shown}");
-    assert!(shown.contains("the device gives it to mc_command_single_block_w too"), "{shown}");
+    assert!(shown.contains("the device also uses it for mc_command_single_block_w"), "{shown}");
     let set = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
         .args(["set", "example_subroutine_w", "TRUE", "--target", &addr])
         .args(["--net-id", "127.0.0.1.1.1", "--allow-write", file.path()])

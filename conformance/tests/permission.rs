@@ -1,5 +1,5 @@
-//! What a file for `--allow-write` permits, and for how long. The commands are those of a user; what
-//! is written is seen in the simulated CNC.
+//! The writes that a file for `--allow-write` permits, and its expiry. The tests run the commands of a
+//! user, and examine the writes in the simulated CNC.
 
 mod common;
 
@@ -29,7 +29,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A file that expires after so many seconds.
+/// A file that expires after `seconds`.
 fn expiring(table: &str, seconds: u64) -> TestFile {
     let at = Moment::now().after(Duration::from_secs(seconds));
     let head = format!("target = \"127.0.0.1.1.1\"\nexpires = {at}\n");
@@ -38,9 +38,9 @@ fn expiring(table: &str, seconds: u64) -> TestFile {
 
 const VARIABLE: &str = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n";
 
-/// Names, channels, ranks and axes that are not those of the variable.
+/// Other names, channels, ranks and axes than those of the variable.
 #[test]
-fn another_name_permits_nothing() {
+fn other_entries_permit_nothing() {
     let cnc = Serve::start(&[]);
     let names = [
         "v.e.vartest",
@@ -80,7 +80,7 @@ fn another_name_permits_nothing() {
         let file = TestFile::allowing(table);
         let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
         let refused = against(&cnc.addr, &set);
-        // Some of them are no names, so that the file is rejected as a whole.
+        // Some of them are invalid names, so that the whole file is rejected.
         assert!(matches!(refused.status.code(), Some(2 | 4)), "{table}: {refused:?}");
         assert!(!refused.stderr.is_empty(), "{table}");
         let value = against(&cnc.addr, &["get", "V.E.vartest"]);
@@ -91,9 +91,9 @@ fn another_name_permits_nothing() {
     assert_eq!(set.status.code(), Some(0), "{}", text(&set.stderr));
 }
 
-/// A file that is not there is wrong usage, also of a command that asks the simulated CNC.
+/// A missing file is wrong usage, even for a command without a target.
 #[test]
-fn a_file_that_is_not_there_is_said() {
+fn a_missing_file_is_an_error() {
     let program = TestFile::new(".nc", b"N10 G01 X1\r\n");
     let commands: [&[&str]; 4] = [
         &["run", "--list"],
@@ -109,7 +109,7 @@ fn a_file_that_is_not_there_is_said() {
     }
 }
 
-/// A stream ends in the second in which its file expires, and says which lines were taken.
+/// A stream ends in the second in which its file expires, and reports the accepted lines.
 #[test]
 fn a_stream_ends_when_its_file_expires() {
     let packets = Arc::new(Mutex::new(0));
@@ -130,19 +130,19 @@ fn a_stream_ends_when_its_file_expires() {
     let packets = *packets.lock().unwrap();
     assert!((2..10).contains(&packets), "{packets}");
     let shown = text(&ended.stdout);
-    assert!(shown.contains("has taken lines 1 to "), "{shown}");
-    assert!(shown.ends_with(" to 1000\n") && shown.contains("not sent or not taken"), "{shown}");
+    assert!(shown.contains("accepted lines 1 to "), "{shown}");
+    assert!(shown.ends_with(" to 1000\n") && shown.contains("not sent or not accepted"), "{shown}");
 }
 
 const STREAM: &str = "[[stream]]\nchannel = 1\n";
 
-/// No value is changed that may not be restored in the time that the file has left.
+/// No value is changed if the time until the expiry may not suffice to restore it.
 #[test]
 fn nothing_is_changed_shortly_before_the_file_expires() {
     let (cnc, json) = (Serve::start(&[]), TestFile::new(".json", b""));
     let file = expiring(VARIABLE, 60);
     let addr = proxy(cnc.addr.parse().unwrap(), |frame| {
-        // 4711 may be written: it is there already.
+        // A write of 4711 is no change, because that is the value.
         let changes = is_write(frame) && !frame.data().ends_with(&4711_u16.to_le_bytes());
         if changes { Deed::Reject } else { Deed::Pass }
     });
@@ -150,7 +150,7 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let rest = ["--allow-write", file.path(), "--json", json.path()];
     let ended = against(&addr.to_string(), &[&run[..], &rest].concat());
     assert_eq!(ended.status.code(), Some(4), "{}", text(&ended.stdout));
-    // The reason of the exit code is the line above the last one.
+    // The reason for the exit code is on the line before the last one.
     let shown = text(&ended.stdout);
     let above = shown.lines().rev().nth(1).unwrap();
     assert!(
@@ -177,10 +177,9 @@ printed-examples = true
 unwritten = []
 "#;
 
-/// A profile is a claim about a device. Whatever it claims, queries are all that is sent, to the
-/// tasks of a CNC.
+/// With any claims of a profile, the run only sends queries, and only to the tasks of a CNC.
 #[test]
-fn a_hostile_profile_provokes_no_write() {
+fn a_hostile_profile_causes_no_write() {
     let cnc = Serve::start(&[]);
     let seen = Arc::new(Mutex::new(BTreeSet::new()));
     let keep = Arc::clone(&seen);
@@ -196,7 +195,7 @@ fn a_hostile_profile_provokes_no_write() {
     let seen = seen.lock().unwrap();
     assert!(seen.len() > 5, "{seen:?}");
     for (command, port) in seen.iter() {
-        // ReadWrite asks by name; the gate's own test tells the functions apart.
+        // ReadWrite is used for queries by name; the tests of the gate distinguish the functions.
         let reads = [AdsCommand::READ_DEVICE_INFO, AdsCommand::READ, AdsCommand::READ_STATE];
         let asks = reads.iter().any(|read| read.0 == *command);
         assert!(asks || *command == AdsCommand::READ_WRITE.0, "{seen:?}");

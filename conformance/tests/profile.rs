@@ -1,4 +1,4 @@
-//! What a profile claims decides over what is asked of a device, and what must be there.
+//! The claims of a profile determine the requests to a device, and the functions that it must have.
 
 mod common;
 
@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 use common::Serve;
 use common::file::TestFile;
 
-/// A profile with this in it.
+/// A file with this profile.
 fn claiming(text: &str) -> TestFile {
     TestFile::new(".toml", text.as_bytes())
 }
@@ -36,7 +36,7 @@ fn verdict<'r>(report: &'r serde_json::Value, case: &str) -> &'r str {
 }
 
 #[test]
-fn what_is_not_claimed_is_not_applicable() {
+fn unclaimed_functions_are_not_applicable() {
     let profile = claiming("name = \"panel\"\nsections = [\"variables\"]\nports = [552]\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
@@ -49,8 +49,8 @@ fn what_is_not_claimed_is_not_applicable() {
     assert_eq!(report["profile"]["name"], "panel");
 }
 
-/// The printed profile, unedited, raises nothing on the simulated CNC; of a device it has the channels
-/// and axes, and passes there.
+/// The printed profile passes unedited on the simulated CNC; printed for a device, it contains the
+/// channels and axes, and passes there.
 #[test]
 fn a_printed_profile_passes() {
     let ads_cnc =
@@ -77,8 +77,8 @@ fn a_printed_profile_passes() {
 }
 
 #[test]
-fn what_is_claimed_must_work() {
-    // One channel, one spindle and one axis more than there are.
+fn claimed_instances_must_work() {
+    // One channel, one spindle and one axis more than the device has.
     let profile = claiming("channels = [1, 2, 6, 7]\nspindles = 3\nplatform-axes = 6\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
@@ -98,15 +98,15 @@ fn a_function_claimed_by_name_must_work() {
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert_eq!(verdict(&report, "var-described-by-name"), "pass");
-    // Claimed or not, what comes with a version is judged if it is there.
+    // A function that depends on the version is judged if it exists, even without a claim.
     let profile = claiming("");
     let (_, report) = run(&["--cnc-version", "V4.20.0"], &profile);
     assert_eq!(verdict(&report, "var-described-by-name"), "not-applicable");
 }
 
-/// An object that the profile does not have read is not a wrong descriptor.
+/// Without a claim to read objects, their descriptors are not wrong.
 #[test]
-fn a_function_that_is_not_claimed_fails_nothing() {
+fn unclaimed_functions_fail_nothing() {
     let profile = claiming("functions = [\"number of objects\", \"object descriptors\"]\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
@@ -115,7 +115,7 @@ fn a_function_that_is_not_claimed_fails_nothing() {
 }
 
 #[test]
-fn a_bad_profile_is_wrong_usage() {
+fn an_invalid_profile_is_wrong_usage() {
     let profile = claiming("name = \"x\"\nports = [851]\n");
     let (output, _) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(2));
@@ -124,7 +124,7 @@ fn a_bad_profile_is_wrong_usage() {
 }
 
 #[test]
-fn a_profile_is_printed_to_be_filled_in() {
+fn a_commented_profile_is_printed() {
     let output =
         Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["run", "--print-profile"]).output();
     let output = output.unwrap();

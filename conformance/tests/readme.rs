@@ -1,10 +1,10 @@
-//! What the documents show of the tools is what they print: each call in a block ```console is made,
-//! here, in readme/gate.rs or where a list says, and its output compared.
+//! The documents show the real output of the tools: each call in a block ```console is executed here,
+//! in readme/gate.rs or where [`ELSEWHERE`] states, and its output is compared.
 
 #[path = "readme/bench.rs"]
 mod bench;
 mod common;
-// On Linux, as the document says: elsewhere other crates make a process end.
+// The document is about Linux; other systems use other crates to end processes.
 #[cfg(target_os = "linux")]
 #[path = "readme/dependencies.rs"]
 mod dependencies;
@@ -27,12 +27,12 @@ use std::process::Command;
 use bench::root;
 use documents::{IN_THE_GATE, documents, is_in_the_gate, make};
 
-/// Calls that are not made for the documents: where they are, or what is instead of them.
+/// Calls that are executed elsewhere: the call, the file, and the text there.
 const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("cargo test --workspace", ".ci/run", "cargo test --workspace --locked"),
     ("cargo install ", ".ci/run", "cargo install --path conformance --locked"),
     ("fuzz/nightly ", ".ci/run", "fuzz/nightly --seconds 0"),
-    // It shows by which name a file is called that the next call has.
+    // This call depends on the name of a file in the next call.
     ("cat ", "conformance/tests/readme/bench.rs", "strip_prefix(\"cat \")"),
 ];
 
@@ -41,14 +41,14 @@ fn is_elsewhere(call: &str) -> bool {
 }
 
 #[test]
-fn calls_show_what_the_documents_have() {
+fn calls_print_the_output_in_the_documents() {
     let made = make(|call| !is_elsewhere(call) && !is_in_the_gate(call));
     assert!(made >= 15, "{made} calls");
 }
 
-/// Whoever reads what the gate says finds what each script of it is for.
+/// CONTRIBUTING describes each script of the gate.
 #[test]
-fn contributors_are_told_of_each_script_of_the_gate() {
+fn every_script_of_the_gate_is_documented() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
     let (gate, told) = (read(".ci/run"), read(".github/CONTRIBUTING.md"));
     let words = gate.lines().filter(|line| !line.trim_start().starts_with('#'));
@@ -62,15 +62,15 @@ fn contributors_are_told_of_each_script_of_the_gate() {
     };
     let scripts: BTreeSet<&str> = words.filter(is_script).collect();
     assert!(scripts.len() >= 15, "{scripts:?}");
-    // Each is run where a document shows it.
+    // Each script is run where a document shows its call.
     for script in scripts.iter().filter(|script| !script.contains("/adapters/")) {
         assert!(told.contains(script), "{script}");
     }
 }
 
-/// No call is left out but for a reason that holds.
+/// Every call that is not executed here is executed elsewhere.
 #[test]
-fn what_is_not_made_here_is_made_elsewhere() {
+fn other_calls_are_executed_elsewhere() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
     let documents = documents();
     let names: Vec<&str> = documents.iter().map(|(path, _)| path.as_str()).collect();
@@ -91,9 +91,9 @@ fn what_is_not_made_here_is_made_elsewhere() {
     }
 }
 
-/// Every tool is shown, and every option that is named is one.
+/// The documents show every command, and every option in them exists.
 #[test]
-fn tools_and_options_are_those_that_there_are() {
+fn documented_commands_and_options_exist() {
     let help = |words: &[&str]| {
         let help = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(words).output().unwrap();
         String::from_utf8(help.stdout).unwrap()
@@ -117,7 +117,7 @@ fn tools_and_options_are_those_that_there_are() {
             .filter(|line| !["cargo ", "fuzz/", "docker "].iter().any(|it| line.contains(it)))
         {
             let words = line.split(|character: char| !is_word(character));
-            // Not the rules of tables.
+            // Skip the rules of tables.
             let options = words.filter(|word| word.strip_prefix("--").is_some_and(is_name));
             for word in options {
                 assert!(is_option(word), "{word} in {line}");

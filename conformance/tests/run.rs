@@ -1,4 +1,4 @@
-//! `ads-cnc run` as a person calls it.
+//! `ads-cnc run` as users call it.
 
 mod common;
 
@@ -16,7 +16,7 @@ fn ads_cnc(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
 }
 
-/// A port of this machine that the system picks.
+/// An address on this machine with a port that the system chooses.
 fn loopback() -> SocketAddr {
     SocketAddr::from(([127, 0, 0, 1], 0))
 }
@@ -25,9 +25,9 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// Without a command the suite runs against the simulated CNC and passes.
+/// Without a command, the suite runs against the simulated CNC and passes.
 #[test]
-fn no_command_runs_the_suite() {
+fn without_a_command_the_suite_runs() {
     let output = ads_cnc(&[]);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{shown}");
@@ -36,12 +36,12 @@ fn no_command_runs_the_suite() {
     let device = format!("\ndevice   \"ads-cnc serve\" {version}, state RUN\n");
     assert!(shown.contains(&device), "{shown}");
     assert!(!shown.contains("FAIL") && !shown.contains("\n  differs "), "{shown}");
-    // On a busy machine it takes so long that its progress is shown.
+    // On a busy machine, the run takes long enough to show its progress.
     let stderr = text(&output.stderr);
     assert!(stderr.lines().all(|line| line.ends_with(" left")), "{stderr}");
 }
 
-/// A failure names its clause, and shows what was sent, received and expected.
+/// A failure names its clause, and shows the sent, received and expected bytes.
 #[test]
 fn a_failure_is_shown_with_its_clause_and_bytes() {
     let output = ads_cnc(&["run", "--defect", "variable-description.size.flip"]);
@@ -65,7 +65,7 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
     }
 }
 
-/// The report as data says the same as the one on the console.
+/// The JSON report contains the facts of the console.
 #[test]
 fn the_report_is_written_as_json() {
     let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
@@ -80,7 +80,7 @@ fn the_report_is_written_as_json() {
     let cases = report["cases"].as_array().unwrap();
     let of_target = cases.iter().filter(|case| case["subject"] == "target");
     assert!(of_target.count() > 40);
-    // Every clause these functions can show is judged.
+    // Every clause that these functions can show is judged.
     let target = &report["subjects"][1];
     assert_eq!(target["subject"], "target");
     let judged: Vec<_> = target["areas"]
@@ -101,7 +101,7 @@ fn the_report_is_written_as_json() {
     }
 }
 
-/// A device is judged over its own connection, and told that it is only read.
+/// A device is judged, and only read.
 #[test]
 fn a_device_is_only_read() {
     let serve = Serve::start(&[]);
@@ -111,10 +111,10 @@ fn a_device_is_only_read() {
     assert!(shown.contains("are sent only with --malformed"), "{shown}");
 }
 
-/// Without a profile all channels are judged. What they will take is said before, and what was found is
-/// in the report; with a profile its channels are.
+/// Without a profile, all channels are judged; the forecast is printed first, and the report contains
+/// the found items. With a profile, only its channels are judged.
 #[test]
-fn a_run_without_a_profile_judges_what_it_finds() {
+fn a_run_without_a_profile_judges_found_channels() {
     let serve = Serve::start(&[]);
     let run = |args: &[&str]| {
         let target = ["run", "--target", &serve.addr, "--net-id", "127.0.0.1.1.1", "--seed", "1"];
@@ -143,9 +143,9 @@ fn a_run_without_a_profile_judges_what_it_finds() {
     assert!(told.contains("channel 6 with 3 axis places;"), "{told}");
 }
 
-/// A long list is sampled, and read whole with `--all`.
+/// A long list is sampled, and read completely with `--all`.
 #[test]
-fn a_long_list_is_read_whole_with_all() {
+fn a_long_list_is_read_completely_with_all() {
     let model = text(&ads_cnc(&["serve", "--print-model"]).stdout);
     let (head, tail) = model.split_once("[[channel]]").unwrap();
     let more: String = (0..300)
@@ -173,8 +173,8 @@ fn a_long_list_is_read_whole_with_all() {
     assert_eq!(without.status.code(), Some(2), "{without:?}");
 }
 
-/// Malformed requests go to a target on this machine that a file permits them for. Without that the
-/// target is not even connected to: a loopback address is no proof that nothing moves.
+/// Malformed requests are only sent to a target on this machine for which a file permits them.
+/// Otherwise, the run does not even connect: a loopback address does not prove that nothing moves.
 #[test]
 fn malformed_requests_need_a_file_that_permits_them() {
     let serve = Serve::start(&[]);
@@ -207,7 +207,7 @@ fn malformed_requests_need_a_file_that_permits_them() {
     }
 }
 
-/// A file is read whether there is a target that something of it may be written to or not.
+/// An invalid file is an error even without a target.
 #[test]
 fn a_file_is_read_without_a_target() {
     let file = TestFile::allowing("");
@@ -221,9 +221,9 @@ fn a_file_is_read_without_a_target() {
     }
 }
 
-/// A device that says nothing of itself is judged all the same, and not as failed.
+/// A device without device information is judged and passes.
 #[test]
-fn a_device_need_not_say_what_it_is() {
+fn device_information_is_optional() {
     for defect in ["device-info-reply.result.flip", "device-state-reply.result.flip"] {
         let serve = Serve::start(&["--defect", defect]);
         let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", &serve.net_id]);
@@ -237,7 +237,7 @@ fn a_device_need_not_say_what_it_is() {
     }
 }
 
-/// A CNC that gets a field wrong fails over the wire too.
+/// A device with a wrong field fails.
 #[test]
 fn a_wrong_device_fails() {
     let serve = Serve::start(&["--defect", "variable-count.count.flip"]);
@@ -245,12 +245,12 @@ fn a_wrong_device_fails() {
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
 }
 
-/// A target that accepts and says nothing is neither a success nor a hang.
+/// A target that accepts the connection but does not reply is not a success, and the run ends.
 #[test]
-fn a_silent_target_is_no_success() {
+fn a_silent_target_is_not_a_success() {
     let listener = net::listen(loopback()).unwrap();
     let addr = listener.local_addr().unwrap().to_string();
-    // It is asked once, and once more in case the connection was only idle.
+    // The run tries twice, in case the first connection was only idle.
     let silent = thread::spawn(move || listener.incoming().take(1).map(Result::unwrap).collect());
     let args = ["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"];
     let output = ads_cnc(&args);
@@ -260,9 +260,9 @@ fn a_silent_target_is_no_success() {
     assert!(text(&output.stderr).contains("route"), "{}", text(&output.stderr));
 }
 
-/// Who answers, but not as a CNC, or not to this NetId, is told so and not judged.
+/// A target that replies, but is not a CNC or has another NetId, is reported and not judged.
 #[test]
-fn who_is_no_cnc_is_not_judged() {
+fn a_target_that_is_not_a_cnc_is_not_judged() {
     let serve = Serve::start(&[]);
     let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", "1.2.3.4.1.1"]);
     assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
@@ -273,17 +273,17 @@ fn who_is_no_cnc_is_not_judged() {
     let web = thread::spawn(move || {
         let (mut stream, _) = listener.accept().unwrap();
         stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n").unwrap();
-        // Until the other side has read and closed.
+        // Wait until the other side has read the bytes and closed the connection.
         let _closed = stream.read_to_end(&mut Vec::new());
     });
     let output = ads_cnc(&["run", "--target", &addr, "--net-id", "1.2.3.4.1.1"]);
     web.join().unwrap();
     assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
-    assert!(text(&output.stderr).contains("does not speak AMS/TCP"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("does not use AMS/TCP"), "{}", text(&output.stderr));
 }
 
-/// A device whose frames are wrong from the first one on is judged: the rule of the frame fails, with
-/// its bytes, and no other.
+/// A device whose frames are wrong from the first one is judged: only the rule of the frame fails, with
+/// its bytes.
 #[test]
 fn broken_frames_fail_the_rule_of_the_frame() {
     for (defect, clauses) in [
@@ -321,7 +321,7 @@ fn broken_frames_fail_the_rule_of_the_frame() {
     }
 }
 
-/// A wrong frame fails whatever is selected.
+/// A wrong frame fails with any selection.
 #[test]
 fn broken_frames_fail_in_every_selection() {
     let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
@@ -334,14 +334,14 @@ fn broken_frames_fail_in_every_selection() {
 /// Exit code for a report that cannot be written.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_lost_report_is_no_success() {
+fn a_lost_report_is_an_error() {
     let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     let status = command.stdout(full).stderr(std::process::Stdio::null()).status().unwrap();
     assert_eq!(status.code(), Some(70));
 }
 
-/// What cannot be done ends with the exit code that says so.
+/// Each kind of failure has its exit code.
 #[test]
 fn exit_codes() {
     let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
@@ -360,9 +360,9 @@ fn exit_codes() {
     }
 }
 
-/// The report of an earlier run does not stay where this one has none; a dry run leaves it.
+/// A run without a report removes the report of an earlier run; a dry run does not.
 #[test]
-fn the_report_of_an_earlier_run_does_not_stay() {
+fn the_report_of_an_earlier_run_is_removed() {
     let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
     let file = TestFile::new(".json", b"yesterday");
     let target = ["--target", &nobody, "--net-id", "10.0.0.1.1.1", "--json", file.path()];
@@ -372,9 +372,9 @@ fn the_report_of_an_earlier_run_does_not_stay() {
     assert_eq!((lost.status.code(), file.0.exists()), (Some(3), false), "{lost:?}");
 }
 
-/// With -q a run that passes says its last line and nothing else.
+/// With -q, a run that passes only prints its last line.
 #[test]
-fn quiet_is_the_last_line() {
+fn quiet_prints_only_the_last_line() {
     let serve = Serve::start(&[]);
     let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
     let output = ads_cnc(&[&["run", "-q", "--only", "com-count"], &target[..]].concat());
@@ -383,9 +383,9 @@ fn quiet_is_the_last_line() {
     assert_eq!(text(&output.stderr), "");
 }
 
-/// A report that nobody could write is refused before anybody is asked.
+/// A report that cannot be written is an error before the first request.
 #[test]
-fn a_place_for_each_report_is_looked_for_first() {
+fn reports_are_checked_before_the_run() {
     for form in ["--json", "--html", "--junit", "--markdown", "--badge"] {
         let output = ads_cnc(&["run", form, "/no/such/folder/report"]);
         assert_eq!(output.status.code(), Some(2), "{form}");
@@ -395,9 +395,9 @@ fn a_place_for_each_report_is_looked_for_first() {
     assert_eq!(ads_cnc(&["run", "--timeout", "0"]).status.code(), Some(2));
 }
 
-/// A rejection that proves nothing is listed with the vector that should be accepted.
+/// A vacuous rejection is listed with its sibling, which should be accepted.
 #[test]
-fn a_vacuous_rejection_is_below_its_sibling() {
+fn a_vacuous_rejection_follows_from_its_sibling() {
     let defect = ["run", "--defect", "read-write-reply.length.zero", "--only", "read-write-reply"];
     let output = ads_cnc(&defect);
     let shown = text(&output.stdout);
@@ -408,9 +408,9 @@ fn a_vacuous_rejection_is_below_its_sibling() {
     assert!(list.contains("vec-read-write-reply-length-largest (ADS-3)"), "{shown}");
 }
 
-/// A dry run says what would be asked, and of a file for writes what may be written.
+/// A dry run lists the functions that would be requested, and the writes that a file allows.
 #[test]
-fn a_dry_run_lists_what_would_be_asked() {
+fn a_dry_run_lists_functions_and_writes() {
     let folder = std::env::temp_dir().join(format!("ads-cnc-dry-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("allow.toml");
@@ -418,10 +418,10 @@ fn a_dry_run_lists_what_would_be_asked() {
     let dry = |more: &[&str]| ads_cnc(&[&["run", "--dry-run"], &target[..], more].concat());
     let listed = text(&dry(&[]).stdout);
     for part in [
-        "(no --profile: it first asks by the same functions which ports, channels",
+        "(without --profile, it first searches with the same functions for the ports",
         "  Read       port 553  number of objects (COM-1)\n",
         "  ReadWrite  port 551  object address (SDA-",
-        "  and a few times ReadDeviceInfo and ReadState at the ports 551, 552, 553\n",
+        "  and sometimes ReadDeviceInfo and ReadState at the ports 551, 552, 553\n",
         "  ReadWrite  port 552  read variable value by name (VAR-14)\n",
         "It writes nothing without a file for --allow-write.\n",
     ] {
@@ -436,9 +436,9 @@ fn a_dry_run_lists_what_would_be_asked() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Whoever believes that writes were tried is told that none were, and not by success.
+/// With a file that allows no possible write, the run reports this and is not a success.
 #[test]
-fn a_file_that_lets_nothing_be_written_is_said() {
+fn a_file_without_effect_is_reported() {
     let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let serve = Serve::start(&[]);
@@ -459,8 +459,11 @@ fn a_file_that_lets_nothing_be_written_is_said() {
     };
     let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
     let (found, shown, code) = said(own, "2020-01-01T00:00:00Z", "V.E.vartest");
-    assert!(found.contains("nothing is written: the file of --allow-write expired at"), "{found}");
-    rejected(&shown, "nothing is written: the file of --allow-write expired at 2020-01-01");
+    assert!(
+        found.contains("nothing will be written: the file of --allow-write expired at"),
+        "{found}"
+    );
+    rejected(&shown, "nothing was written: the file of --allow-write expired at 2020-01-01");
     assert_eq!(code, Some(4), "{shown}");
     let (found, shown, code) = said("192.0.2.77.1.1", later, "V.E.vartest");
     assert!(found.contains("is for 192.0.2.77.1.1, not for 127.0.0.1.1.1"), "{found}");

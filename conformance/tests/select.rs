@@ -1,4 +1,4 @@
-//! What is run, in which order, and which failures are waived.
+//! The selection of cases, their order, and waivers.
 
 use std::collections::BTreeSet;
 use std::io::{BufRead as _, BufReader};
@@ -23,7 +23,7 @@ fn ids(report: &Value) -> Vec<&str> {
     cases.iter().map(|case| case["id"].as_str().unwrap()).collect()
 }
 
-/// Requirements with this verdict, of all who were judged.
+/// The requirements with this verdict, for all subjects.
 fn with<'r>(report: &'r Value, verdict: &str) -> BTreeSet<&'r str> {
     let subjects = report["subjects"].as_array().unwrap().iter();
     let areas = subjects.flat_map(|subject| subject["areas"].as_array().unwrap());
@@ -33,7 +33,7 @@ fn with<'r>(report: &'r Value, verdict: &str) -> BTreeSet<&'r str> {
         .collect()
 }
 
-/// The order is of no matter, and a seed gives it again.
+/// The order does not affect the verdicts, and a seed reproduces it.
 #[test]
 fn any_order_gives_the_same_verdicts() {
     let verdicts = |report: &Value| {
@@ -56,7 +56,7 @@ fn any_order_gives_the_same_verdicts() {
 }
 
 #[test]
-fn what_is_not_selected_is_not_run() {
+fn only_selected_cases_are_run() {
     let one = run(&["--only", "var-11"]);
     assert_eq!(with(&one, "pass"), BTreeSet::from(["VAR-11"]));
     assert!(with(&one, "not-observed").is_empty());
@@ -71,13 +71,13 @@ fn what_is_not_selected_is_not_run() {
     assert!(ids(&case).contains(&"com-count") && ids(&case).contains(&"val-string-size"));
     assert!(with(&case, "pass").contains("COM-1"));
 
-    // What judges the frames of others has some.
+    // A case that judges frames of other cases runs some of these.
     let frames = run(&["--only", "ads-every-frame"]);
     assert_eq!((ids(&frames), &frames["exit_code"]), (vec!["ads-every-frame"], &Value::from(0)));
 }
 
 #[test]
-fn what_is_nowhere_is_no_success() {
+fn an_unknown_selection_is_not_a_success() {
     for args in [&["run", "--only", "VRA"][..], &["run", "--only", "VAR", "--only", "DYN-99"]] {
         let output = ads_cnc(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");
@@ -89,7 +89,7 @@ fn what_is_nowhere_is_no_success() {
     }
     let output = ads_cnc(&["run", "--edition", "fr-1.0"]);
     assert_eq!(output.status.code(), Some(2));
-    // All that is selected the other edition alone prints.
+    // Only the other edition prints the selected vector.
     let output = ads_cnc(&["run", "--edition", "en-1.05", "--only", "vec-path-trajektorie-x"]);
     assert_eq!(output.status.code(), Some(3));
 }
@@ -109,19 +109,19 @@ fn an_edition_is_judged_by_itself() {
         };
         assert_eq!(verdict(has), Some("pass".into()));
         assert_eq!(verdict(lacks), Some("not-run".into()));
-        // The simulated CNC follows it, and has what that edition alone has.
+        // The simulated CNC follows the edition and has its special features.
         assert_eq!(report["profile"]["claims"]["edition"], edition);
         assert_eq!(with(&report, "pass").contains("VAR-19"), edition == "de-1.051");
     }
 }
 
 #[test]
-fn what_would_be_run_is_listed() {
+fn cases_are_listed_without_running() {
     let args = ["--only", "VAR-11", "--seed", "5"];
     let output = ads_cnc(&[&["run", "--list", "--json", "-"], &args[..]].concat());
     assert_eq!(output.status.code(), Some(0));
     let listed: Value = serde_json::from_slice(&output.stdout).unwrap();
-    // In the order in which each who is judged meets them.
+    // In the order of the run, for each subject.
     let of_target = |listed: &Value| -> Vec<String> {
         let listed = listed.as_array().unwrap().iter();
         listed.filter(|one| one["subject"] == "target").map(|one| one["id"].to_string()).collect()
@@ -130,17 +130,17 @@ fn what_would_be_run_is_listed() {
     assert_eq!(of_target(&listed), of_target(&report["cases"]));
     let listed: BTreeSet<&str> =
         listed.as_array().unwrap().iter().map(|one| one["id"].as_str().unwrap()).collect();
-    // How a codec keeps to the protocol is judged whatever is selected of it.
+    // The protocol of a testee is judged with any selection.
     let run = ids(&report).into_iter().filter(|id| *id != "testee-manners");
     assert_eq!(listed, run.collect());
     let text = ads_cnc(&[&["run", "--list"], &args[..]].concat());
     let text = String::from_utf8(text.stdout).unwrap();
     assert!(text.contains("target   val-whole-by-handle  [VAR-8 VAR-11 VAR-14]\n"), "{text}");
     assert!(text.ends_with(&format!("{} cases\n", listed.len())), "{text}");
-    // Without a seed the order is always the same.
+    // Without a seed, the order is always the same.
     let unordered = || ads_cnc(&["run", "--list", "--only", "VAR-11"]).stdout;
     assert_eq!(unordered(), unordered());
-    // To a device nothing is sent to list what would be.
+    // A list of cases for a device sends nothing.
     let device = ["run", "--list", "--target", "192.0.2.1", "--net-id", "1.2.3.4.1.1"];
     let text = String::from_utf8(ads_cnc(&device).stdout).unwrap();
     assert!(
@@ -154,9 +154,9 @@ fn what_would_be_run_is_listed() {
     assert_eq!(rows, ["VAR-8", "VAR-11", "VAR-14"]);
 }
 
-/// The list counts the cases that a run against the same target does not leave out.
+/// The list contains the cases that a run against the same target does not omit.
 #[test]
-fn the_list_of_a_device_has_the_cases_that_run() {
+fn the_list_of_a_device_contains_the_cases_of_a_run() {
     let device = Device::start();
     let target = ["--target", &device.addr, "--net-id", "127.0.0.1.1.1", "--seed", "5"];
     let json = |args: &[&str]| -> Value {
@@ -180,7 +180,7 @@ fn the_list_of_a_device_has_the_cases_that_run() {
     assert!(listed.len() > 80, "{}", listed.len());
 }
 
-/// A simulated CNC in a process of its own.
+/// A simulated CNC in a separate process.
 struct Device {
     serve: Child,
     addr: String,
@@ -207,7 +207,7 @@ impl Drop for Device {
     }
 }
 
-/// A file of waivers that goes away.
+/// A file of waivers that is removed when dropped.
 struct File(PathBuf);
 
 impl File {
@@ -232,7 +232,7 @@ fn waiver(test: &str, requirement: &str, verdict: &str, expires: &str) -> String
 }
 
 #[test]
-fn known_failures_are_put_up_with_as_long_as_they_hold() {
+fn known_failures_are_waived_until_they_expire() {
     let good = waiver("var-descriptions", "VAR-8", "fail", "9999-01-01");
     let cases: [(&str, String, &[&str], i32, &str); 7] = [
         ("used", good.clone(), &[], 0, "used: var-descriptions [VAR-8]"),
@@ -253,7 +253,7 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
             5,
             "fail expected, found pass",
         ),
-        // Of what was not selected nothing is known.
+        // The state of cases that were not selected is unknown.
         (
             "unknown",
             format!("{good}{}", waiver("com-count", "COM-1", "fail", "9999-01-01")),
@@ -271,7 +271,7 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
         let out = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}: {out}");
         assert!(out.contains(shown), "{name}: {out}");
-        // What fails nevertheless can be pasted into the file.
+        // An entry for each other failure is printed.
         let entry = "[[waiver]]\ntest = \"var-descriptions\"\nrequirement = \"VAR-8\"\nverdict = \"fail\"\n";
         assert_eq!(out.contains(entry), !out.contains("FAIL, WAIVED"), "{name}: {out}");
         assert_eq!(
@@ -282,7 +282,7 @@ fn known_failures_are_put_up_with_as_long_as_they_hold() {
 }
 
 #[test]
-fn a_bad_file_of_waivers_is_refused_with_its_line() {
+fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
     let good = waiver("a", "VAR-8", "fail", "2030-01-01");
     let cases = [
         ("gone", good.replace("\"a\"", "\"var-description\""), "did you mean var-descriptions"),

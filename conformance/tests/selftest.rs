@@ -1,4 +1,4 @@
-//! The suite tried on itself, by one of each kind; all of them are tried by the gate.
+//! The self-test with one trial of each kind; the gate runs all.
 
 use std::process::{Command, Output};
 
@@ -12,7 +12,7 @@ fn selftest(only: &[&str]) -> Output {
 }
 
 #[test]
-fn one_of_each_kind_comes_out_as_it_should() {
+fn one_trial_of_each_kind_has_its_result() {
     let each = [
         ("variable-description.size.flip", "codec", "caught"),
         ("cnc.var.handle-not-understood", "cnc", "caught"),
@@ -34,7 +34,7 @@ fn one_of_each_kind_comes_out_as_it_should() {
 }
 
 #[test]
-fn nothing_tried_is_no_success() {
+fn an_empty_selection_is_not_a_success() {
     let output = selftest(&["no-such-thing"]);
     assert_eq!(output.status.code(), Some(3));
 }

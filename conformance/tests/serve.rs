@@ -1,4 +1,4 @@
-//! `ads-cnc serve` as a person calls it, but for what it answers.
+//! `ads-cnc serve` as users call it, except its replies.
 
 mod common;
 
@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use common::{Serve, connect};
 
-/// ReadState of the COM task, and its answer.
+/// ReadState of the COM task, and its reply.
 const STATE: &[u8] = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
                        \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
 const RUN: &[u8] = b"\0\0\x28\0\0\0\x7f\0\0\x01\x01\x02\0\x80\x7f\0\0\x01\x01\x01\x29\x02\
@@ -22,10 +22,10 @@ fn works(serve: &Serve) -> std::net::TcpStream {
     stream
 }
 
-/// A signal ends it in order, with clients or without: exit code 0, and the log says so.
+/// A signal ends the process with exit code 0 and an entry in the log, with or without clients.
 #[cfg(unix)]
 #[test]
-fn an_interrupt_ends_it_cleanly() {
+fn a_signal_ends_the_server() {
     use std::time::{Duration, Instant};
 
     for (name, with_clients) in [("INT", false), ("INT", true), ("TERM", true), ("HUP", true)] {
@@ -43,19 +43,19 @@ fn an_interrupt_ends_it_cleanly() {
         assert_eq!(status.code(), Some(0));
         let mut log = String::new();
         serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
-        assert!(log.contains("interrupted"), "{log}");
+        assert!(log.contains("stopped by a signal"), "{log}");
         assert_eq!(log.contains("connected"), with_clients, "{log}");
         if let Some(client) = &mut client {
-            // The end, or a reset.
+            // The end of the stream, or a reset.
             assert!(matches!(client.read(&mut [0; 1]), Ok(0) | Err(_)));
         }
     }
 }
 
-/// What streaming ran can be read back from another process too.
+/// Another process can read the executed lines of a stream.
 #[cfg(unix)]
 #[test]
-fn what_was_run_is_written_in_the_end() {
+fn executed_lines_are_written_at_the_end() {
     use common::file::TestFile;
 
     let program = TestFile::new(".nc", b"N10 X1\nN20 X2\nN30 $FOR P1=0,10,1\nN40 X4\n");
@@ -81,9 +81,9 @@ fn what_was_run_is_written_in_the_end() {
     }
 }
 
-/// The log says why a connection ended, and of which client; other clients work on.
+/// The log contains the client and the reason for the end of a connection; other clients still work.
 #[test]
-fn the_log_says_why_a_connection_ended() {
+fn the_log_contains_the_end_of_a_connection() {
     let mut serve = Serve::logging(&["--idle", "1"]);
     let mut bad = works(&serve);
     let peer = bad.local_addr().unwrap().to_string();
@@ -102,7 +102,7 @@ fn the_log_says_why_a_connection_ended() {
     assert!(line(&silent).unwrap().contains("no request for 1 s"), "{log}");
 }
 
-/// What is logged is a matter of the filter.
+/// The filter determines the logged messages.
 #[test]
 fn logs_are_filtered() {
     for (filter, logged) in [
@@ -129,9 +129,9 @@ fn logs_are_filtered() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("info"));
 }
 
-/// Other machines reach it only if that is asked for, and then it says what that means.
+/// Other machines can connect only with an option, which causes a warning.
 #[test]
-fn other_machines_are_an_option() {
+fn other_machines_need_an_option() {
     let mut serve = Serve::logging(&["--listen", "0.0.0.0:0", "--allow-remote"]);
     let port = serve.addr.rsplit_once(':').unwrap().1.to_owned();
     serve.addr = format!("127.0.0.1:{port}");
@@ -142,9 +142,9 @@ fn other_machines_are_an_option() {
     assert!(log.contains("warning: 0.0.0.0:0 is not a loopback address"), "{log}");
 }
 
-/// What is wrong with an address says what would be right.
+/// The error for an invalid address contains a valid one.
 #[test]
-fn an_address_that_is_none_says_what_to_do() {
+fn an_invalid_address_is_rejected_with_advice() {
     let serve = |options: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
         let output = command.arg("serve").args(options).output().unwrap();
@@ -163,7 +163,7 @@ fn an_address_that_is_none_says_what_to_do() {
 }
 
 #[test]
-fn it_answers_for_another_net_id() {
+fn the_net_id_is_an_option() {
     let serve = Serve::start(&["--net-id", "10.0.0.1.1.1"]);
     assert_eq!(serve.net_id, "10.0.0.1.1.1");
 }

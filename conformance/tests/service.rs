@@ -1,4 +1,4 @@
-//! `ads-cnc service` as a person calls it, with an NC program that asks.
+//! `ads-cnc service` as users call it, with an NC program that sends requests.
 
 mod common;
 
@@ -23,10 +23,10 @@ use common::file::TestFile;
 const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 const OTHER: &str = "19719079-BA06-4740-BC02-DE5215211751";
 
-/// How long anything may take.
+/// Maximum time of any wait.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
-/// A CNC in this process, and the tool in another.
+/// A CNC in this process, and the tool in another process.
 struct Bench {
     cnc: Arc<Cnc>,
     server: Server,
@@ -59,7 +59,7 @@ impl Bench {
         self.cnc.with_service(2, then).unwrap()
     }
 
-    /// Asks as an NC program does, and waits for the response and its state.
+    /// Sends a request as an NC program does, and waits for the response and its state.
     fn ask(&self, id: &str, request: &str) -> (String, u32) {
         let (id, request) = (ServiceId::new(id).unwrap(), CncStr::new(request).unwrap());
         let mut call = ServiceCall::with_state(id, request, 7, SysServiceWait::default()).unwrap();
@@ -80,12 +80,12 @@ impl Bench {
                     call.poll();
                 }
                 CallStep::Done { state, response } => return (response.to_string(), state),
-                CallStep::TimedOut => panic!("there is no longest wait"),
+                CallStep::TimedOut => panic!("there is no maximum wait"),
             }
         }
     }
 
-    /// Asks once, with a tool that answers once.
+    /// Sends one request, with a tool that answers once.
     fn once(&self, options: &[&str], command: &[&str], request: &str) -> ((String, u32), Output) {
         let options = [&["--uuid", ID, "--once", "--poll", "5ms"], options].concat();
         let tool = self.tool(&options, command).spawn().unwrap();
@@ -104,16 +104,16 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A command that is there on every system: this project's own.
+/// A command that exists on every system: this project's own.
 const EXPLAIN: [&str; 5] =
     [env!("CARGO_BIN_EXE_ads-cnc"), "explain", "--stream", "variable-handle", "-"];
 
-/// In a shell of the system.
+/// A command for the shell of the system.
 fn shell<'a>(unix: &'a str, windows: &'a str) -> [&'a str; 3] {
     if cfg!(windows) { ["cmd", "/C", windows] } else { ["sh", "-c", unix] }
 }
 
-/// The request is on stdin, stdout the response, cut to what fits, exit code 0 the state 1.
+/// The request is on stdin; stdout becomes the truncated response, and exit code 0 the state 1.
 #[test]
 fn a_command_answers() {
     let ((response, state), output) = Bench::start().once(&[], &EXPLAIN, "04 00 00 02");
@@ -123,10 +123,10 @@ fn a_command_answers() {
     let (told, said) = (text(&output.stdout), text(&output.stderr));
     let line = format!("{ID} \"04 00 00 02\", state 7: \"Variable handle by name");
     assert!(told.starts_with(&line) && told.ends_with(", state 1\n"), "{told}");
-    assert!(said.contains("warning: the response is cut to 127 bytes"), "{said}");
+    assert!(said.contains("warning: the response is truncated to 127 bytes"), "{said}");
 }
 
-/// The manual's own example: an NC program of the simulated CNC asks for square roots.
+/// The manual's example: an NC program of the simulated CNC requests square roots.
 #[cfg(unix)]
 #[test]
 fn a_script_is_answered() {
@@ -144,21 +144,21 @@ fn a_script_is_answered() {
     );
 }
 
-/// Without a target a CNC is started that asks, and needs no file.
+/// Without a target, the command starts a simulated CNC that sends requests, and needs no file.
 #[test]
-fn a_simulated_cnc_asks_too() {
+fn a_simulated_cnc_sends_requests() {
     let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     tool.args(["service", "--uuid", ID, "--answers", "2", "--"]).args(EXPLAIN);
     let output = tool.output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    // Neither a number nor its negative is a handle.
+    // The command fails, because the numbers are not valid handles.
     assert_eq!(text(&output.stdout).matches(", state 2\n").count(), 2);
     let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     tool.args(["service", "--uuid", ID, "--channel", "7", "--once", "--", "echo"]);
     assert_eq!(tool.output().unwrap().status.code(), Some(2));
 }
 
-/// A failure is no success to the program: 1 is another state, the others are themselves.
+/// A failure does not look like success: exit code 1 becomes another state, other codes are unchanged.
 #[test]
 fn an_exit_code_is_the_state() {
     let bench = Bench::start();
@@ -169,7 +169,7 @@ fn an_exit_code_is_the_state() {
 }
 
 #[test]
-fn the_environment_says_who_is_asked() {
+fn the_environment_describes_the_request() {
     let echo = shell(
         "echo $ADS_CNC_UUID $ADS_CNC_REQUEST_STATE $ADS_CNC_CHANNEL",
         "echo %ADS_CNC_UUID% %ADS_CNC_REQUEST_STATE% %ADS_CNC_CHANNEL%",
@@ -178,7 +178,7 @@ fn the_environment_says_who_is_asked() {
     assert_eq!(answer, (format!("{ID} 7 2"), 1));
 }
 
-/// A command that does not end is ended, and the program told.
+/// A command that exceeds its time limit is ended, and the NC program receives an error.
 #[test]
 fn a_time_limit_ends_a_command() {
     let serve = [env!("CARGO_BIN_EXE_ads-cnc"), "serve", "--listen", "127.0.0.1:0"];
@@ -189,13 +189,13 @@ fn a_time_limit_ends_a_command() {
 }
 
 #[test]
-fn a_command_that_is_not_there_is_answered_for() {
+fn a_missing_command_is_answered_with_an_error() {
     let (answer, output) = Bench::start().once(&[], &["ads-cnc-no-such-command"], "");
     assert_eq!(answer, ("ERROR: command not started".to_owned(), 1004));
     assert!(text(&output.stderr).contains("ads-cnc-no-such-command"));
 }
 
-/// Several services share the command; other UUIDs are left alone.
+/// Several services share the command; requests to other UUIDs are ignored.
 #[test]
 fn several_services_share_a_command() {
     let bench = Bench::start();
@@ -216,10 +216,10 @@ fn several_services_share_a_command() {
     assert_eq!(text(&ended(tool).stdout).lines().count(), 3);
 }
 
-/// Without an entry that names the service of this channel it does not begin: an NC program would
-/// wait for an answer that may not be written.
+/// Without an entry for the service of this channel, the tool does not start: an NC program would wait
+/// for a response whose write is not allowed.
 #[test]
-fn an_entry_has_to_name_the_service() {
+fn the_service_needs_an_entry() {
     let mut bench = Bench::start();
     for table in ["", "[[service]]\nchannel = 1\n", "[[stream]]\nchannel = 2\n"] {
         bench.allow = TestFile::allowing(table);
@@ -230,9 +230,9 @@ fn an_entry_has_to_name_the_service() {
     }
 }
 
-/// A dry run shows what a request takes, and runs no command.
+/// A dry run shows the requests of a poll and an answer, and runs no command.
 #[test]
-fn a_dry_run_shows_what_an_answer_takes() {
+fn a_dry_run_shows_the_requests() {
     let mut bench = Bench::start();
     for (table, code, verdict) in
         [("[[service]]\nchannel = 2\n", 0, "would be sent"), ("", 4, "would be rejected")]
@@ -246,9 +246,9 @@ fn a_dry_run_shows_what_an_answer_takes() {
     }
 }
 
-/// Wrong usage is said before anything is asked.
+/// Wrong usage is reported before the first request.
 #[test]
-fn wrong_usage_is_said() {
+fn wrong_usage_is_rejected() {
     let bench = Bench::start();
     let short = &ID[..35];
     for options in [
@@ -265,9 +265,9 @@ fn wrong_usage_is_said() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// When the CNC is gone it ends with an error: it does not connect again.
+/// If the CNC has ended, the tool ends with an error.
 #[test]
-fn a_lost_connection_ends_it() {
+fn a_lost_connection_ends_the_service() {
     let bench = Bench::start();
     let mut tool = bench.tool(&["--uuid", ID], &["echo"]).spawn().unwrap();
     let mut stderr = BufReader::new(tool.stderr.take().unwrap());
@@ -278,16 +278,16 @@ fn a_lost_connection_ends_it() {
     assert_eq!(tool.wait().unwrap().code(), Some(3), "{said}");
 }
 
-/// Reads lines until one says so.
+/// Reads lines until one contains `what`.
 fn wait_for(what: &str, from: &mut impl BufRead) {
     let found = from.lines().map(Result::unwrap).any(|line| line.contains(what));
     assert!(found, "nothing says {what:?}");
 }
 
-/// A signal ends it, and what it runs is ended and answered for.
+/// A signal ends the service and its command, and the request is answered.
 #[cfg(unix)]
 #[test]
-fn a_signal_ends_it_cleanly() {
+fn a_signal_ends_the_service() {
     for name in ["INT", "TERM", "HUP", "QUIT"] {
         let bench = Bench::start();
         let mut tool = bench.tool(&["--uuid", ID], &["sleep", "1000"]).spawn().unwrap();
@@ -316,10 +316,10 @@ fn a_signal_ends_it_cleanly() {
     }
 }
 
-/// What the command has started ends with it, and holds nobody up.
+/// Processes that the command has started end with it and do not delay the answer.
 #[cfg(unix)]
 #[test]
-fn a_time_limit_ends_all_that_was_started() {
+fn a_time_limit_ends_all_processes_of_a_command() {
     let begun = Instant::now();
     let command = ["sh", "-c", "(sleep 1000; echo never) & sleep 1000"];
     let (answer, _) = Bench::start().once(&["--time-limit", "200ms"], &command, "");
@@ -327,19 +327,19 @@ fn a_time_limit_ends_all_that_was_started() {
     assert!(begun.elapsed() < WAIT_MAX);
 }
 
-/// A command may leave something running that holds its stdout: its answer is given all the same,
-/// and what holds it is ended.
+/// A command may leave a process that keeps its stdout open: the request is answered, and the process
+/// is ended.
 #[cfg(unix)]
 #[test]
-fn what_stays_behind_holds_nobody_up() {
+fn remaining_processes_do_not_delay_the_answer() {
     let ((response, state), output) =
         Bench::start().once(&[], &["sh", "-c", "sleep 1000 & echo $!"], "");
     assert_eq!(state, 1);
-    assert!(text(&output.stderr).contains("still had its stdout"));
+    assert!(text(&output.stderr).contains("kept its stdout open"));
     assert!(!runs(&response), "{response} runs");
 }
 
-/// Whether a process runs; one that has ended and that nobody has waited for does not.
+/// Whether a process runs; a zombie does not.
 #[cfg(unix)]
 fn runs(id: &str) -> bool {
     let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
@@ -347,10 +347,10 @@ fn runs(id: &str) -> bool {
     !state.trim().is_empty() && !state.trim_start().starts_with('Z')
 }
 
-/// What makes a session of its own is not ended; it costs a thread each, of which there are few.
+/// A process with its own session is not ended; each occupies a thread, whose number is limited.
 #[cfg(target_os = "linux")]
 #[test]
-fn what_leaves_the_group_is_bounded() {
+fn processes_in_own_sessions_are_limited() {
     let bench = Bench::start();
     let kept = TestFile::new(".txt", b"");
     let script = format!("setsid sleep 1000 & echo $! | tee -a {}", kept.path());
@@ -370,19 +370,19 @@ fn what_leaves_the_group_is_bounded() {
     assert_eq!((&states[..8], &states[8..], last), (&[1; 8][..], &[1004; 2][..], 1004), "{said}");
     assert!(threads <= 12, "{threads} threads");
     assert_eq!((status.code(), left.lines().count()), (Some(0), 8), "{said}");
-    assert!(said.contains("8 processes that earlier commands have started"), "{said}");
+    assert!(said.contains("8 processes started by earlier commands"), "{said}");
 }
 
-/// However much a command writes, it is not held up, and no more than fits is kept.
+/// A command may write any amount of output without blocking; only the beginning is stored.
 #[cfg(unix)]
 #[test]
-fn much_output_is_cut() {
+fn long_output_is_truncated() {
     let command = ["sh", "-c", "yes | head -c 10000000; kill -TERM $$"];
     let ((response, state), _) = Bench::start().once(&[], &command, "");
     assert_eq!((response.len(), state), (127, 1003));
 }
 
-/// Text goes both ways by its characters.
+/// Texts are converted between CP1252 and UTF-8 in both directions.
 #[cfg(unix)]
 #[test]
 fn text_is_utf8_to_the_command() {
@@ -390,7 +390,7 @@ fn text_is_utf8_to_the_command() {
     assert_eq!(answer, ("12,5 € für 2 m²".to_owned(), 1));
 }
 
-/// An answer that comes too late is dropped, and the next request served.
+/// A late answer is dropped, and the next request is served.
 #[cfg(unix)]
 #[test]
 fn a_late_answer_is_dropped() {
@@ -406,7 +406,7 @@ fn a_late_answer_is_dropped() {
     });
     wait_for("begun", &mut stderr);
     bench.with(ServiceInterface::reset);
-    wait_for("dropped, the request is no longer there", &mut stderr);
+    wait_for("dropped, because the request no longer exists", &mut stderr);
     assert_eq!(bench.ask(ID, "0"), ("0".to_owned(), 1));
     assert_eq!(text(&ended(tool).stdout).lines().count(), 1);
 }

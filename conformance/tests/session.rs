@@ -1,4 +1,4 @@
-//! What tools work with: typed questions, writes that are allowed, and what to do when nobody answers.
+//! Sessions: typed requests, allowed writes, and errors with advice if a device does not reply.
 
 mod common;
 
@@ -39,11 +39,11 @@ fn variable(name: &str) -> String {
     format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n")
 }
 
-/// A variable of the default model that may be written.
+/// A writable variable of the default model.
 const WRITABLE: &str = "V.E.test";
 
 #[test]
-fn what_is_allowed_is_written_and_nothing_else() {
+fn only_allowed_values_are_written() {
     let mut session = simulated(allowing(&variable(WRITABLE)));
     let value = [7, 0, 0, 0];
     let write = |name| WriteByName::new(channel(), name, &value[..]).unwrap();
@@ -64,7 +64,7 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
     let write =
         |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0][..]);
-    // A description has to have it too.
+    // A description must also contain the handle.
     assert!(matches!(session.call(&write(handle)), Err(ToolError::Refused(_))));
     session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();
     session.call(&write(handle)).unwrap();
@@ -72,7 +72,7 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
 }
 
 #[test]
-fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
+fn a_named_object_is_written_after_reading_its_list() {
     const NAME: &str = "mc_command_single_block_w";
     let mut session = simulated(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
     let count = session.call(&CountObjects::new(channel())).unwrap().0;
@@ -90,7 +90,7 @@ fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
 }
 
 #[test]
-fn an_error_of_the_cnc_is_told_with_its_meaning() {
+fn an_error_of_the_cnc_contains_its_meaning() {
     let mut session = simulated(Gate::queries());
     let read = ReadByName::new(channel(), "V.E.nothing_there").unwrap();
     let error = session.call(&read).unwrap_err();
@@ -100,7 +100,7 @@ fn an_error_of_the_cnc_is_told_with_its_meaning() {
 }
 
 #[test]
-fn a_dry_run_goes_through_writes_and_stops_at_questions() {
+fn a_dry_run_continues_after_writes_and_stops_at_queries() {
     let gate = allowing(&variable(WRITABLE));
     let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
     let mut session = Session::dry(nobody, gate).unwrap();
@@ -113,7 +113,7 @@ fn a_dry_run_goes_through_writes_and_stops_at_questions() {
     assert!(matches!(session.call(&read), Err(ToolError::NotSent)));
 }
 
-/// A listener that does this with its first connections, the same with each.
+/// A listener that handles each of its first connections with this function.
 fn device(with: fn(TcpStream)) -> Target {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let addr = listener.local_addr().unwrap();
@@ -129,9 +129,9 @@ fn ask(target: Target) -> (Exit, String) {
     (error.exit(), error.to_string())
 }
 
-/// Each way in which a device can be out of reach says what to do about it.
+/// The error for each kind of unreachable device contains advice.
 #[test]
-fn who_does_not_answer_is_told_apart() {
+fn unreachable_devices_are_distinguished() {
     let gone: TcpListener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let nobody = Target::local(gone.local_addr().unwrap(), NET_ID);
     drop(gone);
@@ -142,10 +142,10 @@ fn who_does_not_answer_is_told_apart() {
     // A route is missing.
     let (exit, text) = ask(device(drop));
     assert_eq!(exit, Exit::Nothing);
-    let parts = ["closed the connection without an answer", "route", "127.0.0.1.1.2"];
+    let parts = ["closed the connection without a reply", "route", "127.0.0.1.1.2"];
     assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 
-    // It takes the request and is silent.
+    // The device receives the request and does not reply.
     let (exit, text) = ask(device(|stream| {
         thread::spawn(move || {
             thread::sleep(Duration::from_secs(5));
@@ -153,19 +153,19 @@ fn who_does_not_answer_is_told_apart() {
         });
     }));
     assert_eq!(exit, Exit::Nothing);
-    let parts = ["does not answer within 200 ms", "192.0.2.7.1.1", "--source-net-id"];
+    let parts = ["does not reply within 200 ms", "192.0.2.7.1.1", "--source-net-id"];
     assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 
-    // Something else listens there.
+    // Another kind of server listens.
     let (exit, text) = ask(device(|mut stream| {
         let _asked = stream.read(&mut [0; 64]);
         let _answered = stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n");
         thread::sleep(Duration::from_millis(50));
     }));
     assert_eq!(exit, Exit::Nothing);
-    assert!(text.contains("does not speak AMS/TCP"), "{text}");
+    assert!(text.contains("does not use AMS/TCP"), "{text}");
 
-    // The NetId is another's.
+    // The device has another NetId.
     let serve = Serve::start(&[]);
     let addr = serve.addr.parse().unwrap();
     let (exit, text) = ask(Target::local(addr, AmsNetId([1, 2, 3, 4, 1, 1])));
@@ -173,7 +173,7 @@ fn who_does_not_answer_is_told_apart() {
     assert!(text.contains("0x7") && text.contains("--net-id"), "{text}");
 }
 
-/// A write is sent once, whatever becomes of its connection.
+/// A write is sent only once, even if the connection is lost.
 #[test]
 fn a_write_is_not_repeated() {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
@@ -193,9 +193,9 @@ fn a_write_is_not_repeated() {
     assert!(len > 38 && !again);
 }
 
-/// No more requests in a second than asked for.
+/// The number of requests per second does not exceed the rate.
 #[test]
-fn requests_keep_their_pace() {
+fn the_rate_of_requests_is_limited() {
     let serve = Serve::start(&[]);
     let pace = Duration::from_millis(40);
     let target = Target { pace, ..Target::local(serve.addr.parse().unwrap(), NET_ID) };
@@ -207,7 +207,7 @@ fn requests_keep_their_pace() {
     assert!(begun.elapsed() >= 5 * pace);
 }
 
-/// What a device says of itself, as bytes: to each request the same data, or an AMS error.
+/// A device that answers each request with the same data, or an AMS error.
 fn saying(error: u8, data: &'static [u8]) -> Session {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let target = Target::local(listener.local_addr().unwrap(), NET_ID);
@@ -228,7 +228,7 @@ fn saying(error: u8, data: &'static [u8]) -> Session {
 }
 
 #[test]
-fn a_device_says_what_it_is() {
+fn device_information_is_read() {
     let info = b"\0\0\0\0\x03\x01\xF1\x0BFr\xE4se 1\0\0\0\0\0\0\0\0\0";
     let info = saying(0, info).device_info(Task::Geo).unwrap();
     assert_eq!((info.major, info.minor, info.build), (3, 1, 3057));
@@ -236,7 +236,7 @@ fn a_device_says_what_it_is() {
     let state = saying(0, &[0, 0, 0, 0, 15, 0, 1, 0]).device_state(Task::Com).unwrap();
     assert_eq!((state.ads_state, state.device_state), (AdsState::CONFIG, 1));
 
-    // Each task of the simulated CNC says the same.
+    // Each task of the simulated CNC has the same information.
     let mut session = simulated(Gate::queries());
     for task in [Task::Geo, Task::Sda, Task::Com] {
         assert_eq!(session.device_info(task).unwrap().name(), "ads-cnc serve");
@@ -244,24 +244,24 @@ fn a_device_says_what_it_is() {
     }
 }
 
-/// A refusal, with all fields or without (ADS-6), an AMS error, and what is no reply.
+/// An error with or without the other fields (ADS-6), an AMS error, and invalid replies.
 #[test]
-fn a_device_need_not_say_what_it_is() {
+fn missing_device_information_is_an_error() {
     for data in [&[1, 7, 0, 0][..], &[1, 7, 0, 0, 0, 0, 0, 0]] {
         let error = saying(0, data).device_state(Task::Com).unwrap_err();
         assert_eq!(error.ads_error(), Some(AdsError::SERVICE_NOT_SUPPORTED));
         assert_eq!(error.exit(), Exit::Failure);
-        assert_eq!(error.to_string(), "the device refuses ReadState with 0x701");
+        assert_eq!(error.to_string(), "the device rejects ReadState with 0x701");
     }
     let error = saying(6, &[]).device_info(Task::Com).unwrap_err();
     assert_eq!(error.exit(), Exit::Nothing);
     assert!(error.to_string().contains("AMS port 553"), "{error}");
-    // Success without its fields, and the other command's reply.
+    // A success without its fields, and the reply to the other command.
     for data in [&[0; 4][..], &[0, 0, 0, 0, 5, 0, 0, 0]] {
         let error = saying(0, data).device_info(Task::Com).unwrap_err();
         assert!(error.to_string().contains("device-info-reply: "), "{error}");
     }
-    // Nothing is sent in a dry run.
+    // A dry run sends nothing.
     let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
     let mut session = Session::dry(nobody, Gate::queries()).unwrap();
     assert!(matches!(session.device_info(Task::Com), Err(ToolError::NotSent)));

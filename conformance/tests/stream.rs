@@ -1,4 +1,4 @@
-//! `ads-cnc stream` as a person calls it.
+//! `ads-cnc stream` as users call it.
 
 mod common;
 
@@ -20,7 +20,7 @@ use common::file::TestFile;
 
 const STREAM_1: &str = "[[stream]]\nchannel = 1\n";
 
-/// What the CNC gives for what it cannot take now.
+/// The reply of a CNC that is busy.
 const BUSY: Answer = Answer::Result(AdsError::INVALID_DATA);
 
 fn tool(file: &str, options: &[&str]) -> Command {
@@ -46,13 +46,13 @@ fn code(output: &Output) -> i32 {
     output.status.code().unwrap()
 }
 
-/// 1000 lines that end in LF. With CR LF 10 have 12 bytes, 90 have 14 and 900 have 16: packets of 72,
-/// 65, 13 times 62 and 57 lines, more than the interface holds.
+/// 1000 lines that end in LF. With CR LF, 10 lines have 12 bytes, 90 have 14 and 900 have 16. This
+/// makes packets of 72, 65, 13 times 62, and 57 lines, which do not fit into the interface.
 fn program() -> String {
     (0..1000).map(|line| format!("N{line}0 G01 X{line}\n")).collect()
 }
 
-/// Keeps the packets it was sent.
+/// A CNC that stores the packets it receives.
 fn kept(mut answer: impl FnMut(usize) -> Answer + Send + 'static) -> (SocketAddr, Packets) {
     let packets = Packets::default();
     let keep = Arc::clone(&packets);
@@ -68,9 +68,9 @@ type Packets = Arc<Mutex<Vec<(u8, Vec<u8>)>>>;
 
 const OK: Answer = Answer::Result(AdsError::NO_ERROR);
 
-/// Through an interface that is full at times, everything arrives, once and in order.
+/// Although the interface is sometimes full, each line arrives once and in order.
 #[test]
-fn a_program_arrives_whole() {
+fn a_program_arrives_completely() {
     let ran = Arc::new(Mutex::new(Vec::new()));
     let (runs, mut cnc, mut writes) = (Arc::clone(&ran), StreamingInterface::new(), 0);
     let addr = fake(move |_, packet| {
@@ -95,14 +95,14 @@ fn a_program_arrives_whole() {
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert_eq!(text(&ran.lock().unwrap()), program.replace('\n', "\r\n"));
-    assert!(shown.contains(": channel 1 has taken lines 1 to 1000 in 16 packets, "), "{shown}");
-    assert!(shown.contains(" refusals for the time being"), "{shown}");
+    assert!(shown.contains(": channel 1 accepted lines 1 to 1000 in 16 packets, "), "{shown}");
+    assert!(shown.contains(" rejections as busy"), "{shown}");
     assert!(!shown.contains("not "), "{shown}");
 }
 
-/// What is refused for now again and again is given up, with the lines that are left.
+/// The tool gives up a packet that is rejected as busy too often, and reports the remaining lines.
 #[test]
-fn a_packet_is_given_up() {
+fn retries_are_limited() {
     let (addr, packets) = kept(|count| if count == 1 { OK } else { BUSY });
     let allow = TestFile::allowing(STREAM_1);
     let options = ["--retry-after", "1ms", "--retries", "3"];
@@ -110,57 +110,60 @@ fn a_packet_is_given_up() {
     let (shown, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(code(&output), 1, "{said}");
     let packets = packets.lock().unwrap();
-    // One taken, one sent and sent again three times.
+    // One packet is accepted, and one is sent once and then again three times.
     assert_eq!(packets.len(), 5);
     assert!(packets[1..].iter().all(|packet| *packet == packets[1]));
-    assert!(shown.contains("has taken lines 1 to 72 in 1 packet, "), "{shown}");
-    assert!(shown.ends_with("\n  not sent or not taken: lines 73 to 1000\n"), "{shown}");
-    assert!(said.contains("given up") && said.contains("--retries"), "{said}");
+    assert!(shown.contains("accepted lines 1 to 72 in 1 packet, "), "{shown}");
+    assert!(shown.ends_with("\n  not sent or not accepted: lines 73 to 1000\n"), "{shown}");
+    assert!(said.contains("gave up") && said.contains("--retries"), "{said}");
 }
 
-/// What is refused for good is not repeated.
+/// A packet that is rejected with another error is not sent again.
 #[test]
-fn a_lasting_refusal_stops() {
+fn another_error_ends_the_stream() {
     let refused = Answer::Result(AdsError::INVALID_OFFSET);
     let (addr, packets) = kept(move |_| refused);
     let allow = TestFile::allowing(STREAM_1);
     let output = stream(b"N10 G0 X0\nN20 M30\n", addr, &allow, &[]);
     let (shown, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!((code(&output), packets.lock().unwrap().len()), (1, 1), "{said}");
-    assert!(shown.contains("has taken nothing\n  not sent or not taken: lines 1 to 2"), "{shown}");
+    assert!(
+        shown.contains("accepted nothing\n  not sent or not accepted: lines 1 to 2"),
+        "{shown}"
+    );
     assert!(said.contains("\"data streaming\" with 0x703"), "{said}");
 }
 
-/// A packet whose answer never comes may have been taken: it is not sent again.
+/// A packet without a reply may have been accepted, so it is not sent again.
 #[test]
-fn a_packet_without_an_answer_is_not_repeated() {
+fn a_packet_without_a_reply_is_not_repeated() {
     for lost in [Answer::Silence, Answer::Close] {
         let (addr, packets) = kept(move |count| if count == 2 { lost } else { OK });
         let allow = TestFile::allowing(STREAM_1);
         let output = stream(program().as_bytes(), addr, &allow, &["--timeout", "300"]);
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "{said}");
-        let left = "\n  not known whether it was taken: lines 73 to 137\
-                    \n  not sent or not taken: lines 138 to 1000\n";
+        let left = "\n  unknown whether accepted: lines 73 to 137\
+                    \n  not sent or not accepted: lines 138 to 1000\n";
         assert!(shown.ends_with(left), "{shown}");
         assert!(said.contains("not sent again"), "{said}");
     }
 }
 
-/// A reply with a wrong invoke ID does not say whether the packet was taken.
+/// A reply with a wrong invoke ID does not show whether the packet was accepted.
 #[test]
-fn a_packet_with_a_wrong_reply_may_have_been_taken() {
+fn a_packet_with_a_wrong_reply_may_have_been_accepted() {
     let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
     let allow = TestFile::allowing(STREAM_1);
     let output = stream(b"X1\nX2\n", serve.addr.parse().unwrap(), &allow, &[]);
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 1, "{}", text(&output.stderr));
-    assert!(shown.contains("not known whether it was taken: lines 1 to 2"), "{shown}");
+    assert!(shown.contains("unknown whether accepted: lines 1 to 2"), "{shown}");
 }
 
-/// A faulty program is not begun. What only seems to end streaming can be sent all the same.
+/// No part of an invalid program is sent. With an option, lines that end streaming are sent.
 #[test]
-fn a_faulty_program_is_not_begun() {
+fn an_invalid_program_is_not_sent() {
     let (addr, packets) = kept(|_| OK);
     let allow = TestFile::allowing(STREAM_1);
     for (program, said) in [
@@ -187,9 +190,9 @@ fn a_faulty_program_is_not_begun() {
     assert_eq!(packets[..], [(1, b"N10 $FOR P1=0,10,1\r\nN20 M30\r\nN30 X1\r\n".to_vec())]);
 }
 
-/// Nothing leaves without an entry that names the stream of this channel.
+/// Nothing is sent without an entry for the stream of this channel.
 #[test]
-fn an_entry_has_to_name_the_stream() {
+fn the_stream_needs_an_entry() {
     let (addr, packets) = kept(|_| OK);
     for table in ["", "[[stream]]\nchannel = 2\n", "[[service]]\nchannel = 1\n"] {
         let allow = TestFile::allowing(table);
@@ -202,7 +205,7 @@ fn an_entry_has_to_name_the_stream() {
     let addr = addr.to_string();
     let options = ["--target", &addr, "--net-id", "127.0.0.1.1.1"];
     assert_eq!(code(&tool(file.path(), &options).output().unwrap()), 4);
-    // A simulated CNC needs no file, but heeds one.
+    // A simulated CNC needs no file, but a file applies to it.
     let allow = TestFile::allowing("");
     assert_eq!(code(&tool(file.path(), &["--allow-write", allow.path()]).output().unwrap()), 4);
     assert_eq!(code(&tool(file.path(), &[]).output().unwrap()), 0);
@@ -232,7 +235,7 @@ fn a_dry_run_shows_the_packets() {
 }
 
 #[test]
-fn a_program_comes_from_stdin_too() {
+fn a_program_may_come_from_stdin() {
     let (addr, packets) = kept(|_| OK);
     let allow = TestFile::allowing(STREAM_1);
     let mut command = tool("-", &to(&addr.to_string(), &allow));
@@ -240,14 +243,14 @@ fn a_program_comes_from_stdin_too() {
     process.stdin.take().unwrap().write_all(b"N10 M30").unwrap();
     let output = process.wait_with_output().unwrap();
     assert_eq!(code(&output), 0);
-    assert!(text(&output.stdout).starts_with("stdin: channel 1 has taken line 1 in 1 packet, "));
+    assert!(text(&output.stdout).starts_with("stdin: channel 1 accepted line 1 in 1 packet, "));
     assert_eq!(packets.lock().unwrap()[..], [(1, b"N10 M30\r\n".to_vec())]);
 }
 
-/// A signal while it waits: what was sent and what was not.
+/// After a signal during a wait, the summary contains the sent and unsent lines.
 #[cfg(unix)]
 #[test]
-fn a_signal_says_what_was_sent() {
+fn a_signal_ends_the_stream_with_a_summary() {
     for name in ["INT", "TERM", "HUP", "QUIT"] {
         let (tell, told) = std::sync::mpsc::channel();
         let (addr, packets) = kept(move |count| {
@@ -269,16 +272,16 @@ fn a_signal_says_what_was_sent() {
         let output = process.wait_with_output().unwrap();
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "SIG{name}: {said}");
-        assert!(shown.contains("has taken lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
-        let left = "\n  not sent or not taken: lines 73 to 1000\n";
+        assert!(shown.contains("accepted lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
+        let left = "\n  not sent or not accepted: lines 73 to 1000\n";
         assert!(shown.ends_with(left), "SIG{name}: {shown}");
         assert!(said.contains("interrupted"), "SIG{name}: {said}");
     }
 }
 
-/// A slow CNC runs every line once, in order.
+/// A slow CNC executes every line once and in order.
 #[test]
-fn a_slow_cnc_runs_every_line_once() {
+fn a_slow_cnc_executes_every_line_once() {
     let cnc = Arc::new(Cnc::with_default_model().unwrap());
     let pace = Pace::lines_per_second(2000).unwrap();
     cnc.set_program(1, ProgramConfig { pace, ..ProgramConfig::default() }).unwrap();
@@ -288,8 +291,8 @@ fn a_slow_cnc_runs_every_line_once() {
     let output = stream(program().as_bytes(), server.addr(), &allow, &["--retry-after", "10ms"]);
     let shown = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-    assert!(shown.contains("has taken lines 1 to 1000 in 16 packets"), "{shown}");
-    assert!(shown.contains(" for the time being"), "{shown}");
+    assert!(shown.contains("accepted lines 1 to 1000 in 16 packets"), "{shown}");
+    assert!(shown.contains(" rejections as busy"), "{shown}");
     let begun = Instant::now();
     let executed = loop {
         let executed = cnc.with_program(1, |program| program.executed().clone()).unwrap();

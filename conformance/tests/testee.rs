@@ -1,5 +1,5 @@
-//! Codecs over the testee protocol: this project's own, with and without a defect, and miniatures
-//! that misbehave as a whole.
+//! Codecs over the testee protocol: this project's codec, with and without a defect, and miniatures
+//! that misbehave in every case.
 
 mod common;
 
@@ -23,7 +23,7 @@ fn cases() -> Vec<Case> {
     suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
 }
 
-/// Few enough for a testee that has to be started anew again and again.
+/// A few cases, for a testee that must be restarted often.
 fn some() -> Vec<Case> {
     let every = cases().into_iter().enumerate().filter(|(place, _)| place % 25 == 0);
     every.map(|(_, case)| case).collect()
@@ -33,7 +33,7 @@ fn own() -> String {
     format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"))
 }
 
-/// A machine that does much else answers late.
+/// Time limit of an answer; a busy machine answers late.
 const WAIT_MAX: Duration = Duration::from_secs(20);
 
 fn process(arguments: &str) -> TesteeProcess {
@@ -61,7 +61,7 @@ fn exit(judged: &JudgedTestee) -> Exit {
 }
 
 #[test]
-fn the_own_codec_passes_over_pipes_as_in_the_process() {
+fn this_codec_passes_over_pipes_and_in_process() {
     let mut over_pipes = process("");
     let piped = judge(&mut over_pipes, cases(), OF_A_TESTEE);
     let mut own = CodecTestee::default();
@@ -78,7 +78,7 @@ fn the_own_codec_passes_over_pipes_as_in_the_process() {
 }
 
 #[test]
-fn the_order_comes_from_the_seed_and_does_not_matter() {
+fn the_seed_determines_only_the_order() {
     let with = |seed| {
         let mut own = CodecTestee::default();
         let judged = judge(&mut own, cases(), Terms { seed, ..OF_A_TESTEE });
@@ -87,11 +87,11 @@ fn the_order_comes_from_the_seed_and_does_not_matter() {
     assert_eq!(with(1), with(2));
 }
 
-/// Each miniature, and whether it is seen through by the protocol or by requirements.
+/// Each miniature fails either the protocol or requirements.
 #[test]
-fn miniatures_are_seen_through() {
+fn miniatures_fail() {
     for miniature in Miniature::ALL {
-        // What these two are about is how long they take.
+        // These two miniatures test the time limit.
         let timeout = match miniature {
             Miniature::Hangs => Duration::from_secs(1),
             Miniature::Stays => Duration::from_secs(5),
@@ -129,7 +129,7 @@ fn miniatures_are_seen_through() {
 }
 
 #[test]
-fn what_is_refused_for_another_reason_is_vacuous() {
+fn a_rejection_for_another_reason_is_vacuous() {
     let is_cut = |case: &Case| case.title.contains("cut");
     let cut: Vec<Case> = cases().into_iter().filter(is_cut).take(20).collect();
     assert!(cut.len() > 10);
@@ -146,7 +146,7 @@ fn what_is_refused_for_another_reason_is_vacuous() {
 }
 
 #[test]
-fn what_is_not_claimed_is_not_applicable() {
+fn unclaimed_operations_are_not_applicable() {
     let mut process = process("--miniature decodes-only");
     let judged = judge(&mut process, cases(), OF_A_TESTEE);
     let of = |id: &str| judged.outcomes.iter().find(|one| one.case.id == id).unwrap();
@@ -157,7 +157,7 @@ fn what_is_not_claimed_is_not_applicable() {
 }
 
 #[test]
-fn a_field_done_wrong_fails_its_requirement() {
+fn a_wrong_field_fails_its_requirement() {
     for (id, requirement) in [
         ("variable-description.size.flip", "VAR-8"),
         ("variable-handle-read.indices.swap", "VAR-11"),
@@ -172,7 +172,7 @@ fn a_field_done_wrong_fails_its_requirement() {
 }
 
 #[test]
-fn what_cannot_be_started_fails_by_the_protocol_alone() {
+fn a_failed_start_fails_only_the_protocol() {
     for command in ["ads-cnc-no-such-command", "exit 3"] {
         let mut process = TesteeProcess::new(command, Duration::from_millis(500));
         assert!(process.hello().is_err());
@@ -185,7 +185,7 @@ fn what_cannot_be_started_fails_by_the_protocol_alone() {
 }
 
 #[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
-/// The shell starts `ads-cnc serve` as a child of its own, which ends with the shell.
+/// The shell starts `ads-cnc serve` as a child process, which ends with the shell.
 #[test]
 fn a_command_ends_with_the_processes_it_started() {
     let mut command = shell(&format!(
@@ -205,7 +205,7 @@ fn a_command_ends_with_the_processes_it_started() {
     }
 }
 
-/// Testees that are a line of shell.
+/// Testees in one line of shell.
 #[cfg(unix)]
 mod shell {
     use ads_cnc_conformance::testee::{
@@ -214,7 +214,7 @@ mod shell {
 
     use super::WAIT_MAX;
 
-    /// A testee in shell that claims these ops and says a line to each case.
+    /// A testee in shell that claims these operations and answers each case with a line.
     fn shell(ops: &str, line: &str) -> TesteeProcess {
         let testee = r#""testee":{"name":"sh"}"#;
         let hello =
@@ -224,17 +224,17 @@ mod shell {
         TesteeProcess::new(command, WAIT_MAX)
     }
 
-    /// What it makes of the first case, whose number is 1.
+    /// The reaction to an answer to the first case, whose number is 1.
     fn says(line: &str) -> TesteeReaction {
         shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
     }
 
-    /// Whoever tries an adapter at a terminal sees what it says, and nothing of it acts.
+    /// The check of the protocol shows the lines of an adapter, escaped for a terminal.
     #[test]
-    fn the_protocol_is_checked_in_plain_text() {
+    fn the_protocol_check_escapes_lines() {
         let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
         let all = format!("{findings:#?}");
-        // Nothing is sent after a hello with an unknown op.
+        // Nothing is sent after a hello with an unknown operation.
         assert_eq!(findings.len(), 1, "{all}");
         let shown = |text: &Option<String>| text.clone().unwrap_or_default();
         for finding in &findings {
@@ -244,9 +244,9 @@ mod shell {
         assert!(findings.iter().any(|one| shown(&one.fault).contains(r"\u{1b}[2J\u{7}")), "{all}");
     }
 
-    /// An answer is one of the four, and text.
+    /// An answer has exactly one of the four forms, and is text.
     #[test]
-    fn two_answers_in_one_are_none() {
+    fn an_answer_has_exactly_one_form() {
         assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), TesteeReaction::Answer(_)));
         for (line, why) in [
             (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are given"),
@@ -266,9 +266,9 @@ mod shell {
         }
     }
 
-    /// Behind the last answer too.
+    /// Additional lines are reported, also after the last answer.
     #[test]
-    fn what_nobody_asked_for_is_told() {
+    fn additional_lines_are_reported() {
         for (line, is_right) in
             [(r#"{"seq":1,"ok":{}}"#, true), (r#"{"seq":1,"ok":{}}\n{"seq":1,"ok":{}}"#, false)]
         {

@@ -1,4 +1,4 @@
-//! `ads-cnc browse`, `get` and `set` as a person calls them.
+//! `ads-cnc browse`, `get` and `set` as users call them.
 
 mod common;
 
@@ -17,7 +17,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// What is written to either side, with the call before and the exit code behind it.
+/// The call, its stdout and stderr, and the exit code.
 fn shown(calls: &[&[&str]]) -> String {
     let mut all = String::new();
     for args in calls {
@@ -29,7 +29,7 @@ fn shown(calls: &[&[&str]]) -> String {
     all
 }
 
-/// A served CNC, and calls that go to it.
+/// A served CNC, and calls with it as the target.
 struct Device(Serve);
 
 impl Device {
@@ -49,7 +49,7 @@ impl Device {
     }
 }
 
-/// A file of this process, gone when it is dropped.
+/// A file of this process that is removed when dropped.
 struct Temporary(PathBuf);
 
 impl Temporary {
@@ -140,7 +140,7 @@ fn values_are_shown() {
 }
 
 #[test]
-fn what_cannot_be_read_says_what_to_do() {
+fn failed_reads_have_advice() {
     insta::assert_snapshot!(
         "get-troubles",
         shown(&[
@@ -192,7 +192,7 @@ fn values_are_set_in_the_simulated_cnc() {
 }
 
 #[test]
-fn what_cannot_be_set_says_why() {
+fn failed_writes_have_a_reason() {
     insta::assert_snapshot!(
         "set-troubles",
         shown(&[
@@ -212,15 +212,15 @@ fn what_cannot_be_set_says_why() {
     );
 }
 
-/// A channel that is not there is no other's fault, and one that is named twice is one.
+/// A channel that does not exist does not affect others, and a channel may be named twice.
 #[test]
-fn channels_are_what_is_there() {
+fn missing_channels_are_reported() {
     let browse = |args: &[&str]| {
         let output = ads_cnc(&[&["browse", "--filter", "feedhold", "--channel"], args].concat());
         (text(&output.stdout).lines().count(), text(&output.stderr))
     };
     let listed = browse(&["1,1,6"]);
-    let simulated = "ads-cnc: simulated CNC, no machine: --target is not given\n";
+    let simulated = "ads-cnc: using a simulated CNC, because --target is not given\n";
     assert_eq!(listed, (3, simulated.to_owned()));
     let listed = browse(&["9,1"]);
     assert_eq!(
@@ -229,9 +229,9 @@ fn channels_are_what_is_there() {
     );
 }
 
-/// A CNC that does not describe variables by name has them all the same.
+/// On a CNC without descriptions by name, variables are found by index.
 #[test]
-fn older_cncs_are_asked_by_index() {
+fn older_cncs_are_queried_by_index() {
     let device = Device::start(&["--cnc-version", "V3.1.3131.0"]);
     assert_eq!(device.value(&["V.E.matrix[1][2]"]), "23");
     assert_eq!(device.value(&["V.G.NP[1].V"]), "4.0,5.0,6.0");
@@ -239,9 +239,9 @@ fn older_cncs_are_asked_by_index() {
     assert_eq!(device.value(&["V.CYC.count", "--type", "UNS32"]), "42");
 }
 
-/// A device is written to only what a file names. The refusal has all that the file needs.
+/// Only values in a file are written to a device. The error for another write contains its entry.
 #[test]
-fn a_device_is_written_what_a_file_names() {
+fn writes_to_a_device_need_an_entry() {
     let device = Device::start(&[]);
     let cases: [(&str, &[&str], &str, &str); 6] = [
         ("V.E.test[4]", &[], "567", "-1"),
@@ -279,14 +279,14 @@ fn a_device_is_written_what_a_file_names() {
         assert_eq!(text(&output.stderr), "");
         assert_eq!(device.value(&get), new, "{name}");
 
-        // It names this and nothing else.
+        // The entry allows only this value.
         let other = ["set", "V.E.uns32", "1", "--allow-write", file.path()];
         assert_eq!(device.call(&other).status.code(), Some(4));
         assert_eq!(device.value(&["V.E.uns32"]), "4294967295");
     }
 }
 
-/// An entry may have the name of an object; its place the tool finds out.
+/// An entry may contain the name of an object, whose address the tool finds.
 #[test]
 fn an_object_is_allowed_by_its_name() {
     let device = Device::start(&[]);
@@ -301,9 +301,9 @@ fn an_object_is_allowed_by_its_name() {
     assert_eq!(device.call(&other).status.code(), Some(4));
 }
 
-/// A file that is for another device, or that expired yesterday, allows nothing.
+/// A file for another device, or an expired file, allows nothing.
 #[test]
-fn a_file_is_for_one_device_and_some_time() {
+fn a_file_applies_to_one_device_until_it_expires() {
     let device = Device::start(&[]);
     for (target, expires) in
         [("192.0.2.7.1.1", "9999-12-31T23:59:59Z"), ("127.0.0.1.1.1", "2020-01-01T00:00:00Z")]
@@ -315,27 +315,27 @@ fn a_file_is_for_one_device_and_some_time() {
         let file = Temporary::new(&format!("not-{}", &expires[..4]), &file);
         let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
         assert_eq!(device.call(&set).status.code(), Some(4));
-        // The simulated CNC is bound to a file too, if there is one.
+        // A file also applies to the simulated CNC.
         assert_eq!(ads_cnc(&set).status.code(), Some(4));
     }
     assert_eq!(device.value(&["V.E.vartest"]), "4711");
 }
 
-/// A device lists the same as the simulated CNC, which has the same model.
+/// A device with the same model as the simulated CNC has the same lists.
 #[test]
 fn a_device_is_browsed() {
     let device = Device::start(&[]);
     let output = device.call(&["browse", "--exact"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout), text(&ads_cnc(&["browse"]).stdout));
-    // What belongs to the simulated CNC is no device's.
+    // Options of the simulated CNC are rejected with a target.
     let output = device.call(&["browse", "--cnc-version", "V4.29.0"]);
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// The tables as JSON, by their schema; the other text has the same streams.
+/// The tables as JSON match their schema; the text contains the same streams.
 #[test]
-fn tables_keep_to_their_schema() {
+fn tables_match_their_schema() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/tables.schema.json");
     let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
@@ -350,7 +350,7 @@ fn tables_keep_to_their_schema() {
 }
 
 #[test]
-fn json_keeps_to_its_schema() {
+fn json_matches_its_schema() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/objects.schema.json");
     let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
@@ -373,9 +373,9 @@ fn json_keeps_to_its_schema() {
     }
 }
 
-/// What a device has in its texts moves no terminal and is no formula, in every form.
+/// Texts of a device are escaped for terminals and spreadsheets in every format.
 #[test]
-fn texts_of_a_device_do_not_act() {
+fn texts_of_a_device_are_escaped() {
     let model = text(&ads_cnc(&["serve", "--print-model"]).stdout);
     let unit = "name = \"example.block\", type = \"SGN32\", unit = \"";
     assert!(model.contains(&format!("{unit}-\"")));

@@ -1,5 +1,5 @@
-//! What leaves for a target by default changes nothing there. A CNC behind a tripwire takes down
-//! every frame, and each is judged here by its bytes alone: no codec and no gate stands in between.
+//! By default, the tools change nothing on a target. A proxy in front of a CNC records every frame, and
+//! the test judges each frame only by its bytes, independent of the codec and the gate.
 
 mod common;
 
@@ -15,11 +15,11 @@ use ads_cnc_conformance::simulator::{Cnc, Server};
 use common::connect;
 use common::harmless::{is_harmless, number};
 
-/// The tools that talk to a target, as they are called by default: a new one is added here. With
-/// each the exit code, and whether it asks anything at all before it is refused.
+/// The commands that connect to a target, called without permission; add a new command here. Each has
+/// the exit code, and whether it sends queries before a rejection.
 const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["run"], 0, true),
-    // Any text in ASCII is an NC program.
+    // Any ASCII text is an NC program.
     (&["stream", concat!(env!("CARGO_MANIFEST_DIR"), "/LICENSE-MIT")], 4, false),
     (&["service", "--uuid", "560AACBF-6335-44a9-895A-8B27F3ED5E47", "--", "echo"], 4, false),
     (&["browse", "--content", "--exact"], 0, true),
@@ -34,7 +34,7 @@ const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["set", "example.feed", "1"], 4, true),
 ];
 
-/// A CNC, and what was sent to it.
+/// A CNC, and the frames that were sent to it.
 struct Tripwire {
     addr: SocketAddr,
     kept: Arc<Mutex<Vec<Vec<u8>>>>,
@@ -64,12 +64,12 @@ impl Tripwire {
         Self { addr, kept, _server: server }
     }
 
-    /// What was sent, connection by connection.
+    /// The sent bytes of each connection.
     fn connections(&self) -> Vec<Vec<u8>> {
         self.kept.lock().unwrap().clone()
     }
 
-    /// The handle of a variable, which `get` shows.
+    /// The handle of a variable, from the output of `get`.
     fn handle(&self, name: &str) -> u32 {
         let shown = String::from_utf8(self.call(&["get", name]).stdout).unwrap();
         let (_, handle) = shown.lines().next().unwrap().rsplit_once("handle 0x").unwrap();
@@ -86,7 +86,7 @@ impl Tripwire {
     }
 }
 
-/// Passes a connection on and keeps what the client sends before the CNC has it.
+/// Forwards a connection, and stores the bytes of the client before the CNC receives them.
 fn pass(mut client: TcpStream, cnc: TcpStream, keep: &Mutex<Vec<Vec<u8>>>, place: usize) {
     client.set_nodelay(true).unwrap();
     let (mut replies, mut back) = (cnc.try_clone().unwrap(), client.try_clone().unwrap());
@@ -101,7 +101,7 @@ fn pass(mut client: TcpStream, cnc: TcpStream, keep: &Mutex<Vec<Vec<u8>>>, place
     let _gone = cnc.shutdown(std::net::Shutdown::Both);
 }
 
-/// The frames of a connection; it ends with a whole one.
+/// The frames of a connection, which must end with a complete frame.
 fn frames(mut bytes: &[u8]) -> Vec<&[u8]> {
     let mut frames = Vec::new();
     while !bytes.is_empty() {
@@ -129,10 +129,9 @@ fn default_runs_of_every_tool_change_nothing() {
     }
 }
 
-/// What its name tells may not be written is refused before anybody is called: it would be no use
-/// to reach the device first.
+/// A write whose name is sufficient for a rejection is rejected before connecting.
 #[test]
-fn a_refusal_needs_no_connection() {
+fn a_rejection_needs_no_connection() {
     let addr = nobody().to_string();
     let program = std::env::temp_dir().join(format!("ads-cnc-no-one-{}.nc", std::process::id()));
     fs::write(&program, "M30\n").unwrap();
@@ -150,13 +149,13 @@ fn a_refusal_needs_no_connection() {
     fs::remove_file(&program).unwrap();
 }
 
-/// An address where nobody listens.
+/// An address without a listener.
 fn nobody() -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     listener.local_addr().unwrap()
 }
 
-/// That something may be written is no reason to write it.
+/// Commands that only read write nothing, even with a file that allows it.
 #[test]
 fn a_file_alone_changes_nothing() {
     let file = AllowFile::new(
@@ -172,10 +171,9 @@ fn a_file_alone_changes_nothing() {
     }
 }
 
-/// The suite writes what the file names, by its name or by its handle, and nothing else; then
-/// everything is as it was.
+/// The suite only writes the value in the file, by name or by handle, and restores it.
 #[test]
-fn a_run_writes_what_the_file_names_and_puts_it_back() {
+fn a_run_writes_only_named_values_and_restores_them() {
     let file = AllowFile::new("run", "[[variable]]\nchannel = 1\nname = \"V.E.test\"\n");
     let tripwire = Tripwire::start();
     let before = tripwire.call(&["browse", "--variables", "--content"]).stdout;
@@ -187,7 +185,7 @@ fn a_run_writes_what_the_file_names_and_puts_it_back() {
     let all = connections.iter().flat_map(|bytes| frames(bytes));
     let writes: Vec<&[u8]> = all.filter(|frame| !is_harmless(frame)).collect();
     for frame in &writes {
-        // Write, behind the headers: group, offset, length, data.
+        // A Write after the headers: group, offset, length, data.
         assert_eq!((frame[22], number(frame, 38)), (3, 0x12_2301), "{frame:02x?}");
         let data = &frame[50..];
         match number(frame, 42) {
@@ -196,14 +194,14 @@ fn a_run_writes_what_the_file_names_and_puts_it_back() {
             offset => panic!("{offset:#x}: {frame:02x?}"),
         }
     }
-    // By handle and by name, whole and two elements, and for the service itself: the same, another,
-    // the same.
+    // By handle and by name, the whole value and two elements, and for the service itself; each time
+    // the original value, another one, and the original value.
     assert_eq!(writes.len(), 21);
 }
 
-/// What is streamed to a device are comments, and a service answers nobody: nothing moves.
+/// The suite only streams comments to a device, and answers no request of an NC program: nothing moves.
 #[test]
-fn a_run_streams_comments_and_answers_nobody() {
+fn a_run_streams_only_comments_and_answers_no_request() {
     let entries = "[[stream]]\nchannel = 1\n[[stream]]\nrank = 1\n[[service]]\nchannel = 1\n";
     let file = AllowFile::new("stream", entries);
     let tripwire = Tripwire::start();
@@ -239,7 +237,7 @@ fn a_run_streams_comments_and_answers_nobody() {
     assert!(streamed > 2 && answered > 3, "{streamed} packets, {answered} answers");
 }
 
-/// A file for `--allow-write` that is gone with the test.
+/// A file for `--allow-write` that is removed when dropped.
 struct AllowFile(std::path::PathBuf);
 
 impl AllowFile {
@@ -262,13 +260,13 @@ impl Drop for AllowFile {
     }
 }
 
-/// A dry run shows what it would send, and does not even connect.
+/// A dry run shows its requests and does not connect.
 #[test]
 fn a_dry_run_sends_nothing() {
     for (args, code, asks) in TOOLS {
         let tripwire = Tripwire::start();
         let output = tripwire.call(&[&args[..1], &["--dry-run"], &args[1..]].concat());
-        // Who asks first gets no answer, and so does not come to what would be rejected.
+        // A command that queries first stops at the missing reply, before the rejection.
         let code = if *asks { 0 } else { *code };
         assert_eq!(output.status.code(), Some(code), "{args:?}: {output:?}");
         let shown = String::from_utf8(output.stdout).unwrap();
@@ -278,9 +276,9 @@ fn a_dry_run_sends_nothing() {
     }
 }
 
-/// That a target is on loopback is no reason to send it what no client should.
+/// Malformed requests need a file even for a target on loopback.
 #[test]
-fn malformed_requests_that_no_file_permits_need_no_connection() {
+fn malformed_requests_without_a_file_need_no_connection() {
     let tripwire = Tripwire::start();
     let output = tripwire.call(&["run", "--malformed"]);
     let why = String::from_utf8(output.stderr).unwrap();
@@ -289,9 +287,9 @@ fn malformed_requests_that_no_file_permits_need_no_connection() {
     assert_eq!(tripwire.connections().len(), 0);
 }
 
-/// What is wrong in a file is said with its line before anything is sent.
+/// An invalid file is rejected with its line before anything is sent.
 #[test]
-fn a_bad_file_sends_nothing() {
+fn nothing_is_sent_with_an_invalid_file() {
     let file = std::env::temp_dir().join(format!("ads-cnc-bad-{}.toml", std::process::id()));
     fs::write(&file, "target = \"127.0.0.1.1.1\"\nexpires = 2026-05-04T17:30:00Z\nwrite = true\n")
         .unwrap();
@@ -307,9 +305,9 @@ fn a_bad_file_sends_nothing() {
     assert_eq!(tripwire.connections().len(), 0);
 }
 
-/// The tripwire itself takes what is not harmless for what it is.
+/// The test itself detects frames that are not harmless.
 #[test]
-fn the_tripwire_sees_what_it_should() {
+fn harmful_frames_are_detected() {
     let frame = |command: u8, port: u16, group: u32, offset: u32, data: &[u8]| {
         let mut frame = vec![0; 38];
         frame[12..14].copy_from_slice(&port.to_le_bytes());

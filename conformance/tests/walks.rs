@@ -1,5 +1,4 @@
-//! What is asked of a CNC to find what it has: not more than there is to find, and an end however
-//! the CNC answers.
+//! The number of requests that find the items of a CNC is small, and limited for any replies.
 
 use ads_cnc_conformance::faults::{Faulty, FieldDefect};
 use ads_cnc_conformance::gate::Gate;
@@ -16,7 +15,7 @@ fn default_cnc() -> Cnc {
     Cnc::with_default_model().unwrap()
 }
 
-/// So many requests are what the rules say of the default model.
+/// The numbers of requests that the rules need for the default model.
 #[test]
 fn few_requests_find_everything() {
     let all = found(default_cnc(), &Options::default());
@@ -25,7 +24,7 @@ fn few_requests_find_everything() {
     assert_eq!((all.objects.len(), all.lists, all.requests), (179, 60, 350));
     let exact = found(default_cnc(), &Options { exact: true, ..Options::default() });
     assert_eq!((exact.objects.len(), exact.requests), (179, 694));
-    // Eleven for the channels, seven numbers for each of them, one for each variable.
+    // Eleven requests for the channels, seven numbers for each channel, and one for each variable.
     let variables = found(default_cnc(), &Options { variables: true, ..Options::default() });
     assert_eq!((variables.objects.len(), variables.requests), (168, 200));
     assert!(all.notes.is_empty() && exact.notes.is_empty() && variables.notes.is_empty());
@@ -35,9 +34,9 @@ fn few_requests_find_everything() {
     assert_eq!((one.objects.len(), one.lists), (28, 1));
 }
 
-/// An answer that is wrong in any field ends no walk later than a right one by much.
+/// With any wrong field in replies, a walk needs few additional requests.
 #[test]
-fn wrong_answers_end() {
+fn walks_with_wrong_replies_end() {
     let streams = [
         "object-count",
         "object-descriptor",

@@ -1,5 +1,5 @@
-//! The floor: a server that takes as many bytes as a request has for one, whatever they are, and
-//! gives as many as its reply has. A thread for each connection, as the simulated CNC has.
+//! The baseline: a server that returns the bytes of a reply for each number of bytes of a request,
+//! whatever they contain. Like the simulated CNC, it has a thread for each connection.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -7,10 +7,10 @@ use std::thread;
 
 use crate::work::Result;
 
-/// As many requests as are answered at once.
+/// Maximum number of requests that are answered at once.
 const BATCH: usize = 64;
 
-/// Serves until stdin ends: with the process that has started it.
+/// Serves until stdin ends, which happens when the parent process ends.
 pub(crate) fn serve(request_len: usize, reply: &[u8]) -> Result<()> {
     let listener = TcpListener::bind(SocketAddr::from(([127, 0, 0, 1], 0)))?;
     println!("listening on {}", listener.local_addr()?);

@@ -1,11 +1,11 @@
-//! The simulated CNC without a socket, for whoever counts instructions: the bytes of connections
-//! are fed to the code that a connection's thread runs.
+//! The simulated CNC without a socket, for counting instructions: feeds the bytes of requests to the
+//! code of a connection's thread.
 
 use ads_cnc_conformance::simulator::{Cnc, NET_ID, Received};
 
 use crate::work::{Result, Work};
 
-/// Feeds so many requests, `depth` at a time.
+/// Feeds `count` requests, `depth` at a time.
 pub(crate) fn feed(work: &Work, count: usize, depth: usize) -> Result<()> {
     let (cnc, mut received) = (Cnc::with_default_model()?, Received::new());
     let (mut requests, mut replies) = (Vec::new(), Vec::new());

@@ -1,17 +1,17 @@
-//! What is made of the slices: medians and percentiles, as rows of a table.
+//! Medians and percentiles of the slices, as rows of a table.
 
 use std::fmt;
 
 use crate::load::Slice;
 
-/// The slices of one server, in the order in which they were taken.
+/// The slices of one server, in the order of measurement.
 pub(crate) struct Figures {
     name: String,
     rates: Vec<f64>,
-    /// Of each slice, in ns.
+    /// The median latency of each slice, in ns.
     medians: Vec<f64>,
     nanos: Vec<u32>,
-    /// Time of a processor for each reply, in seconds.
+    /// CPU time for each reply, in seconds.
     cpu: Option<f64>,
 }
 
@@ -20,7 +20,7 @@ impl Figures {
 | clients × at a time | server | requests/s | `serve` to it | p50, `serve` to it | p50 | p90 | p99 | p99.9 | max | CPU |
 |---|---|---|---|---|---|---|---|---|---|---|";
 
-    /// `cpu` is what all slices together took.
+    /// `cpu` is the CPU time of all slices together.
     pub(crate) fn new(name: &str, mut slices: Vec<Slice>, cpu: Option<f64>) -> Self {
         let median = |slice: &mut Slice| {
             slice.nanos.sort_unstable();
@@ -34,7 +34,7 @@ impl Figures {
         Self { name: name.to_owned(), rates, medians, nanos, cpu }
     }
 
-    /// A row, with the ratio of the other's slices to those of the same rounds here.
+    /// A row, with the ratios of the other server's slices to those of this server in the same rounds.
     pub(crate) fn row(&self, other: &Self) -> String {
         let rates = Spread::of(self.rates.clone());
         let ratio = |others: &[f64], own: &[f64]| match std::ptr::eq(self, other) {
@@ -53,13 +53,13 @@ impl Figures {
     }
 }
 
-/// The least that so large a share of them is not above; some are there, in order.
+/// The smallest number that this share of the numbers does not exceed; the numbers are sorted.
 fn ranked(nanos: &[u32], share: f64) -> u32 {
     let rank = (nanos.len() as f64 * share).ceil() as usize;
     nanos[rank.clamp(1, nanos.len()) - 1]
 }
 
-/// A median, and between what.
+/// A median with the minimum and maximum.
 struct Spread {
     median: f64,
     least: f64,
@@ -86,7 +86,7 @@ impl fmt::Display for Spread {
     }
 }
 
-/// A time in seconds, with three digits.
+/// A time in seconds, formatted with three digits.
 struct Time(f64);
 
 impl fmt::Display for Time {

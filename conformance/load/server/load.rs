@@ -1,5 +1,4 @@
-//! The clients: so many at once, each on a connection and in a thread of its own, each with so many
-//! requests under way.
+//! The clients: each has its own connection and thread, and several pending requests.
 
 use std::collections::VecDeque;
 use std::io::{self, Read as _, Write as _};
@@ -10,30 +9,30 @@ use std::time::{Duration, Instant};
 
 use crate::work::{Result, Work};
 
-/// The longest wait for a connection, and for any byte of a reply.
+/// Maximum wait for a connection, and for any byte of a reply.
 const WAIT_MAX: Duration = Duration::from_secs(10);
 
-/// How a server is asked.
+/// The load of a server.
 #[derive(Clone, Copy)]
 pub(crate) struct Load {
     pub(crate) clients: usize,
-    /// Requests that a client has under way.
+    /// Number of pending requests of a client.
     pub(crate) depth: usize,
     pub(crate) time: Duration,
 }
 
-/// What came of one slice of time.
+/// The result of one slice of time.
 #[derive(Default)]
 pub(crate) struct Slice {
-    /// Replies a second.
+    /// Replies per second.
     pub(crate) rate: f64,
-    /// From the request's write to the read of its reply, in ns; of each reply, late ones too, so
-    /// that there always are some.
+    /// Time from writing a request to reading its reply, in ns, for each reply including late ones, so
+    /// that the list is never empty.
     pub(crate) nanos: Vec<u32>,
 }
 
-/// Has a server answer for a slice of time. Every reply is looked at, and one that is not right is
-/// an error. An echo repeats the same reply, so that all its replies are to request 0.
+/// Sends requests for a slice of time. Checks every reply; a wrong one is an error. An echo server
+/// repeats the same reply, so that all its replies are to request 0.
 pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) -> Result<Slice> {
     let clients = (0..load.clients).map(|_| Client::connect(addr, work, is_echo));
     let clients = clients.collect::<Result<Vec<_>>>()?;
@@ -45,7 +44,7 @@ pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) ->
                 client.run(load)
             })
         });
-        // All have begun before the first is waited for.
+        // Start all threads before joining the first.
         let threads: Vec<_> = threads.collect();
         let joined = threads.into_iter().map(|thread| thread.join().expect("no client panics"));
         joined.collect::<Result<Vec<Slice>>>()
@@ -58,7 +57,7 @@ pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) ->
     Ok(all)
 }
 
-/// How many of so many requests that leave in one write are answered.
+/// The number of replies to `depth` requests that are sent in one write.
 pub(crate) fn answered_of_burst(addr: SocketAddr, work: &Work, depth: usize) -> Result<usize> {
     let mut client = Client::connect(addr, work, false)?;
     client.ask(depth)?;
@@ -88,7 +87,7 @@ struct Client<'a> {
 }
 
 impl<'a> Client<'a> {
-    /// Connected, and answered once.
+    /// Connects and waits for the first reply.
     fn connect(addr: SocketAddr, work: &'a Work, is_echo: bool) -> Result<Self> {
         let stream = TcpStream::connect_timeout(&addr, WAIT_MAX)?;
         stream.set_nodelay(true)?;
@@ -121,11 +120,11 @@ impl<'a> Client<'a> {
                 return Err("more replies than requests".into());
             }
             for sent in under_way.drain(..replies) {
-                // Four seconds and more are one: a connection without a byte for ten is an error.
+                // Times over four seconds are counted as four; ten seconds without a byte are an error.
                 let nano = now.duration_since(sent).as_nanos();
                 nanos.push(u32::try_from(nano).unwrap_or(u32::MAX));
             }
-            // What came later than that has a latency, but does not count.
+            // A later reply has a latency, but does not count for the rate.
             if now.duration_since(begin) < load.time {
                 in_time += u32::try_from(replies)?;
             }
@@ -133,7 +132,7 @@ impl<'a> Client<'a> {
         Ok(Slice { rate: f64::from(in_time) / load.time.as_secs_f64(), nanos })
     }
 
-    /// Sends so many requests, all at once.
+    /// Sends `count` requests at once.
     fn ask(&mut self, count: usize) -> Result<()> {
         self.out.clear();
         for _ in 0..count {
@@ -144,7 +143,7 @@ impl<'a> Client<'a> {
         Ok(())
     }
 
-    /// Reads once; how many replies are whole now.
+    /// Reads once; returns the number of complete replies.
     fn replies(&mut self) -> Result<usize> {
         let count = self.stream.read(&mut self.received[self.held..])?;
         if count == 0 {

@@ -1,10 +1,10 @@
-//! Requests per second and latency of the simulated CNC, against an echo that does nothing, and
-//! against the test server of pyads. `run`, beside this, installs that and starts this.
+//! Requests per second and latency of the simulated CNC, compared with an echo server and the test
+//! server of pyads. The script `run` in this folder installs pyads and starts this program.
 //!
-//! Servers are processes of their own, asked in turn, slice of time by slice of time: what else the
-//! machine does meets all of them. Every reply is checked.
+//! The servers are separate processes and are measured in turns, so that other load affects all of them
+//! equally. Every reply is checked.
 
-#![allow(clippy::disallowed_methods, reason = "bare clients of servers that it has started")]
+#![allow(clippy::disallowed_methods, reason = "clients of servers that this program has started")]
 
 mod echo;
 mod feed;
@@ -28,23 +28,23 @@ struct Args {
     #[command(subcommand)]
     command: Option<Other>,
 
-    /// How often each server has its turn.
+    /// Number of turns of each server.
     #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
 
-    /// How long a turn is, in milliseconds.
+    /// Duration of a turn in milliseconds.
     #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(10..))]
     slice: u64,
 
-    /// A Python that has pyads; without, its server is left out.
+    /// Python with pyads; without it, the server of pyads is omitted.
     #[arg(long)]
     pyads: Option<String>,
 
-    /// Requests that a pipelining client has under way.
+    /// Number of pending requests of a pipelining client.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u16).range(2..=64))]
     depth: u16,
 
-    /// Only this request: its name is in the headings.
+    /// Measure only this request; the headings contain the names.
     #[arg(long)]
     only: Option<String>,
 }
@@ -55,7 +55,7 @@ enum Other {
     #[command(hide = true)]
     Echo { request_len: usize, reply: String },
 
-    /// Feeds so many requests to the simulated CNC, in this process and without a socket.
+    /// Feed requests to the simulated CNC in this process, without a socket.
     Feed {
         name: String,
         count: usize,
@@ -63,7 +63,7 @@ enum Other {
         depth: u16,
     },
 
-    /// Lists the names of the requests.
+    /// List the names of the requests.
     Names,
 }
 
@@ -80,7 +80,7 @@ fn compared() -> Result<()> {
     let works = Work::all()?;
     let find = |name: &str| {
         let found = works.iter().find(|work| work.name == name);
-        found.ok_or_else(|| format!("there is no request {name}"))
+        found.ok_or_else(|| format!("no request has the name {name}"))
     };
     match &args.command {
         Some(Other::Echo { request_len, reply }) => echo::serve(*request_len, &bytes(reply)?),
@@ -111,7 +111,7 @@ fn compared() -> Result<()> {
     }
 }
 
-/// What figures of time depend on, as far as the system says.
+/// Describes the machine, as far as the system provides this.
 fn machine(args: &Args) {
     let first = |file: &str, prefix: &str| {
         let text = std::fs::read_to_string(file).unwrap_or_default();
@@ -129,7 +129,7 @@ fn machine(args: &Args) {
     );
 }
 
-/// All servers under the same load, in turn.
+/// Measures all servers under the same load, in turns.
 fn compare(work: &Work, load: Load, rounds: usize, pyads: Option<&str>) -> Result<()> {
     let Load { clients, depth, .. } = load;
     let under = format!("{clients} × {depth}");
@@ -149,7 +149,7 @@ fn compare(work: &Work, load: Load, rounds: usize, pyads: Option<&str>) -> Resul
     let before: Vec<Option<f64>> = servers.iter().map(Server::cpu).collect();
     let mut slices: Vec<Vec<Slice>> = servers.iter().map(|_| Vec::new()).collect();
     for round in 0..rounds {
-        // Who is first has no advantage.
+        // Change the order, so that the first server has no advantage.
         for turn in 0..servers.len() {
             let at = (round + turn) % servers.len();
             let server = &servers[at];

@@ -22,7 +22,7 @@ server = AdsTestServer(handler=handler, ip_address="127.0.0.1", port=0)
 port = server.server.getsockname()[1]
 server.start()
 
-# It listens as soon as its thread has come to it.
+# The thread needs some time before it listens.
 until = time.monotonic() + 20
 while True:
     try:

@@ -1,4 +1,4 @@
-//! The servers, each in a process of its own.
+//! The servers, each in a separate process.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::SocketAddr;
@@ -9,25 +9,25 @@ use std::time::Duration;
 
 use crate::work::{Result, Work};
 
-/// How long a server may take until it listens: Python has much to load on a busy machine.
+/// Time limit for a server to listen; Python starts slowly on a busy machine.
 const START: Duration = Duration::from_secs(30);
 
-/// A server, ended when it is dropped.
+/// A server that is ended when dropped.
 pub(crate) struct Server {
     pub(crate) name: &'static str,
     pub(crate) addr: SocketAddr,
-    /// Of which version.
+    /// The version.
     pub(crate) about: String,
     child: Child,
 }
 
 const ECHO: &str = "echo";
 
-/// As of the command `ads-cnc`.
+/// The subcommand that serves the simulated CNC, as in `ads-cnc`.
 pub(crate) const SERVE: &str = "serve";
 
 impl Server {
-    /// This program once more.
+    /// Starts the echo server with this program.
     pub(crate) fn echo(work: &Work) -> Result<Self> {
         let hex: String = work.reply(0)?.iter().map(|byte| format!("{byte:02x}")).collect();
         let mut command = Command::new(std::env::current_exe()?);
@@ -35,7 +35,7 @@ impl Server {
         Self::start(ECHO, command)
     }
 
-    /// The simulated CNC, by the same program again: no older build of the command can be taken.
+    /// Starts the simulated CNC with this program, because a build of the command could be outdated.
     pub(crate) fn cnc() -> Result<Self> {
         let mut command = Command::new(std::env::current_exe()?);
         command.args([SERVE, "--listen", "127.0.0.1:0", "--log", "warn"]);
@@ -44,7 +44,7 @@ impl Server {
         Ok(server)
     }
 
-    /// The test server of pyads, with what is to be read as its only variable.
+    /// Starts the test server of pyads with the value to be read as its only variable.
     pub(crate) fn pyads(python: &str, work: &Work) -> Result<Self> {
         let value: String = work.expected.iter().map(|byte| format!("{byte:02x}")).collect();
         let mut command = Command::new(python);
@@ -57,7 +57,7 @@ impl Server {
     }
 
     fn start(name: &'static str, mut command: Command) -> Result<Self> {
-        // What closes when this process ends, whatever ends it.
+        // The pipe closes when this process ends for any reason.
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(|error| format!("{name}: {error}"))?;
         let stdout = child.stdout.take();
@@ -71,21 +71,21 @@ impl Server {
         });
         let line = told.recv_timeout(START).ok().flatten().unwrap_or_default();
         let rest = line.trim_end().strip_prefix("listening on ");
-        let rest = rest.ok_or_else(|| format!("{name}: it does not say where it listens"))?;
+        let rest = rest.ok_or_else(|| format!("{name}: no line with the address"))?;
         let (addr, about) = rest.split_once(", ").unwrap_or((rest, ""));
         (server.addr, server.about) = (addr.parse()?, about.to_owned());
         Ok(server)
     }
 
-    /// Whether it repeats the same reply.
+    /// Whether the server repeats the same reply.
     pub(crate) fn is_echo(&self) -> bool {
         self.name == ECHO
     }
 
-    /// Time of a processor that it has had so far, in seconds, where the system says.
+    /// CPU time of the server so far in seconds, if the system provides it.
     pub(crate) fn cpu(&self) -> Option<f64> {
         let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).ok()?;
-        // Behind the name in brackets, from field 3 on; 14 and 15 are user and system time in
+        // The fields from 3 on follow the name in brackets; 14 and 15 are user and system time in
         // hundredths of a second.
         let mut fields = stat.rsplit_once(") ")?.1.split(' ').skip(11);
         let mut next = || fields.next()?.parse::<u32>().ok().map(f64::from);
@@ -95,7 +95,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Ended already is ended too.
+        // This fails if the process has already ended.
         let _ended = self.child.kill().and_then(|()| self.child.wait());
     }
 }

@@ -1,4 +1,4 @@
-//! What is asked, as frames of this project's codec, and what has to come back.
+//! The requests, as frames of this project's codec, and the expected replies.
 
 use std::error::Error;
 
@@ -13,25 +13,25 @@ use ads_cnc_conformance::wire_service::{decode_reply, encode_reply};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
 
-/// Who asks.
+/// The address of the client.
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8000) };
 
-/// One request, to be sent again and again.
+/// A request that is sent repeatedly.
 pub(crate) struct Work {
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
     pub(crate) group: u32,
     pub(crate) offset: u32,
-    /// Of the request; that of the reply is the other.
+    /// The header of the request.
     header: AmsHeader,
     service: Service,
     payload: Vec<u8>,
-    /// The data that the reply has to have.
+    /// The expected data of the reply.
     pub(crate) expected: Vec<u8>,
 }
 
 impl Work {
-    /// All there is; the first is one that any ADS server can be set up to answer.
+    /// All requests; the first one can be answered by any ADS server.
     pub(crate) fn all() -> Result<Vec<Self>> {
         let (cnc, channel) = (Cnc::with_default_model()?, Channel::new(1)?);
         let descriptors = ReadDescriptors::new(channel, 1, 30)?;
@@ -75,7 +75,7 @@ impl Work {
         let call = request.encode(&mut buf)?;
         let Call { port, service, index_group, index_offset, .. } = call;
         if service == Service::Write {
-            return Err(format!("{name}: nothing is to be changed").into());
+            return Err(format!("{name}: not a query").into());
         }
         let payload = call.encode_to_vec()?;
         let target = AmsAddr { net_id: NET_ID, port };
@@ -84,7 +84,7 @@ impl Work {
         Ok(Self { name, title, group, offset, header, service, payload, expected })
     }
 
-    /// Bytes of a request.
+    /// Length of a request in bytes.
     pub(crate) fn request_len(&self) -> usize {
         FrameRef::HEADERS_LEN + self.payload.len()
     }
@@ -94,7 +94,7 @@ impl Work {
         frame(AmsHeader { invoke_id, ..self.header }, &self.payload, out)
     }
 
-    /// A right reply, byte by byte.
+    /// The bytes of a right reply.
     pub(crate) fn reply(&self, invoke_id: u32) -> Result<Vec<u8>> {
         let (result, data) = (AdsError::NO_ERROR, Some(self.expected.as_slice()));
         let payload = encode_reply(self.service, result, data)?;
@@ -103,8 +103,8 @@ impl Work {
         Ok(out)
     }
 
-    /// Looks at the first frame that has been received: how long it is, if it is the right reply to
-    /// the request with this number; nothing if it is not whole yet.
+    /// Checks that the first received frame is the right reply to the request with this number; returns
+    /// its length, or `None` if the frame is incomplete.
     pub(crate) fn check(&self, received: &[u8], invoke_id: u32) -> Result<Option<usize>> {
         let Some((frame, len)) = FrameRef::split(received, DATA_MAX)? else { return Ok(None) };
         let (header, payload) = (frame.header(), frame.data());
@@ -125,7 +125,7 @@ impl Work {
     }
 }
 
-/// What the simulated CNC says to it.
+/// The reply of the simulated CNC.
 fn answer(cnc: &Cnc, request: &Request<'_>) -> Result<Vec<u8>> {
     let mut buf = vec![0; request.encoded_len()];
     let answer = cnc.answer(&request.encode(&mut buf)?);

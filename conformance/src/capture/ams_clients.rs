@@ -1,4 +1,4 @@
-//! Conversations of AMS frames that were captured without TCP.
+//! Follows conversations of AMS frames that were captured without TCP.
 
 use std::collections::BTreeMap;
 
@@ -9,16 +9,17 @@ use super::link::AmsFrame;
 use super::table::{CONNECTIONS_MAX, ConnectionEvent, Ending, SegmentDirection};
 use super::tcp::Mark;
 
-/// Added to the number of each conversation: the numbers of TCP connections begin at 1.
+/// Offset of the numbers of conversations, to distinguish them from TCP connections, whose numbers
+/// begin at 1.
 const NUMBERS: u64 = 1 << 63;
 
-/// The conversation of all clients on a machine with all CNCs.
+/// The conversation of all clients on one machine with all CNCs.
 #[derive(Debug)]
 struct AmsClient {
-    /// Number of its last frame, and of the packet with it.
+    /// Number of the last frame, and of its packet.
     last: u64,
     packet: u64,
-    /// Number of bytes that it sent, and that were sent to it.
+    /// Number of bytes sent by the machine and to it.
     sent: [u64; 2],
     /// The direction of the first request.
     way: SegmentDirection,
@@ -29,7 +30,7 @@ struct AmsClient {
 pub(super) struct AmsClients {
     all: BTreeMap<AmsNetId, AmsClient>,
     frames: u64,
-    /// Number of clients, including those that are not followed anymore.
+    /// Number of clients, including those that are no longer followed.
     clients: u64,
 }
 
@@ -54,7 +55,7 @@ impl AmsClients {
         known.packet = mark.packet;
         let [asked, replied] = &mut known.sent;
         let (sent, received) = if is_reply { (replied, asked) } else { (asked, replied) };
-        // The header that the frame would have over TCP.
+        // Add the AMS/TCP header that the frame would have over TCP.
         let length = u32::try_from(frame.bytes.len()).unwrap_or(u32::MAX);
         let bytes = [&[0, 0], &length.to_le_bytes()[..], frame.bytes].concat();
         *sent = sent.saturating_add(u64::try_from(bytes.len()).unwrap_or(u64::MAX));

@@ -11,44 +11,44 @@ use super::time::Time;
 /// Initial size of the read buffer in bytes.
 const BUFFER: usize = 0x1_0000;
 
-/// Maximum length of a record or block; a longer one ends the file.
+/// Maximum length of a record or block in bytes; reading ends at a longer one.
 pub const RECORD_MAX: usize = 0x80_0000;
 
 /// Maximum number of interfaces of a pcapng section.
 const INTERFACES_MAX: usize = 4096;
 
-/// A packet as it was captured.
+/// A captured packet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Packet<'p> {
-    /// Counted from 1, as other tools do.
+    /// The number of the packet, from 1 as in other tools.
     pub(super) number: u64,
     pub(super) time: Option<Time>,
     pub(super) link: Linktype,
     pub(super) bytes: &'p [u8],
-    /// Bytes that were not captured.
+    /// Number of bytes that were not captured.
     pub(super) missing: usize,
 }
 
-/// How a file ended.
+/// The way in which a file ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileEnd {
-    /// With its last record.
+    /// The file ended after a complete record.
     Whole,
-    /// Inside a record, or before bytes that are not a record.
+    /// The file ended inside a record, or before bytes that are not a record.
     Cut(String),
 }
 
-/// Why a file cannot be read at all.
+/// The reason why a file cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// The system cannot read it.
+    /// An error of the system.
     #[error("{0}")]
     Io(#[from] std::io::Error),
-    /// It is of another format.
+    /// The file has another format.
     #[error("neither pcap nor pcapng nor NetMon 2.x")]
     Format,
-    /// It is of another version of NetMon: major and minor.
-    #[error("a capture of NetMon {0}.{1}, not 2.x; convert it with editcap -F pcapng")]
+    /// The file has another version of the NetMon format: major and minor.
+    #[error("NetMon {0}.{1} instead of 2.x; convert it with editcap -F pcapng")]
     NetMonVersion(u8, u8),
     #[error("the file is empty")]
     Empty,
@@ -57,7 +57,7 @@ pub enum FileError {
 /// The link type and time resolution of an interface.
 struct CaptureInterface {
     link: Linktype,
-    /// Units of time in a second.
+    /// Units of time per second.
     resolution: u64,
     offset: i64,
 }
@@ -69,14 +69,14 @@ struct Interfaces {
     packets: u64,
 }
 
-/// Calls a function with every packet of a file.
+/// Calls a function for each packet of a file.
 pub(super) fn packets(
     input: impl Read + Send,
     mut each: impl FnMut(Packet<'_>),
 ) -> Result<FileEnd, FileError> {
     let mut reader = create_reader(BUFFER, FullReader(input)).map_err(|error| match error {
         PcapError::Eof => FileError::Empty,
-        PcapError::ReadError => FileError::Io(std::io::Error::other("it cannot be read")),
+        PcapError::ReadError => FileError::Io(std::io::Error::other("read error")),
         _ => FileError::Format,
     })?;
     let mut interfaces = Interfaces::default();
@@ -98,8 +98,8 @@ pub(super) fn packets(
             }
             Err(error) => {
                 let what = match error {
-                    PcapError::ReadError => "it cannot be read any further",
-                    _ => "the bytes after it are not a record",
+                    PcapError::ReadError => "read error",
+                    _ => "bytes that are not a record",
                 };
                 let number = interfaces.packets;
                 return Ok(FileEnd::Cut(format!("{what}, after packet {number}")));
@@ -117,13 +117,13 @@ pub(super) fn packets(
         let before = reader.data().len();
         let failed = reader.refill().is_err();
         if failed || (reader.data().len() == before && !reader.reader_exhausted()) {
-            return Ok(FileEnd::Cut("it cannot be read any further".to_owned()));
+            return Ok(FileEnd::Cut("read error".to_owned()));
         }
     }
 }
 
-/// A reader that fills the whole buffer unless the file ends, because the parser takes a short read
-/// for the end.
+/// A reader that fills the whole buffer unless the file ends, because the parser interprets a short
+/// read as the end.
 pub(super) struct FullReader<R>(pub(super) R);
 
 impl<R: Read> Read for FullReader<R> {
@@ -147,7 +147,7 @@ impl Interfaces {
             PcapBlockOwned::LegacyHeader(header) => {
                 let nanoseconds = header.is_nanosecond_precision();
                 let resolution = if nanoseconds { 1_000_000_000 } else { 1_000_000 };
-                // The upper 16 bits have other information, about frame check sequences.
+                // The upper 16 bits contain information about frame check sequences.
                 let link = Linktype(header.network.0 & 0xFFFF);
                 self.all = vec![CaptureInterface { link, resolution, offset: 0 }];
             }
@@ -199,7 +199,7 @@ impl Interfaces {
         each: &mut impl FnMut(Packet<'_>),
     ) {
         self.packets = self.packets.saturating_add(1);
-        // A packet of an interface without a description has the link type -1: it is counted only.
+        // Only count a packet of an interface without a description; -1 is no link type.
         let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
         let original = usize::try_from(original).unwrap_or(usize::MAX);
         let missing = original.saturating_sub(bytes.len());

@@ -13,7 +13,7 @@ pub(super) const ACK: u8 = 0x10;
 const WINDOW: u16 = 0xFFFF;
 const HOPS: u8 = 64;
 
-/// A connection: its two ends, and how many bytes each has sent.
+/// A connection: its two ends, and the number of bytes that each has sent.
 #[derive(Clone, Debug)]
 pub(super) struct Flow {
     local: Endpoint,
@@ -30,12 +30,12 @@ struct Endpoint {
 
 impl Flow {
     pub(super) fn new(local: SocketAddr, remote: SocketAddr) -> Self {
-        // Locally administered MAC addresses, which belong to no vendor.
+        // Locally administered MAC addresses do not belong to any vendor.
         let end = |addr, last| Endpoint { addr, mac: [2, 0, 0, 0, 0, last], next: 0 };
         Self { local: end(local, 1), remote: end(remote, 2) }
     }
 
-    /// The whole packet, from Ethernet on.
+    /// The whole packet with all headers, beginning with Ethernet.
     pub(super) fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) -> io::Result<Vec<u8>> {
         let (from, to) = if outgoing {
             (&mut self.local, &self.remote)

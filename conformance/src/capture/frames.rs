@@ -25,12 +25,12 @@ pub(super) enum FramePiece {
     Unfinished,
 }
 
-/// Where a frame was captured: its first packet and its last.
+/// The location of a frame in the capture: its first and last packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Span {
     pub(super) first: Mark,
     pub(super) last: Mark,
-    /// Offset in this direction of the byte after the frame.
+    /// Offset of the byte after the frame, in this direction.
     pub(super) end: u64,
 }
 
@@ -38,36 +38,36 @@ pub(super) struct Span {
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     bytes: Vec<u8>,
-    /// Where the bytes from this offset in the buffer on were captured.
+    /// The location in the capture of the bytes from each offset in the buffer on.
     marks: VecDeque<(usize, Mark)>,
-    /// Offset in this direction of the first byte of the buffer.
+    /// Offset of the first byte of the buffer, in this direction.
     place: u64,
-    /// Synchronization was lost: a frame may begin at any offset.
+    /// Whether synchronization was lost, so that a frame may begin at any offset.
     is_lost: bool,
     skipped: usize,
 }
 
 impl Frames {
-    /// Memory of the buffer and its marks: for many small segments the marks take more than the
-    /// bytes.
+    /// Memory of the buffer and its marks; for many small segments, the marks need more memory than
+    /// the bytes.
     pub(super) fn memory_size(&self) -> usize {
         let marks = self.marks.capacity().saturating_mul(size_of::<(usize, Mark)>());
         self.bytes.capacity().saturating_add(marks)
     }
 
-    /// The beginning of this direction was not captured.
+    /// Handles a direction whose beginning was not captured.
     pub(super) const fn begin_anywhere(&mut self) {
         self.is_lost = true;
     }
 
-    /// Appends bytes and passes on the frames that are complete now.
+    /// Appends bytes and emits the frames that are now complete.
     pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(FramePiece)) {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);
         while self.step(out) {}
     }
 
-    /// Bytes are missing here: the frame that has begun stays unfinished.
+    /// Handles missing bytes: the current frame remains incomplete.
     pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(FramePiece)) {
         let begun = self.bytes.len();
         if begun > 0 {
@@ -82,7 +82,7 @@ impl Frames {
         self.is_lost = true;
     }
 
-    /// The connection has ended.
+    /// Handles the end of the connection.
     pub(super) fn end(&mut self, out: &mut impl FnMut(FramePiece)) {
         if !self.is_lost && !self.bytes.is_empty() {
             out(FramePiece::Unfinished);
@@ -93,7 +93,7 @@ impl Frames {
         self.emit_skipped(out);
     }
 
-    /// Takes one piece off the buffer; returns whether there may be another.
+    /// Removes and emits one piece of the buffer; returns whether another one may follow.
     fn step(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         if self.is_lost {
             return self.find(out);
@@ -171,18 +171,18 @@ impl Frames {
         for (place, _) in &mut self.marks {
             *place = place.saturating_sub(length);
         }
-        // Of several marks at offset 0 the last one counts.
+        // Of several marks at offset 0, only the last one applies.
         while matches!(self.marks.get(1), Some((0, _))) {
             self.marks.pop_front();
         }
-        // An idle connection keeps no memory.
+        // Free the memory of an idle connection.
         if self.bytes.is_empty() {
             self.bytes = Vec::new();
             self.marks = VecDeque::new();
         }
     }
 
-    /// Where the first `length` bytes were captured.
+    /// The location in the capture of the first `length` bytes.
     fn span(&self, length: usize) -> Option<Span> {
         let inside = self.marks.iter().take_while(|(place, _)| *place < length);
         let first = self.marks.front().map(|(_, mark)| *mark)?;
@@ -191,11 +191,11 @@ impl Frames {
     }
 }
 
-/// Maximum number of shown bytes that are not a frame.
+/// Maximum number of bytes shown that are not a frame.
 const SHOWN: usize = 64;
 
-/// Length of a message between a client and its local router, if this is the header of one: open
-/// port, close port, router notification. None is long enough to be an AMS header.
+/// Length of a message between a client and its local router (open port, close port, router
+/// notification), if this is the header of one. All of them are shorter than an AMS header.
 fn router(tcp: &[u8]) -> Option<usize> {
     let header = AmsTcpHeader::decode(tcp).ok()?;
     let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;
@@ -203,12 +203,12 @@ fn router(tcp: &[u8]) -> Option<usize> {
     is_known.then(|| length.saturating_add(AMS_TCP_HEADER_LEN))
 }
 
-/// Whether this is the port of a task of a CNC.
+/// Whether the port belongs to a task of a CNC.
 pub(super) fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }
 
-/// Whether a frame is a reply; if the flags are not valid, the ports decide.
+/// Whether a frame is a reply; if the flags are invalid, the ports decide.
 pub(super) fn is_reply(header: &AmsHeader) -> bool {
     match header.state_flags {
         StateFlags::REQUEST => false,

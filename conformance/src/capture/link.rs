@@ -11,8 +11,8 @@ use pcap_parser::Linktype;
 use super::endpoint::Endpoint;
 use super::file::Packet;
 
-/// The EtherType of EtherCAT, and the type of EtherCAT frames with AMS frames, in the upper four bits of
-/// their header.
+/// The EtherType of EtherCAT, and the type of EtherCAT frames that contain AMS frames (the upper four
+/// bits of the EtherCAT header).
 const ETHERCAT: u16 = 0x88A4;
 const AMS_TYPE: u16 = 2;
 
@@ -27,18 +27,18 @@ pub(super) struct TcpSegment<'p> {
     pub(super) fin: bool,
     pub(super) rst: bool,
     pub(super) payload: &'p [u8],
-    /// Bytes of the payload that were not captured.
+    /// Number of bytes of the payload that were not captured.
     pub(super) missing: usize,
 }
 
-/// An AMS frame in an EtherCAT frame, the form in which Beckhoff's ADS Monitor records what the AMS router
-/// of a PC passes on: one to a packet, in the order in which the router saw them.
+/// An AMS frame in an EtherCAT frame. Beckhoff's ADS Monitor records the frames that the AMS router of
+/// a PC forwards in this form: one per packet, in the order in which the router received them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AmsFrame<'p> {
     pub(super) header: AmsHeader,
-    /// The header and the data, as far as they were captured.
+    /// The captured part of the header and the data.
     pub(super) bytes: &'p [u8],
-    /// Whether the frame ends before the end that its header gives.
+    /// Whether the frame is shorter than its header states.
     pub(super) is_cut: bool,
 }
 
@@ -52,7 +52,7 @@ pub(super) enum PacketContent<'p> {
     Other,
     /// A fragment of an IP packet; fragments are not reassembled.
     Fragment,
-    /// A header is cut or wrong.
+    /// A header is truncated or invalid.
     Unreadable,
     /// An unknown link type.
     Link(i32),
@@ -67,7 +67,7 @@ pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     };
     let read = match packet.link {
         Linktype::ETHERNET => LaxSlicedPacket::from_ethernet(bytes).ok(),
-        // Some systems write 12 and 14 for raw IP.
+        // Some systems use 12 or 14 for raw IP.
         Linktype::RAW | Linktype::IPV4 | Linktype::IPV6 | Linktype(12 | 14) => {
             LaxSlicedPacket::from_ip(bytes).ok()
         }
@@ -85,13 +85,13 @@ pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     }
 }
 
-/// The length in the AMS header decides: that of the EtherCAT header has only 11 bits, and short Ethernet
-/// frames are padded.
+/// Uses the length in the AMS header, because the length in the EtherCAT header has only 11 bits, and
+/// short Ethernet frames are padded.
 fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
     let Some((kind, bytes)) = payload.split_first_chunk() else {
         return PacketContent::Unreadable;
     };
-    // Process data, or another type.
+    // The frame contains process data, or has another type.
     if u16::from_le_bytes(*kind) >> 12 != AMS_TYPE {
         return PacketContent::Other;
     }
@@ -104,7 +104,7 @@ fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
 
 fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     let Some((from, to, missing)) = read.net.as_ref().and_then(|net| ends(net, missing)) else {
-        // A packet that ends inside the IP header is unreadable, not another protocol.
+        // A packet that ends inside the IP header is unreadable instead of another protocol.
         return if read.stop_err.is_some() {
             PacketContent::Unreadable
         } else {
@@ -137,10 +137,9 @@ fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     }
 }
 
-/// Both addresses, and how many bytes of the IP packet were not captured.
+/// Both addresses, and the number of bytes of the IP packet that were not captured.
 fn ends(net: &LaxNetSlice<'_>, missing: usize) -> Option<(IpAddr, IpAddr, usize)> {
-    // The length in the header; 0 with segmentation offload, when the network card writes the
-    // length.
+    // With segmentation offload, the length in the header is 0, because the network card sets it.
     let lost = |told: usize, there: usize| match told {
         0 => missing,
         told => told.saturating_sub(there),

@@ -1,15 +1,15 @@
 //! Captured traffic: reads it from a file and judges it, or writes it to a file.
 //!
-//! | step | where |
+//! | step | module |
 //! |---|---|
-//! | packets out of pcap and pcapng, or NetMon 2.x | `file`, `netmon` |
-//! | TCP segments, or AMS frames in EtherCAT frames, out of packets | `link` |
+//! | read packets from pcap and pcapng, or NetMon 2.x | `file`, `netmon` |
+//! | find TCP segments, or AMS frames in EtherCAT frames | `link` |
 //! | TCP reassembly | `tcp`, `table` |
-//! | AMS frames | `frames`, `ams_clients` |
-//! | requests paired with their replies and judged | `judge` |
-//! | a conversation into a pcapng file | `writer`, `frame` |
+//! | split into AMS frames | `frames`, `ams_clients` |
+//! | pair requests with replies and judge them | `judge` |
+//! | write a conversation to a pcapng file | `writer`, `frame` |
 //!
-//! Only facts that later judgements need are stored, and each store has a maximum size.
+//! The judge stores only facts that later judgements need, and limits the size of each store.
 //!
 //! ```
 //! use ads_cnc_conformance::capture::{CaptureOptions, check};
@@ -62,9 +62,9 @@ pub const AMS_TCP_PORT: u16 = 48898;
 
 #[derive(Debug)]
 pub struct CaptureOptions {
-    /// TCP ports.
+    /// The TCP ports to read.
     pub ports: Ports,
-    /// Where golden vectors are collected, if wanted.
+    /// The collector of golden vectors; `None` to collect none.
     pub vectors: Option<Collector>,
 }
 
@@ -78,7 +78,7 @@ impl Default for CaptureOptions {
 pub struct Checked {
     pub outcomes: Vec<CaseOutcome>,
     pub tally: CaptureTally,
-    /// The collected golden vectors, if wanted.
+    /// The collected golden vectors, if requested.
     pub vectors: Option<Collector>,
 }
 
@@ -90,8 +90,8 @@ pub enum CapturePiece {
         from: Endpoint,
         /// The receiver.
         to: Endpoint,
-        /// The whole frame. If it was captured in an EtherCAT frame, which has no AMS/TCP header, that
-        /// header is added.
+        /// The whole frame. An AMS/TCP header is added to a frame that was captured in an EtherCAT
+        /// frame.
         bytes: Vec<u8>,
     },
     /// Bytes that were not captured.
@@ -99,15 +99,15 @@ pub enum CapturePiece {
         from: Endpoint,
         /// The receiver.
         to: Endpoint,
-        /// How many; 0 if unknown.
+        /// Number of missing bytes; 0 if unknown.
         length: u64,
     },
-    /// Number of bytes that are not a frame, or only the beginning of one.
+    /// Bytes that are not a frame, or only the beginning of a frame; the number of bytes.
     Rest(usize),
 }
 
 /// Reads a pcap, pcapng or NetMon 2.x file, reassembles its TCP connections and calls `each` with
-/// every frame and gap. Nothing is judged.
+/// each frame and gap, without judging them.
 ///
 /// ```
 /// use ads_cnc_conformance::capture::{FileEnd, Ports, frames};
@@ -120,7 +120,7 @@ pub enum CapturePiece {
 /// ```
 ///
 /// # Errors
-/// If it is none of these formats. A truncated file is read up to its end, see [`FileEnd`].
+/// If the file has another format. A truncated file is read up to its end, see [`FileEnd`].
 pub fn frames(
     input: impl Read + Send,
     ports: Ports,
@@ -158,7 +158,7 @@ impl CapturePiece {
     }
 }
 
-/// An event while a file is read.
+/// An event while reading a file.
 enum ReadStep<'s> {
     /// The next packet, its content, and whether its segment is on a selected port.
     Packet(&'s Packet<'s>, PacketContent<'s>, bool),
@@ -166,7 +166,7 @@ enum ReadStep<'s> {
     Event(ConnectionEvent, &'s ConnectionTable),
 }
 
-/// Calls a function with every packet of a file of one of the formats.
+/// Calls a function for each packet of a file of any of the formats.
 fn packets(
     mut input: impl Read + Send,
     each: impl FnMut(Packet<'_>),
@@ -207,13 +207,13 @@ fn read(
     Ok(end)
 }
 
-/// After how many packets the failed cases are counted for the progress.
+/// Number of packets after which the progress is updated with the number of failed cases.
 const PACKETS_BETWEEN_COUNTS: u64 = 4096;
 
 /// Judges a file of captured packets: pcap, pcapng or NetMon 2.x.
 ///
 /// # Errors
-/// If it is none of these formats. A truncated file is judged up to its end.
+/// If the file has another format. A truncated file is judged up to its end.
 pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked, FileError> {
     let mut table = ConnectionTable::new(options.ports);
     let mut judge = TrafficJudge::new(options.vectors);

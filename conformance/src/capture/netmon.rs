@@ -2,26 +2,26 @@
 //!
 //! All numbers are little-endian. Offsets are from the beginning of the file.
 //!
-//! | offset | of the file header |
+//! | offset | file header |
 //! |--:|---|
 //! | 0 | `GMBU` |
 //! | 4 | version: minor, major |
 //! | 6 | link type of all packets, in versions before 2.1 |
-//! | 8 | begin: year, month, day of the week, day, hour, minute, second, millisecond |
+//! | 8 | start time: year, month, day of the week, day, hour, minute, second, millisecond |
 //! | 24 | frame table: offset, length |
 //! | 32 | offset and length of each other table |
 //! | 128 | the first packet |
 //!
-//! | offset | of a packet |
+//! | offset | packet |
 //! |--:|---|
-//! | 0 | microseconds since the begin, 8 bytes |
+//! | 0 | microseconds since the start time, 8 bytes |
 //! | 8 | length of the packet |
 //! | 12 | captured length |
 //! | 16 | captured bytes |
-//! | | version 2.1: link type; 2.2: and process, 4 bytes; 2.3: and time in UTC and zone, 9 bytes |
+//! | | since version 2.1: link type; since 2.2: process, 4 bytes; since 2.3: time in UTC and zone, 9 bytes |
 //!
-//! The frame table has the offset of each packet. Packets are read in the order of the file, since
-//! the input need not be seekable, and compared with the frame table at the end.
+//! The frame table contains the offset of each packet. Because the input need not be seekable, the
+//! packets are read in the order of the file and compared with the frame table at the end.
 
 use std::io::Read;
 
@@ -33,34 +33,34 @@ use crate::text::Moment;
 
 pub(super) const MAGIC: [u8; 4] = *b"GMBU";
 
-/// The beginning of a file of NetMon 1.x, with the same version numbers.
+/// The magic number of NetMon 1.x; the version numbers follow as in 2.x.
 pub(super) const MAGIC_1: [u8; 4] = *b"RTSS";
 
 const HEADER_LEN: usize = 128;
 const PACKET_HEADER_LEN: usize = 16;
 
-/// Offset in the file header of the offset and length of the frame table; those of four to five
-/// other tables follow.
+/// Position in the file header of the offset and length of the frame table, followed by those of four
+/// or five other tables.
 const TABLES: usize = 24;
 const TABLES_END: usize = 72;
 
-/// Added to the numbers of link types that are not read.
+/// Offset of the numbers of unsupported link types.
 const NETMON_LINKS: i32 = 0x1_0000;
 
-/// Units of time in a second.
+/// Units of time per second.
 const MICROSECONDS: u64 = 1_000_000;
 
-/// Bytes of the frame table that are read at once.
+/// Number of bytes of the frame table that are read at once.
 const TABLE_CHUNK: usize = 4096;
 
-/// Calls a function with every packet of a file, of which [`MAGIC`] was read already.
+/// Calls a function for each packet of a file whose [`MAGIC`] was already read.
 pub(super) fn packets(
     input: impl Read,
     mut each: impl FnMut(Packet<'_>),
 ) -> Result<FileEnd, FileError> {
     let mut input = Input { input: FullReader(input), offset: 4 };
     let Some(header) = input.header()? else {
-        return Ok(FileEnd::Cut("it ends in the header of the file".to_owned()));
+        return Ok(FileEnd::Cut("it ends in the file header".to_owned()));
     };
     let mut offsets = Offsets::default();
     let mut bytes = Vec::new();
@@ -79,7 +79,7 @@ pub(super) fn packets(
         None => FileEnd::Cut("it ends in the frame table".to_owned()),
         Some(listed) if listed == offsets => FileEnd::Whole,
         Some(listed) => FileEnd::Cut(format!(
-            "the frame table lists {} packets, and {} were found one after the other; convert the \
+            "the frame table lists {} packets, but {} consecutive ones were found; convert the \
              file with editcap -F pcapng",
             listed.count, offsets.count
         )),
@@ -106,7 +106,7 @@ struct Header {
     /// The link type of all packets.
     link: u16,
     begin: Option<Moment>,
-    /// Offset of the first table, before which the packets end.
+    /// Offset of the first table, which is the end of the packets.
     packets_end: u64,
     /// Offset and length of the frame table.
     table: (u64, u64),
@@ -165,14 +165,14 @@ impl<R: Read> Input<R> {
     ) -> Result<(Option<Time>, Linktype, usize), String> {
         let cut = |whole: std::io::Result<bool>| match whole {
             Ok(true) => Ok(()),
-            Ok(false) => Err("the file ends in it".to_owned()),
+            Ok(false) => Err("the file ends in this packet".to_owned()),
             Err(error) => Err(error.to_string()),
         };
         let mut about = [0; PACKET_HEADER_LEN];
         cut(self.fill(&mut about))?;
         let captured = usize::try_from(long(&about, 12)).unwrap_or(usize::MAX);
         if captured > RECORD_MAX {
-            return Err(format!("it has {captured} bytes, at most {RECORD_MAX} are read"));
+            return Err(format!("{captured} bytes, more than the maximum of {RECORD_MAX}"));
         }
         bytes.resize(captured, 0);
         cut(self.fill(bytes))?;
@@ -208,12 +208,12 @@ impl<R: Read> Input<R> {
     }
 }
 
-/// The link types that NetMon and pcap number differently.
+/// Converts a link type of NetMon to that of pcap.
 fn link_type(network: u16) -> Linktype {
     match network {
         1 => Linktype::ETHERNET,
         8 => Linktype::RAW,
-        // Numbers that pcap does not have, so that packets are counted and not misread.
+        // Use numbers that pcap does not have, so that the packets are only counted.
         other => Linktype(NETMON_LINKS | i32::from(other)),
     }
 }

@@ -1,4 +1,4 @@
-//! Captured frames as the evidence of checks.
+//! Captured frames as evidence of checks.
 
 use std::fmt::{self, Display};
 use std::time::Duration;
@@ -10,7 +10,7 @@ use crate::exchange::Exchange;
 use crate::judge::Evidence;
 use crate::rules::Observation;
 
-/// Where in the capture a frame was seen.
+/// The location of frames in a capture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Location {
     pub(super) from: Endpoint,
@@ -40,7 +40,7 @@ impl Display for Location {
     }
 }
 
-/// The frames that a check is about.
+/// The frames to which a check applies.
 #[derive(Debug)]
 pub(super) enum CapturedFrames<'e> {
     /// A request, and its reply if one was captured.
@@ -59,7 +59,7 @@ impl Observation for CapturedFrames<'_> {
         match self {
             Self::Exchange(exchange, location) => {
                 let evidence = Evidence::from(*exchange);
-                // A note on what was cut may follow.
+                // A note about a truncation may follow.
                 let words = exchange.result_in_words();
                 let result = evidence.result.replacen(&exchange.result(), &words, 1);
                 let call = format!("{}\n            {location}", evidence.call);

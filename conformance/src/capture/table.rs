@@ -1,4 +1,4 @@
-//! The table of TCP connections: takes segments, emits frames with their location.
+//! The table of TCP connections: receives segments, emits frames with their location.
 
 use std::collections::BTreeMap;
 
@@ -9,26 +9,26 @@ use super::frames::{FramePiece, Frames, Span};
 use super::link::TcpSegment;
 use super::tcp::{DirectedSegment, DirectionState, Mark, ReassembledPiece};
 
-/// Maximum number of connections followed at the same time; beyond it the one that was silent
-/// longest is ended.
+/// Maximum number of connections that are followed at the same time; beyond that, the connection that
+/// was idle for the longest time is ended.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
 
-/// Bytes of memory for all incomplete frames and early segments of all connections.
+/// Maximum memory in bytes for incomplete frames and early segments of all connections.
 pub(super) const BUFFERED_MAX: usize = 0x200_0000;
 
-/// Which TCP ports are judged.
+/// The TCP ports whose connections are judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ports {
-    /// Connections from or to one of these.
+    /// Connections from or to one of these ports.
     Of(Vec<u16>),
-    /// All of them; connections without an AMS frame are ignored.
+    /// All connections; those without an AMS frame are ignored.
     Any,
 }
 
-/// A direction of a connection: from one address to the other.
+/// A direction of a connection.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentDirection {
-    /// Number of the connection, from 1 on.
+    /// Number of the connection, from 1.
     pub(super) connection: u64,
     pub(super) from: Endpoint,
     pub(super) to: Endpoint,
@@ -40,13 +40,13 @@ pub(super) enum ConnectionEvent {
     Router,
     Broken(Error, Vec<u8>, SegmentDirection, Span),
     Cut(Vec<u8>, SegmentDirection, Span),
-    /// Bytes that were not captured.
+    /// Number of bytes that were not captured.
     Gap(u64, SegmentDirection, Mark),
-    /// Bytes skipped to find the next frame.
+    /// Number of bytes skipped to find the next frame.
     Skipped(usize),
     /// A connection whose beginning was not captured.
     Joined(u64),
-    /// A conversation without a beginning, of which every frame since then was captured.
+    /// A conversation whose beginning was not captured, but every frame since then.
     Running(u64),
     /// A frame that was incomplete when the connection or the capture ended.
     Unfinished,
@@ -54,12 +54,12 @@ pub(super) enum ConnectionEvent {
     Ended(Ending),
 }
 
-/// How a connection ended.
+/// The end of a connection.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ending {
     pub(super) connection: u64,
     pub(super) last: u64,
-    /// The direction of which no segment was captured, not even an acknowledgement.
+    /// The direction without any captured segment, if any; even acknowledgements are missing.
     pub(super) unseen: Option<SegmentDirection>,
 }
 
@@ -69,13 +69,13 @@ struct TcpConnection {
     ends: [Endpoint; 2],
     halves: [DirectionState; 2],
     frames: [Frames; 2],
-    /// Whether it is known to carry AMS: by its port, or because a frame was found.
+    /// Whether the connection is known to carry AMS: by its port, or because it contains a frame.
     is_ams: bool,
-    /// Whether its beginning was captured.
+    /// Whether the beginning was captured.
     is_whole: bool,
-    /// Whether [`ConnectionEvent::Joined`] still has to be emitted.
+    /// Whether [`ConnectionEvent::Joined`] must still be emitted.
     joined: bool,
-    /// Number of its last segment, and of the packet with it.
+    /// Number of the last segment, and of its packet.
     last: u64,
     packet: u64,
 }
@@ -101,14 +101,14 @@ impl ConnectionTable {
         self.connections
     }
 
-    /// Whether the sender's direction holds back segments that came too early.
+    /// Whether early segments of the sender wait for missing bytes.
     pub(super) fn waits(&self, way: &SegmentDirection) -> bool {
         self.half(way).is_some_and(|half| half.memory_size() > 0)
     }
 
-    /// Whether the sender's direction was captured up to this offset.
+    /// Whether the bytes of the sender were captured up to this offset.
     pub(super) fn has(&self, way: &SegmentDirection, place: u64) -> bool {
-        // Without TCP the offset is that of the last captured byte.
+        // Without TCP, the offset is always that of the last captured byte.
         matches!(way.from, Endpoint::Ams(..))
             || self.half(way).is_some_and(|half| half.is_seen() && half.offset() >= place)
     }
@@ -140,7 +140,7 @@ impl ConnectionTable {
             self.end(key, out);
         }
         if !self.open.contains_key(&key) {
-            // A FIN or an acknowledgement repeated after the connection has ended.
+            // This is a FIN or an acknowledgement repeated after the end of the connection.
             if segment.payload.is_empty() && !segment.syn {
                 return;
             }
@@ -161,11 +161,11 @@ impl ConnectionTable {
         if connection.is_ams && std::mem::take(&mut connection.joined) {
             out.insert(events, ConnectionEvent::Joined(connection.number));
         }
-        // The acknowledgement of the last FIN comes when the connection is gone already.
+        // The acknowledgement of the last FIN arrives after the connection was removed.
         if over || self.buffered > BUFFERED_MAX {
             self.end(key, out);
         } else if !connection.is_ams {
-            // No events before the first AMS frame; a gap until then is remembered as a missing
+            // Emit no events before the first AMS frame; store a gap until then as a missing
             // beginning.
             let lost =
                 out.iter().skip(events).any(|event| matches!(event, ConnectionEvent::Gap(..)));
@@ -234,7 +234,7 @@ impl TcpConnection {
         usize::from(self.ends.first() != Some(&from))
     }
 
-    /// Whether a SYN belongs to this connection: repeated, or that of the other side.
+    /// Whether a SYN belongs to this connection: a repeated one, or that of the other side.
     fn is_same(&self, segment: &TcpSegment<'_>) -> bool {
         let half = self.halves.get(self.side(segment.from));
         half.is_none_or(|half| half.is_new() || half.begins_with(segment.sequence))
@@ -284,7 +284,7 @@ impl TcpConnection {
         }
     }
 
-    /// Emits the segments held back.
+    /// Emits the waiting segments.
     fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         let [one, other] = self.ends;
         for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {

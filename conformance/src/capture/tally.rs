@@ -1,4 +1,4 @@
-//! Counters of a capture, mostly of packets and frames that are not judged.
+//! Counters of a capture, mainly of packets and frames that are not judged.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -15,20 +15,20 @@ use crate::text::hex::spaced;
 use crate::text::{escape, plural, shorten};
 use crate::values::until_nul;
 
-/// Maximum number of different addresses that are counted.
+/// Maximum number of different unknown addresses that are counted.
 const UNKNOWN_MAX: usize = 1000;
 
-/// Maximum number of them that are shown.
+/// Maximum number of entries that a line shows.
 const SHOWN: usize = 8;
 
 /// Counters of a capture.
 #[derive(Clone, Debug, Default)]
 pub struct CaptureTally {
-    /// Packets of the file.
+    /// Packets in the file.
     pub packets: u64,
     /// IP fragments.
     pub fragments: u64,
-    /// Packets with a header that is cut or wrong.
+    /// Packets with a truncated or invalid header.
     pub unreadable: u64,
     /// Packets by unknown link type.
     pub links: BTreeMap<i32, u64>,
@@ -38,15 +38,15 @@ pub struct CaptureTally {
     pub elsewhere: u64,
     /// TCP connections on the selected ports.
     pub connections: u64,
-    /// EtherCAT frames with an AMS frame.
+    /// EtherCAT frames that contain an AMS frame.
     pub ethercat: u64,
     /// Connections whose beginning was not captured.
     pub joined: u64,
     /// Retransmitted segments.
     pub repeated: u64,
-    /// Segments that were captured before an earlier one.
+    /// Segments that were captured before an earlier segment.
     pub early: u64,
-    /// Gaps: places at which bytes are missing.
+    /// Gaps, where bytes are missing.
     pub gaps: u64,
     /// Bytes skipped to find a frame.
     pub skipped: u64,
@@ -54,21 +54,21 @@ pub struct CaptureTally {
     pub frames: u64,
     /// Messages between clients and their local router.
     pub router: u64,
-    /// Frames by AMS port, if it is not a task of a CNC.
+    /// Frames to AMS ports that do not belong to a task of a CNC, by port.
     pub other_ports: BTreeMap<u16, u64>,
-    /// Frames by command, if it is none of the three services.
+    /// Frames with commands other than the three services, by command.
     pub commands: BTreeMap<u16, u64>,
-    /// Calls by address, if no function has that address.
+    /// Calls of addresses without a function, by address.
     pub unknown: BTreeMap<String, u64>,
-    /// Requests with their replies.
+    /// Requests with a reply.
     pub exchanges: u64,
-    /// The first of them: packet, function, address and result.
+    /// The first exchanges: packet, function, address and result.
     pub listed: Vec<String>,
-    /// Requests answered by an error.
+    /// Requests with an error reply.
     pub refused: u64,
     /// Requests whose reply was not captured.
     pub unanswered: u64,
-    /// Unanswered requests that were forgotten because too many waited.
+    /// Requests that were dropped because too many waited for a reply.
     pub forgotten: u64,
     /// Names, objects and elements that were not stored because the limit of 24 MiB was reached.
     pub unkept: u64,
@@ -76,7 +76,7 @@ pub struct CaptureTally {
     pub unasked: u64,
     /// Frames whose rest was not captured.
     pub unfinished: u64,
-    /// How the file ended.
+    /// The way in which the file ended.
     pub end: Option<FileEnd>,
 }
 
@@ -92,11 +92,11 @@ pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
     }
 }
 
-/// Maximum number of exchanges that are listed.
+/// Maximum number of listed exchanges.
 const LISTED_MAX: usize = 10_000;
 
 impl CaptureTally {
-    /// Lists a request with its reply.
+    /// Adds a request with its reply to the list.
     pub(super) fn list(&mut self, packet: u64, exchange: &Exchange) {
         if self.listed.len() < LISTED_MAX {
             let (asked, result) = (asked(exchange), answered(exchange));
@@ -104,66 +104,66 @@ impl CaptureTally {
         }
     }
 
-    /// What of the traffic is missing in the capture.
+    /// Notes about traffic that is missing in the capture.
     pub fn missing(&self) -> Vec<String> {
         let cut = match &self.end {
-            Some(FileEnd::Cut(why)) => Some(format!("judged up to a cut of the file: {why}")),
+            Some(FileEnd::Cut(why)) => Some(format!("the file was judged only in part: {why}")),
             _ => None,
         };
         let gaps = (self.gaps > 0).then(|| {
             let gaps = of_number(self.gaps, "gap");
-            format!("{gaps}: what they touch is inconclusive")
+            format!("{gaps}: checks that need the missing bytes are inconclusive")
         });
         cut.into_iter().chain(gaps).collect()
     }
 
-    /// One line for each group of counters: what the capture has, and which part of it was not
+    /// One line for each group of counters: the content of the capture, and the parts that were not
     /// judged.
     pub fn lines(&self) -> Vec<String> {
         let number = of_number;
         let mut lines = vec![format!(
-            "{}, {} in {}, {}, {} with an answer",
+            "{}, {} in {}, {}, {} with a reply",
             number(self.packets, "packet"),
             number(self.segments, "TCP segment"),
             number(self.connections, "connection"),
             number(self.frames, "frame"),
             number(self.exchanges, "request"),
         )];
-        // What is counted, and what is said of it.
+        // Number, unit and text of each line.
         let told = [
             (self.ethercat, "AMS frame", " in EtherCAT, without TCP"),
-            (self.refused, "request", " answered with an error"),
+            (self.refused, "request", " with an error reply"),
             (self.joined, "connection", " with a beginning that was not captured"),
-            (self.repeated, "segment", " captured once more"),
+            (self.repeated, "segment", " retransmitted"),
             (self.early, "segment", " out of order"),
             (self.skipped, "byte", " skipped to find a frame"),
-            (self.unanswered, "request", " without an answer"),
+            (self.unanswered, "request", " without a reply"),
             (
                 self.forgotten,
                 "request",
-                " of these forgotten: more than 4096 on a connection, or 16 MiB, waited",
+                " of these dropped: more than 4096 on a connection, or 16 MiB, waited for replies",
             ),
             (
                 self.unkept,
                 "fact",
-                " of names, objects and elements not compared: at most 24 MiB are kept",
+                " about names, objects and elements not compared: at most 24 MiB are stored",
             ),
-            (self.unasked, "answer", " to no request that was captured"),
-            (self.unfinished, "frame", " unfinished at the end of the connection or the capture"),
+            (self.unasked, "reply", " without a captured request"),
+            (self.unfinished, "frame", " incomplete at the end of the connection or the capture"),
             (self.router, "message", " to a local router, not judged"),
-            (self.fragments, "fragment", " of IP packets, not put together"),
-            (self.unreadable, "packet", " with headers cut or wrong, not judged"),
+            (self.fragments, "fragment", " of IP packets, not reassembled"),
+            (self.unreadable, "packet", " with truncated or invalid headers, not judged"),
         ];
         let told = told.into_iter().filter(|(number, ..)| *number > 0);
         lines.extend(told.map(|(number, noun, what)| of_number(number, noun) + what));
         lines.extend(unjudged("link types", &self.links));
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
         lines.extend(unjudged("AMS commands", &self.commands));
-        lines.extend(unjudged("calls of what is documented nowhere,", &self.unknown));
+        lines.extend(unjudged("calls of undocumented addresses", &self.unknown));
         if self.segments == 0 && self.elsewhere > 0 {
             let elsewhere = self.elsewhere;
             lines.push(format!(
-                "not looked at: {elsewhere} TCP segments on other ports; see --port and --any-port"
+                "not read: {elsewhere} TCP segments on other ports; see --port and --any-port"
             ));
         }
         lines.extend(self.missing());
@@ -171,17 +171,17 @@ impl CaptureTally {
     }
 }
 
-/// Maximum number of bytes of a value that are shown.
+/// Maximum number of shown bytes of a value.
 const VALUE_MAX: usize = 16;
 
-/// Maximum number of fields of a request that are shown, and of characters of each.
+/// Maximum number of shown fields of a request, and of characters of each.
 const FIELDS_MAX: usize = 3;
 const FIELD_MAX: usize = 64;
 
-/// Maximum number of characters of a reply.
+/// Maximum number of shown characters of a reply.
 const REPLY_MAX: usize = 100;
 
-/// What a request asks for: the function with the name or index in its data, or its address.
+/// Describes a request: the function with the name or index in its data, or the address.
 fn asked(exchange: &Exchange) -> String {
     let call = exchange.call();
     let (function, fault) = match call.dispatch() {
@@ -198,13 +198,13 @@ fn asked(exchange: &Exchange) -> String {
     let spec = function.spec();
     let mut fields = Vec::new();
     if let Some(stream) = spec.request {
-        // `mistake` has named a fault.
+        // `mistake` already describes an error.
         let _fault = stream.walk(call.data, |segment| {
             if fields.len() < FIELDS_MAX {
                 fields.extend(shown(segment.field.name(), segment.bytes));
             }
         });
-        // `walk` stops at a name without its NUL, which is shown all the same.
+        // `walk` stops at a name without its NUL; show the name anyway.
         let first = stream.layout().fields.first().map_or("", |field| field.name);
         if fields.is_empty() && first == "name" {
             fields.extend(shown(first, call.data));
@@ -233,7 +233,7 @@ fn shown(field: &str, bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// What is wrong with the call of a function; `None` if the call may not be of this function.
+/// The error in the call of a function; `None` if the call may be of another function.
 fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Option<String> {
     let spec = function.spec();
     let is_com = |port: AmsPort| port == AmsPort::COM;
@@ -242,7 +242,7 @@ fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Opti
         _ if is_com(call.port) != is_com(spec.task.port()) => {
             Some(format!("at port {} instead of {}", call.port, spec.task.port()))
         }
-        // A Read at the address of a function may be meant for an element there (SDA-12).
+        // A Read at the address of a function may address an element (SDA-12).
         DispatchError::Service { expected, found } if *found != Service::Read => {
             Some(format!("by {found} instead of {expected}"))
         }
@@ -262,7 +262,7 @@ fn answered(exchange: &Exchange) -> String {
     }
 }
 
-/// The fields of a reply with their values, if its stream tells their types.
+/// The fields of a reply with their values, if the stream determines their types.
 fn decoded(exchange: &Exchange, data: &[u8]) -> Option<String> {
     let stream = exchange.call().dispatch().ok()?.function().spec().reply?;
     let (subject, values) = (ExplainSubject::Stream(stream), ValueFormat::default());
@@ -284,12 +284,12 @@ fn bytes_of(data: &[u8]) -> String {
     }
 }
 
-/// A counter and what it counts.
+/// A number with a noun in singular or plural.
 fn of_number(number: u64, noun: &str) -> String {
     plural(usize::try_from(number).unwrap_or(usize::MAX), noun)
 }
 
-/// The counters of a map as text, the first of them only.
+/// The first counters of a map as text.
 fn unjudged<K: Display>(what: &str, all: &BTreeMap<K, u64>) -> Option<String> {
     let shown = all.iter().take(SHOWN).map(|(key, number)| format!("{key} ({number})"));
     let shown: Vec<String> = shown.collect();

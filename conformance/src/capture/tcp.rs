@@ -1,33 +1,33 @@
-//! TCP reassembly of one direction of a connection: takes segments, emits bytes in order.
+//! TCP reassembly of one direction of a connection: receives segments, emits bytes in order.
 
 use std::collections::BTreeMap;
 use std::ops::Bound;
 
 use super::time::Time;
 
-/// Maximum number of bytes that are held back in one direction until earlier ones arrive.
+/// Maximum number of bytes of one direction that wait for earlier bytes.
 pub(super) const AHEAD_MAX: usize = 0x10_0000;
 
-/// Maximum number of segments that are held back in one direction.
+/// Maximum number of segments of one direction that wait for earlier bytes.
 const SEGMENTS_MAX: usize = 4096;
 
-/// Maximum distance of a sequence number from the expected one; beyond it belongs to another
+/// Maximum distance of a sequence number from the expected one; a larger distance means another
 /// connection.
 const WINDOW: u32 = 0x4000_0000;
 
-/// Segments that may follow a gap whose bytes the other side has acknowledged: a capture made on
-/// several processors is out of order.
+/// Number of segments after a gap until acknowledged bytes count as missing; a capture made on several
+/// processors may be out of order.
 const REORDERED_SEGMENTS_MAX: u32 = 64;
 
-/// Bytes that may have been captured before the SYN that precedes them.
+/// Number of bytes that may have been captured before the preceding SYN.
 const BEFORE_SYN: u32 = 0x1_0000;
 
-/// Where bytes were captured.
+/// The location of bytes in the capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Mark {
     pub(super) packet: u64,
     pub(super) time: Option<Time>,
-    /// Offset up to which their sender had received the other direction; `None` if unknown.
+    /// Offset up to which the sender of the bytes had received the other direction; `None` if unknown.
     pub(super) acknowledged: Option<u64>,
 }
 
@@ -45,7 +45,7 @@ pub(super) struct DirectedSegment<'a> {
     pub(super) sequence: u32,
     pub(super) syn: bool,
     pub(super) payload: &'a [u8],
-    /// Bytes after the payload that were not captured.
+    /// Number of bytes after the payload that were not captured.
     pub(super) missing: usize,
     pub(super) mark: Mark,
 }
@@ -53,17 +53,17 @@ pub(super) struct DirectedSegment<'a> {
 /// The state of one direction.
 #[derive(Debug, Default)]
 pub(super) struct DirectionState {
-    /// Sequence number of the next byte, once one is known.
+    /// Sequence number of the next byte, if known.
     next: Option<u32>,
     /// Sequence number of the SYN.
     begin: Option<u32>,
-    /// Whether anything of this direction was captured.
+    /// Whether any segment of this direction was captured.
     seen: bool,
     /// Offset of the FIN.
     end: Option<u64>,
-    /// Offset of the next byte: the number of bytes emitted, which does not wrap around.
+    /// Offset of the next byte, that is, the number of emitted bytes; it does not wrap around.
     offset: u64,
-    /// Segments that came too early, by offset.
+    /// Segments that wait for earlier bytes, by offset.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
     /// Offset acknowledged by the other side; `acknowledged_by` is the segment that did so.
@@ -72,7 +72,7 @@ pub(super) struct DirectionState {
     waiting: u32,
     /// Retransmitted segments.
     pub(super) repeated: u64,
-    /// Segments that were captured before an earlier one.
+    /// Segments that were captured before an earlier segment.
     pub(super) early: u64,
 }
 
@@ -132,13 +132,13 @@ impl DirectionState {
         self.end.is_some_and(|end| self.offset >= end)
     }
 
-    /// Memory of the segments held back: for many small ones the map takes more than their bytes.
+    /// Memory of the waiting segments; for many small ones, the map needs more memory than the bytes.
     pub(super) fn memory_size(&self) -> usize {
         let each = size_of::<(u64, EarlySegment)>();
         self.buffered.saturating_add(self.ahead.len().saturating_mul(each))
     }
 
-    /// Takes a segment and emits the bytes that are in order.
+    /// Adds a segment and emits the bytes that are now in order.
     pub(super) fn push(
         &mut self,
         part: DirectedSegment<'_>,
@@ -173,7 +173,7 @@ impl DirectionState {
                 self.take(fresh, missing, part.mark, out);
             }
         } else {
-            // Too far off to belong to this connection: the segments held back will never fit.
+            // The distance is too large for this connection: the waiting segments will never match.
             self.flush(out);
             out(ReassembledPiece::Gap(0, part.mark));
             self.next = Some(sequence);
@@ -192,7 +192,7 @@ impl DirectionState {
         self.acknowledged_by.get_or_insert(mark);
     }
 
-    /// The other side has received all bytes before `sequence`.
+    /// Notes that the other side has received all bytes before `sequence`.
     pub(super) fn acknowledge(&mut self, sequence: u32, mark: Mark) {
         let Some(next) = self.next else { return };
         let after = sequence.wrapping_sub(next);
@@ -203,12 +203,12 @@ impl DirectionState {
         }
     }
 
-    /// The direction has ended: emits the segments held back, with gaps.
+    /// Emits the waiting segments, with gaps, at the end of the direction.
     pub(super) fn flush(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while !self.ahead.is_empty() {
             self.skip_gap(out);
         }
-        // A FIN that was not captured is acknowledged like one byte.
+        // The acknowledgement may include a FIN that was not captured, which counts as one byte.
         let got = self.acknowledged.saturating_sub(1);
         let missing = self.end.unwrap_or(got).saturating_sub(self.offset);
         if let (true, Some(mark)) = (missing > 0 && self.seen, self.acknowledged_by) {
@@ -237,7 +237,7 @@ impl DirectionState {
     fn advance(&mut self, length: usize) {
         let length = u64::try_from(length).unwrap_or(u64::MAX);
         self.offset = self.offset.saturating_add(length);
-        // Sequence numbers are modulo 2^32, so the length is too.
+        // Sequence numbers are modulo 2^32, so the length can be reduced, too.
         let low = u32::try_from(length & u64::from(u32::MAX)).unwrap_or(0);
         self.next = self.next.map(|next| next.wrapping_add(low));
     }
@@ -252,7 +252,7 @@ impl DirectionState {
         self.ahead.insert(offset, EarlySegment { bytes, missing: part.missing, mark: part.mark });
     }
 
-    /// Emits segments held back that are next now.
+    /// Emits waiting segments that are now in order.
     fn follow(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while let Some((&offset, _)) = self.ahead.first_key_value() {
             let Some(overlap) = self.offset.checked_sub(offset) else { return };
@@ -269,7 +269,8 @@ impl DirectionState {
         }
     }
 
-    /// Gives up missing bytes if the other side has acknowledged them, or if too much is held back.
+    /// Stops waiting for missing bytes if the other side has acknowledged them, or if too many bytes
+    /// wait.
     fn give_up_gap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         self.waiting = self.waiting.saturating_add(1);
         let too_much = self.buffered > AHEAD_MAX || self.ahead.len() > SEGMENTS_MAX;

@@ -1,4 +1,4 @@
-//! When a packet was captured.
+//! The time at which a packet was captured.
 
 use std::fmt;
 use std::time::Duration;
@@ -8,12 +8,12 @@ use std::time::Duration;
 pub struct Time(Duration);
 
 impl Time {
-    /// From seconds and a fraction in units of 1/`resolution` second.
+    /// Creates a time from seconds and a fraction in units of 1/`resolution` seconds.
     pub(super) fn new(seconds: u64, units: u32, resolution: u64) -> Self {
         Self(Duration::from_secs(seconds).saturating_add(part(units.into(), resolution)))
     }
 
-    /// From units since 1970, plus an offset in seconds.
+    /// Creates a time from units since 1970, plus an offset in seconds.
     pub(super) fn of_units(units: u64, resolution: u64, offset: i64) -> Self {
         let seconds = units.checked_div(resolution).unwrap_or(0);
         let rest = units.checked_rem(resolution).unwrap_or(0);
@@ -25,7 +25,7 @@ impl Time {
         self.0
     }
 
-    /// The time since `earlier`; zero if that is later.
+    /// The time since `earlier`; zero if `earlier` is later.
     pub(super) const fn since(self, earlier: Self) -> Duration {
         self.0.saturating_sub(earlier.0)
     }
@@ -36,7 +36,7 @@ fn part(units: u64, resolution: u64) -> Duration {
     Duration::from_nanos(nanos.and_then(|nanos| u64::try_from(nanos).ok()).unwrap_or(0))
 }
 
-/// The time of the day in UTC, to the microsecond.
+/// The time of day in UTC, with microseconds.
 impl fmt::Display for Time {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let of = |unit: u64, count: u64| {

@@ -1,4 +1,4 @@
-//! Golden vectors from captured traffic, without addresses and texts that identify a machine.
+//! Creates golden vectors from captured traffic, without addresses and texts that identify a machine.
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -37,7 +37,7 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// With texts as captured, or with each letter replaced.
+    /// Creates a collector that keeps captured texts, or replaces each letter.
     pub fn new(keep_texts: bool) -> Self {
         Self { keep_texts, vectors: BTreeMap::new() }
     }
@@ -92,7 +92,7 @@ impl Collector {
         self.frames(&Call { data: &sent, ..*call }, received.as_deref());
     }
 
-    /// Adds both frames, encoded anew with other addresses.
+    /// Adds both frames, encoded again with other addresses.
     fn frames(&mut self, call: &Call<'_>, received: Option<&[u8]>) {
         let cnc = AmsAddr { net_id: CNC, port: call.port };
         let header = AmsHeader::request(cnc, CLIENT, call.service.command(), 1);
@@ -211,7 +211,7 @@ impl Collector {
     /// No file is overwritten.
     ///
     /// # Errors
-    /// Those of the system, and [`io::ErrorKind::AlreadyExists`].
+    /// An error of the system, or [`io::ErrorKind::AlreadyExists`].
     pub fn write(&self, place: &Path) -> io::Result<Vec<PathBuf>> {
         let mut files: BTreeMap<PathBuf, Vec<&Vector>> = BTreeMap::new();
         for vector in self.vectors.values() {
@@ -225,7 +225,7 @@ impl Collector {
         let named = |file: &Path, error: io::Error| {
             io::Error::new(error.kind(), format!("{}: {error}", file.display()))
         };
-        // Checked before any file is written.
+        // Check this before writing any file.
         if let Some(there) = files.keys().find(|file| file.exists()) {
             return Err(named(there, io::ErrorKind::AlreadyExists.into()));
         }
@@ -246,7 +246,7 @@ impl Collector {
     }
 }
 
-/// The context with type and dimensions of the value that is read or written.
+/// The context with the type and dimensions of the read or written value.
 fn typed(known: Option<&TargetVariable>) -> Context {
     let Some(known) = known else { return Context::default() };
     let name = known.description.var_type.name();
@@ -261,7 +261,7 @@ fn typed(known: Option<&TargetVariable>) -> Context {
 fn segments(stream: Stream, bytes: &[u8], prefix: &str) -> Vec<Segment> {
     let mut all = Vec::new();
     let repeats = stream.layout().repeats;
-    // The walk ends at a fault; a stream with one is not collected.
+    // The walk ends at an error, but invalid streams are not collected.
     let _walked = stream.walk(bytes, |piece| {
         let several = piece
             .field
@@ -278,8 +278,7 @@ fn segments(stream: Stream, bytes: &[u8], prefix: &str) -> Vec<Segment> {
     all
 }
 
-/// The stream with the letters of its texts replaced. Kinds and types are words of the manual and
-/// stay.
+/// Replaces the letters of the texts in a stream, except kinds and types, which the manual defines.
 fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     let mut scrubbed = bytes.to_vec();
     let mut places = Vec::new();
@@ -297,7 +296,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     });
     for (start, end, is_name) in places {
         let Some(text) = scrubbed.get_mut(start..end) else { continue };
-        // A name of a variable begins with its kind.
+        // The name of a variable begins with its kind.
         let kind = is_name && text.get(..2) == Some(b"V.");
         let skip = if kind { text.iter().skip(2).position(|byte| *byte == b'.') } else { None };
         let skip = skip.map_or(0, |at| at.saturating_add(2));
@@ -313,7 +312,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     scrubbed
 }
 
-/// FNV-1a, 64 bits: the IDs of vectors must be the same on every machine and in every version.
+/// FNV-1a with 64 bits: the IDs of vectors must be the same on every machine and in every version.
 fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
     let bytes = parts.iter().flat_map(|part| part.iter().copied().chain([0xFF]));
     bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| {

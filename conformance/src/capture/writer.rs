@@ -1,9 +1,9 @@
-//! Writes a capture for Wireshark: pcapng, with made-up headers of Ethernet, IP and TCP around the
-//! bytes of a real connection.
+//! Writes a capture for Wireshark in pcapng format, with artificial Ethernet, IP and TCP headers
+//! around the bytes of a real connection.
 //!
-//! The file has the bytes that were passed to and received from the system, in this order and with
-//! the time of this machine, not the segments and acknowledgements on the network. Each connection
-//! begins with a handshake and ends with a FIN, so that a reader can put it together.
+//! The file contains the bytes that were passed to and received from the system, in this order and
+//! with the time of this machine, not the segments and acknowledgements on the network. Each
+//! connection begins with a handshake and ends with a FIN, so that a reader can reassemble it.
 //!
 //! ```
 //! use std::net::SocketAddr;
@@ -37,13 +37,12 @@ use crate::client::Tap;
 /// Maximum number of bytes of a TCP segment, as on Ethernet.
 const SEGMENT_MAX: usize = 1440;
 
-/// A capture that is being written. The first error of the system is returned by
-/// [`finish`](Self::finish).
+/// A capture that is being written. [`finish`](Self::finish) returns the first error of the system.
 pub struct Capture {
     out: Box<dyn Write + Send>,
     flow: Option<Flow>,
     error: Option<io::Error>,
-    /// Called with an error if the capture is dropped without having been finished.
+    /// Called with an error if the capture is dropped before it is finished.
     dropped: Option<Box<dyn FnOnce(io::Error) + Send>>,
 }
 
@@ -59,14 +58,14 @@ impl Capture {
         Self::new(Box::new(BufWriter::new(File::create(file)?)))
     }
 
-    /// A capture to any writer.
+    /// Creates a capture that is written to `out`.
     pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
         out.write_all(&section())?;
         out.write_all(&interface())?;
         Ok(Self { out, flow: None, error: None, dropped: None })
     }
 
-    /// Calls `tell` with an error of the system if the capture is dropped without having been
+    /// Calls `tell` with an error of the system if the capture is dropped before it is
     /// [finished](Self::finish).
     #[must_use]
     pub fn or_tell(self, tell: impl FnOnce(io::Error) + Send + 'static) -> Self {
@@ -75,7 +74,7 @@ impl Capture {
         capture
     }
 
-    /// Ends the capture.
+    /// Completes the capture.
     ///
     /// # Errors
     /// The first error of the system while writing.
@@ -151,7 +150,7 @@ impl Drop for Capture {
     }
 }
 
-/// A block: type, length, body filled up to four bytes, length again.
+/// A block: type, length, body padded to a multiple of four bytes, length again.
 fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     let filled = body.len().next_multiple_of(4);
     let length = u32::try_from(filled.saturating_add(12)).unwrap_or(u32::MAX);
@@ -163,7 +162,7 @@ fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     block
 }
 
-/// Section header: byte order, version 1.0, length not given, name of the writing tool.
+/// Section header: byte order, version 1.0, unspecified length, name of the writing tool.
 fn section() -> Vec<u8> {
     const USER_APPLICATION: u16 = 4;
     let name = concat!("ads-cnc ", env!("CARGO_PKG_VERSION"));

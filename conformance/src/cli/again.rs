@@ -1,6 +1,6 @@
-//! The command line that runs the same again.
+//! The command line in a report that repeats a run.
 
-/// Options that select, order or report, with a value.
+/// Options with a value that select or order cases or write reports.
 const LEFT_OUT: [&str; 11] = [
     "--seed",
     "--only",
@@ -14,10 +14,10 @@ const LEFT_OUT: [&str; 11] = [
     "--capture",
     "--waivers",
 ];
-/// Such options without a value.
+/// Options without a value that only affect the output.
 const FLAGS_LEFT_OUT: [&str; 4] = ["-v", "--verbose", "-q", "--quiet"];
 
-/// The command line of these arguments, without what selects, orders or reports.
+/// The command line of these arguments, without the options that select, order or report.
 pub(super) fn again(arguments: impl IntoIterator<Item = String>) -> String {
     let mut words = vec!["ads-cnc".to_owned(), "run".to_owned()];
     let mut arguments = arguments.into_iter();
@@ -34,7 +34,7 @@ pub(super) fn again(arguments: impl IntoIterator<Item = String>) -> String {
     words.join(" ")
 }
 
-/// A word as a shell takes it.
+/// A word quoted for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,@%+".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

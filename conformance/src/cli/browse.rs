@@ -1,4 +1,4 @@
-//! `ads-cnc browse`: what a CNC has.
+//! `ads-cnc browse`: lists the objects, elements and variables of a CNC.
 
 use std::io::{self, BufWriter, Write as _};
 
@@ -19,9 +19,9 @@ use crate::session::{Session, ToolError};
 use crate::text::{hex, json};
 use crate::values::plain;
 
-/// Maximum number of characters of a value in a table; CSV and JSON have all.
+/// Maximum number of characters of a value in a table; CSV and JSON contain the whole value.
 const VALUE_MAX: usize = 48;
-/// Maximum number of bytes of a content that is read; `get` reads more.
+/// Maximum size in bytes of a value that is read; `get` reads larger ones.
 const CONTENT_MAX: u32 = 0x1_0000;
 
 /// List objects and elements, or all variables
@@ -93,7 +93,7 @@ Exit codes: 0 listed; 2 wrong usage; 3 no reply, no match, or a maximum or the d
 4 rejected for safety; 70 internal error. Requests that the CNC rejects are noted on stderr, and
 their results are omitted.";
 
-/// The text of the help states these limits.
+/// The help text states these limits.
 const _: () = assert!(
     OBJECTS_MAX == 100_000
         && REQUESTS_MAX == 1_000_000
@@ -111,10 +111,10 @@ enum BrowseFormat {
     Json,
 }
 
-/// Maximum number of bytes of all contents together.
+/// Maximum size in bytes of all values together.
 const CONTENTS_MAX: usize = 8 << 20;
 
-/// A value, or why it was not read.
+/// The bytes of a value, or the reason why it was not read.
 type ReadContent = Result<Vec<u8>, String>;
 
 impl Browse {
@@ -156,18 +156,18 @@ impl Browse {
                 (None, None, false) => "the CNC has no objects; --variables lists its variables",
                 (None, None, true) => "the CNC has no variables",
                 (Some(name), ..) if !self.variables && name.to_uppercase().starts_with("V.") => {
-                    "nothing fits: --variables lists variables"
+                    "no match: --variables lists variables"
                 }
-                _ => "nothing fits: --filter takes a part of a name, --of the whole name of a list",
+                _ => "no match: --filter takes a part of a name, --of the whole name of a list",
             });
             return Ok(Exit::Nothing);
         }
         Ok(if found.is_cut { Exit::Nothing } else { Exit::Success })
     }
 
-    /// The channels of the CNC, if none of those given is there.
+    /// A note with the channels of the CNC, if it has none of the given channels.
     fn other_channels(&self, session: &mut Session, found: &WalkResult) -> Option<String> {
-        // The channel of something that was found is there.
+        // A channel in which an object was found exists.
         let is_found = |channel: &Channel| {
             found.objects.iter().any(|object| object.list.channel() == Some(channel.number()))
         };
@@ -243,13 +243,13 @@ fn read_all(
         let size = object.size();
         let content = match size {
             0..=CONTENT_MAX => session.read(&object.address),
-            _ => Err(ToolError::Unable(format!("{size} bytes; get reads them"))),
+            _ => Err(ToolError::Unable(format!("{size} bytes; use get to read it"))),
         };
         contents.push(match content {
             Ok(content) => {
                 bytes += content.len();
                 if bytes > CONTENTS_MAX {
-                    enough = Some(format!("not read, as {} MiB were", CONTENTS_MAX >> 20));
+                    enough = Some(format!("limit of {} MiB reached", CONTENTS_MAX >> 20));
                 }
                 Ok(content)
             }

@@ -1,4 +1,4 @@
-//! `ads-cnc check`: captured traffic.
+//! `ads-cnc check`: judges captured traffic.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -104,11 +104,11 @@ const LISTED_MAX: usize = 10;
 
 const KIB: u64 = 1024;
 
-/// A file whose read bytes are counted for the progress.
+/// A file that counts the bytes read from it, for the progress.
 #[derive(Debug)]
 struct CountedRead {
     file: File,
-    /// Number of bytes after the last whole KiB.
+    /// Number of bytes read since the last full KiB.
     odd: u64,
 }
 
@@ -137,7 +137,7 @@ impl CheckArguments {
             Ok(checked) => checked,
             Err(why) => return usage(format!("{}: {why}", self.file.display())),
         };
-        // Cases that are not selected were judged too; they are left out of the report.
+        // Cases that are not selected were judged too; the report omits them.
         let selection = Selection { edition: self.edition, only: self.only.clone() };
         let cases: Vec<Case> =
             checked.outcomes.iter().map(|outcome| outcome.case.clone()).collect();
@@ -182,7 +182,7 @@ impl CheckArguments {
         self.write(&report, &checked, &extracted)
     }
 
-    /// Reads the usual port; if no AMS frame is there, all others.
+    /// Reads the connections of the default port; if they contain no AMS frame, all others.
     fn read(&self) -> Result<Checked, String> {
         let checked = self.read_ports(self.any_port).map_err(|error| self.explain(&error))?;
         if checked.tally.frames > 0 || self.any_port || !self.port.is_empty() {
@@ -193,13 +193,13 @@ impl CheckArguments {
             return Ok(checked);
         }
         print_error(format_args!(
-            "no AMS frame at TCP port {AMS_TCP_PORT}: the connections at other ports are judged, as \
+            "no AMS frame at TCP port {AMS_TCP_PORT}: judging the connections at other ports, as \
              with --any-port"
         ));
         Ok(all)
     }
 
-    /// The error, and what to do about a compressed file.
+    /// The error message; for a compressed file, with the command that unpacks it.
     fn explain(&self, error: &capture::FileError) -> String {
         let mut start = [0; 4];
         let read = File::open(&self.file).and_then(|mut file| file.read_exact(&mut start));
@@ -273,15 +273,15 @@ impl CheckArguments {
     }
 }
 
-/// Standard output has the report.
+/// Parses the destination of the vectors; stdout is taken by the report.
 fn vectors_file(text: &str) -> Result<PathBuf, String> {
     match text {
-        "-" => Err("a file or a folder is needed: stdout has the report".to_owned()),
+        "-" => Err("expected a file or a folder: stdout is used for the report".to_owned()),
         path => Ok(path.into()),
     }
 }
 
-/// The sides of which nothing was judged.
+/// A note for each side (client, CNC) of which nothing was judged.
 fn unjudged(report: &Report) -> impl Iterator<Item = String> + '_ {
     let is_judged = |one: &&SubjectReport| one.totals.keys().any(|verdict| verdict.is_judged());
     let unjudged = report.subjects.iter().filter(move |one| !is_judged(one));

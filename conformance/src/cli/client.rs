@@ -1,4 +1,4 @@
-//! `ads-cnc client`: this project's client over the protocol of `run --client`.
+//! `ads-cnc client`: the reference client, driven by the protocol of `run --client`.
 
 use std::io::{self, BufRead as _, Write as _};
 use std::net::SocketAddr;
@@ -34,7 +34,7 @@ pub(super) struct ClientArguments {
     list_defects: bool,
 }
 
-/// A line of the suite.
+/// A line sent by the suite.
 #[derive(Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
 enum Instruction {
@@ -42,7 +42,7 @@ enum Instruction {
     Bye,
 }
 
-/// Exit code of a process that is told to die.
+/// Exit code of a client with the defect of crashing, as after SIGABRT.
 const ABORT_EXIT_CODE: i32 = 134;
 
 impl ClientArguments {
@@ -110,7 +110,7 @@ fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
     Ok(())
 }
 
-/// The answer to an action; a client with such a defect exits or hangs here.
+/// Executes an action and returns the result; some defects exit or hang here.
 fn done(
     fault: Option<clients::ClientFault>,
     place: &CncAddress,
@@ -126,7 +126,7 @@ fn done(
     }
 }
 
-/// Does the action of the environment variable and ends.
+/// Executes the action in the environment variable `ADS_CNC_DO`.
 fn once(fault: Option<clients::ClientFault>) -> io::Result<()> {
     let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));
@@ -136,7 +136,7 @@ fn once(fault: Option<clients::ClientFault>) -> io::Result<()> {
             serde_json::to_string(&ClientHello { stays: false, ..ReferenceClient::hello() })?
         }
         line => {
-            let wrong = || io::Error::other("what it is told makes no sense");
+            let wrong = || io::Error::other("ADS_CNC_DO or the address of the CNC is invalid");
             let place = CncAddress {
                 addr: env_variable("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
                 net_id: env_variable("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,

@@ -1,4 +1,4 @@
-//! `ads-cnc completions`: what a shell completes the command line with.
+//! `ads-cnc completions`: completion scripts for shells.
 
 use std::io::{self, Write as _};
 
@@ -27,7 +27,7 @@ Examples:
 Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
 impl Completions {
-    /// Writes the script for this command line, and says how the process ends.
+    /// Writes the script for this command line and returns the exit code.
     pub(super) fn execute(&self, mut command: Command) -> Exit {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut command, "ads-cnc", &mut script);
@@ -35,7 +35,7 @@ impl Completions {
         match out.write_all(&script).and_then(|()| out.flush()) {
             Ok(()) => Exit::Success,
             Err(error) => {
-                print_error(format_args!("the script is not written: {error}"));
+                print_error(format_args!("cannot write the script: {error}"));
                 Exit::Internal
             }
         }

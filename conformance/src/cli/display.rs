@@ -1,4 +1,4 @@
-//! How results are shown: colour, and how much.
+//! Options for showing results: colour and verbosity.
 
 use std::io::{self, IsTerminal as _};
 
@@ -45,7 +45,7 @@ pub(super) struct DisplayArgs {
 }
 
 impl DisplayArgs {
-    /// Whether nothing but the last line is shown.
+    /// Whether only the last line is shown.
     pub(super) const fn is_quiet(self) -> bool {
         self.quiet
     }

@@ -1,4 +1,4 @@
-//! `ads-cnc serve --executed`: the lines that streamed programs have executed, for other processes.
+//! `ads-cnc serve --executed`: writes the executed lines of streamed programs to files.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -8,7 +8,7 @@ use std::str::FromStr;
 use crate::simulator::Cnc;
 use crate::simulator::program::State;
 
-/// A channel, and the file that gets its lines.
+/// A channel, and the file for its executed lines.
 #[derive(Clone, Debug)]
 pub(super) struct ExecutedTo {
     channel: u8,
@@ -27,7 +27,7 @@ impl FromStr for ExecutedTo {
     }
 }
 
-const NEEDED: &str = "the number of a channel and a file are needed, as 1=executed.nc";
+const NEEDED: &str = "expected the number of a channel and a file, such as 1=executed.nc";
 
 /// The file, opened before a program is streamed so that an error is reported early.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ impl ExecutedFile<'_> {
     }
 }
 
-/// Logs the executed lines of every channel that was streamed to.
+/// Logs the number of executed lines of each channel that received a stream.
 pub(super) fn log(cnc: &Cnc) {
     for channel in cnc.model().channels() {
         let ran =

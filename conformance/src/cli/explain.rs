@@ -1,4 +1,4 @@
-//! `ads-cnc explain`: bytes field by field.
+//! `ads-cnc explain`: shows bytes field by field.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write as _};
@@ -21,7 +21,7 @@ use crate::explain::{
 use crate::judge::Exit;
 use crate::text::did_you_mean;
 
-/// Maximum number of bytes taken: several of the longest frames.
+/// Maximum input size in bytes: several frames of maximum length.
 const INPUT_MAX: u64 = 0x100_0000;
 
 /// Explain bytes field by field
@@ -115,7 +115,7 @@ enum ServiceName {
     ReadWrite,
 }
 
-/// Whether the bytes begin as a file of pcap, pcapng or NetMon does.
+/// Whether the bytes begin like a pcap, pcapng or NetMon file.
 fn is_capture(bytes: &[u8]) -> bool {
     let starts = [
         [0xD4, 0xC3, 0xB2, 0xA1],
@@ -129,13 +129,13 @@ fn is_capture(bytes: &[u8]) -> bool {
     starts.iter().any(|start| bytes.starts_with(start))
 }
 
-/// Whether the bytes are text of hexadecimal digits.
+/// Whether the bytes are a text of hexadecimal digits.
 fn is_hex(bytes: &[u8]) -> bool {
     let text = std::str::from_utf8(bytes);
     text.is_ok_and(|text| parse_hex(text).is_ok_and(|bytes| !bytes.is_empty()))
 }
 
-/// Whether the bytes begin as an Ethernet frame with IPv4 or IPv6, with or without a VLAN tag.
+/// Whether the bytes begin like an Ethernet frame with IPv4 or IPv6, with or without a VLAN tag.
 fn is_ethernet(bytes: &[u8]) -> bool {
     let of_ip = |at: usize| match bytes.get(at..) {
         Some([8, 0, version, ..]) => version >> 4 == 4,
@@ -145,7 +145,8 @@ fn is_ethernet(bytes: &[u8]) -> bool {
     of_ip(12) || (bytes.get(12..14) == Some(&[0x81, 0]) && of_ip(16))
 }
 
-/// The index group with the decimal digits of an unknown one as hexadecimal digits.
+/// The known index group that results from reading the decimal digits of an unknown one as hex:
+/// the user may have omitted 0x.
 fn meant_as_hex(group: u32) -> Option<IndexGroup> {
     let is_known = |group: u32| IndexGroup::new(group).parts().is_some();
     let meant = u32::from_str_radix(&group.to_string(), 16).ok()?;
@@ -188,15 +189,15 @@ impl Explain {
         if let Some(name) = &self.stream {
             return Stream::by_name(name).map(ExplainSubject::Stream).ok_or_else(|| {
                 let near = did_you_mean(name, Stream::all().map(|stream| stream.layout().name));
-                // Vectors have these subjects too.
+                // The vectors use these names for subjects that are not streams.
                 let instead = match name.as_str() {
                     "index-group" | "index-offset" => {
                         "--group NUMBER --offset NUMBER explain an address"
                     }
                     "ams-frame" => "--frame explains AMS/TCP frames",
-                    _ => "ads-cnc explain --list shows all",
+                    _ => "ads-cnc explain --list shows all streams",
                 };
-                format!("no stream is called {name}{near}\n{instead}")
+                format!("no stream has the name {name}{near}\n{instead}")
             });
         }
         let place = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {
@@ -214,7 +215,7 @@ impl Explain {
                 [] => Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
                 bytes if looks_like_frame(bytes) => Ok(ExplainSubject::Frames(place)),
                 bytes if self.file.is_some() && !self.hex && is_hex(bytes) => {
-                    Err("the file has hexadecimal text, not bytes: --hex reads that".to_owned())
+                    Err("the file contains hexadecimal text: add --hex".to_owned())
                 }
                 bytes if is_ethernet(bytes) => {
                     Err("this is a whole Ethernet frame: copy the TCP payload only".to_owned())
@@ -224,7 +225,7 @@ impl Explain {
         }
     }
 
-    /// The bytes; `None` if an address alone is to be explained.
+    /// The bytes; `None` to explain an address only.
     fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {
@@ -246,7 +247,7 @@ impl Explain {
         parse_hex(&text).map(Some).map_err(|error| match self.hex_bytes.as_slice() {
             [file] if Path::new(file).is_file() => {
                 format!(
-                    "{file} is a file: --file {file} reads bytes, ads-cnc check {file} a capture"
+                    "{file} is a file: use --file {file}, or for a capture ads-cnc check {file}"
                 )
             }
             _ => error.to_string(),
@@ -279,22 +280,22 @@ impl From<ServiceName> for Service {
 }
 
 const EXPLAIN_HELP: &str = "\
-say what they are:
+specify what the bytes are:
   --stream NAME                    a stream; --list shows all
-  --group NUMBER --offset NUMBER   data of a service, with --reply what came back
+  --group NUMBER --offset NUMBER   data of a request, or with --reply of a reply
   --frame                          AMS/TCP frames";
 
 fn unknown(bytes: &[u8]) -> String {
     let fits = candidates(bytes);
     let fits = match fits.as_slice() {
-        [] => "no stream takes them whole".to_owned(),
-        fits => format!("streams that take them whole: {}", fits.join(" ")),
+        [] => "no stream matches all bytes".to_owned(),
+        fits => format!("streams that match all bytes: {}", fits.join(" ")),
     };
-    format!("the bytes are no AMS/TCP frame; {EXPLAIN_HELP}\n{fits}")
+    format!("the bytes are not an AMS/TCP frame; {EXPLAIN_HELP}\n{fits}")
 }
 
 fn text(bytes: Vec<u8>) -> Result<String, String> {
-    String::from_utf8(bytes).map_err(|_| "not hex but binary; --file FILE takes that".to_owned())
+    String::from_utf8(bytes).map_err(|_| "binary instead of hex: use --file FILE".to_owned())
 }
 
 fn read_file(file: &Path) -> Result<Vec<u8>, String> {
@@ -316,11 +317,11 @@ fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
     }
 }
 
-/// A broken pipe is not an error: the reader has seen enough.
+/// Maps a write error; a broken pipe is not an error, because the reader closed it on purpose.
 fn written(result: io::Result<()>) -> Result<(), (Exit, String)> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err((Exit::Internal, format!("the explanation could not be written: {error}")))
+            Err((Exit::Internal, format!("cannot write the explanation: {error}")))
         }
         _ => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! `ads-cnc get`: a value by its name.
+//! `ads-cnc get`: reads a value by its name.
 
 use std::io::{self, BufWriter, Write};
 
@@ -91,7 +91,7 @@ impl Get {
         Ok(self.judge(&object, &bytes))
     }
 
-    /// The exit code for these bytes: an error if they are not a value of the type.
+    /// The exit code for these bytes: a failure if they are not a value of the type.
     fn judge(&self, object: &Object, bytes: &[u8]) -> Exit {
         match object.ty.elements(bytes) {
             Ok(Some(_)) => Exit::Success,
@@ -99,10 +99,10 @@ impl Get {
             _ if self.hex => Exit::Success,
             Ok(None) => {
                 let ty = match object.ty.name.as_str() {
-                    "" => "the CNC does not say its type".to_owned(),
-                    name => format!("{name} is not a type of the manuals"),
+                    "" => "the CNC does not report the type".to_owned(),
+                    name => format!("the manuals do not define the type {name}"),
                 };
-                print_error(format_args!("{ty}; --type TYPE reads the bytes as one"));
+                print_error(format_args!("{ty}; specify it with --type TYPE"));
                 if self.plain { Exit::Failure } else { Exit::Success }
             }
             Err(error) => {

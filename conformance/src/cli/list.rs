@@ -1,4 +1,4 @@
-//! Lists the cases that would be run.
+//! Lists the cases that would be run (`run --list`).
 
 use std::io::{self, Write};
 
@@ -37,7 +37,7 @@ pub(super) fn of_plan(plan: &Plan, unmet: impl Fn(Needs) -> Option<String>) -> V
     run.chain(foreign).collect()
 }
 
-/// An order that no seed changes.
+/// Sorts the cases into an order that does not depend on the seed.
 pub(super) fn sort(listed: &mut [Listed]) {
     listed.sort_by(|one, other| (one.subject, &one.id).cmp(&(other.subject, &other.id)));
 }

@@ -1,4 +1,4 @@
-//! Logs on stderr.
+//! Logging to stderr.
 
 use std::io;
 
@@ -7,7 +7,7 @@ use tracing_subscriber::fmt;
 use tracing_subscriber::layer::SubscriberExt as _;
 use tracing_subscriber::util::SubscriberInitExt as _;
 
-/// What is logged.
+/// The filter of --log.
 #[derive(Clone, Debug)]
 pub(super) struct Filter(Targets);
 
@@ -16,11 +16,11 @@ impl std::str::FromStr for Filter {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let odd = || {
-            "a level (off, error, warn, info, debug, trace) or a list of module=level is needed, \
+            "expected a level (off, error, warn, info, debug, trace) or a list of module=level, \
              as ads_cnc_conformance::simulator=debug"
                 .to_owned()
         };
-        // The parser takes any word for the name of a module.
+        // The parser accepts any word as the name of a module.
         let is_level = |word: &str| word.parse::<tracing::level_filters::LevelFilter>().is_ok();
         let words = text.split(',');
         let known = |word: &str| {
@@ -36,6 +36,6 @@ impl std::str::FromStr for Filter {
 /// Starts logging to stderr.
 pub(super) fn to_stderr(filter: Filter) {
     let lines = fmt::layer().with_writer(io::stderr).with_ansi(false);
-    // This fails only if a logger is set already, which happens in no process of the tool.
+    // This fails only if a logger is already set, which no command of the tool does.
     let _already_set = tracing_subscriber::registry().with(lines).with(filter.0).try_init();
 }

@@ -1,11 +1,11 @@
-//! What the tool says on stderr.
+//! Messages on stderr.
 
 use std::io::Write as _;
 use std::process::ExitCode;
 
 use crate::judge::Exit;
 
-/// Writes an error to stderr; a failure to do so is ignored.
+/// Writes an error to stderr; ignores a failure of the write.
 pub(super) fn print_error(why: impl std::fmt::Display) {
     // The text may quote a device, a file or a testee.
     let why = crate::text::escape_lines(&why.to_string());

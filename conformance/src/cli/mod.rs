@@ -74,7 +74,7 @@ enum Subcommands {
     Client(client::ClientArguments),
 }
 
-/// The subcommands by what they do, as the help lists them.
+/// The subcommands by purpose, as the help lists them.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Judge", &["run", "check", "report", "requirements"]),
     ("Simulate", &["serve"]),
@@ -83,7 +83,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Test the suite itself", &["selftest", "testee", "client", "completions"]),
 ];
 
-/// The command line, with the help by groups.
+/// The command line, with help that lists the subcommands by purpose.
 fn command() -> clap::Command {
     let command = Cli::command();
     let mut template = "{about}\n\n{usage-heading} {usage}\n".to_owned();

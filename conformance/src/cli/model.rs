@@ -27,7 +27,7 @@ pub(super) struct ModelArgs {
 }
 
 fn cnc_version(text: &str) -> Result<CncVersion, String> {
-    CncVersion::new(text).map_err(|_| "three or four numbers are needed, as V4.29.0".to_owned())
+    CncVersion::new(text).map_err(|_| "expected three or four numbers, such as V4.29.0".to_owned())
 }
 
 impl ModelArgs {
@@ -36,7 +36,7 @@ impl ModelArgs {
         let is_given = self.model.is_some() || self.edition.is_some() || self.cnc_version.is_some();
         if is_given && target.is_device() {
             let why =
-                "--model, --edition and --cnc-version are of the simulated CNC, not of --target";
+                "--model, --edition and --cnc-version apply to the simulated CNC, not to --target";
             return Err(ToolError::Usage(why.to_owned()));
         }
         target.open_or(|| self.cnc().map_err(|error| ToolError::Usage(error.to_string())))

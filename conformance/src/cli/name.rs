@@ -1,4 +1,4 @@
-//! Options of the tools that take a name.
+//! Options of the commands that take a name.
 
 use std::io;
 use std::time::Duration;
@@ -17,7 +17,7 @@ use crate::objects::{Object, Options, Pattern, channels_of, walk};
 use crate::session::ToolError;
 use crate::text::nearest;
 
-/// Which value is meant.
+/// The options that identify a value.
 #[derive(Args, Clone, Debug)]
 pub(super) struct NameArgs {
     /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (P1, V.P.count), of a
@@ -28,8 +28,8 @@ pub(super) struct NameArgs {
     #[command(flatten)]
     channel: ChannelArgs,
 
-    /// Use the axis interface for a V.A variable: axis place in the channel, from 1
-    #[arg(long, value_name = "PLACE", value_parser = axis)]
+    /// Use the axis interface for a V.A variable: index of the axis in the channel, from 1
+    #[arg(long, value_name = "INDEX", value_parser = axis)]
     axis: Option<ChannelAxis>,
 
     /// List of objects, if several have the name: as shown by browse; * and ? match
@@ -71,7 +71,7 @@ impl NameArgs {
             return None;
         }
         if self.name.starts_with("V.CYC.") {
-            return Some("V.CYC variables are known by their names only: no CNC lists them".into());
+            return Some("the CNC does not list V.CYC variables: check the name".into());
         }
         let (name, channel) = (&self.name, self.channel.channel.number());
         let part = name.split(['[', '.']).nth(2).unwrap_or(name);
@@ -82,15 +82,15 @@ impl NameArgs {
             (self.axis.is_some(), name.split('.').collect::<Vec<_>>().as_slice())
         {
             let short = name.trim_end_matches(axis).trim_end_matches('.');
-            return Some(format!("with --axis the name goes without the axis: {short}"));
+            return Some(format!("with --axis, omit the axis from the name: {short}"));
         }
         if let Some(axes) = self.axes(target, model) {
             return Some(axes);
         }
-        // The axis would make the name one part longer.
+        // A name with its axis has four parts.
         let lacks_axis =
             name.starts_with("V.A.") && name.split('.').count() == 3 && self.axis.is_none();
-        // Numbers of parameters are near to each other, whatever is meant.
+        // The numbers of parameters always resemble each other: similarity gives no hint.
         if (is_variable || is_absent)
             && !lacks_axis
             && let Some(found) = self.look_for(target, model, is_absent)
@@ -99,33 +99,32 @@ impl NameArgs {
         }
         if is_absent && !is_variable {
             return Some(format!(
-                "ads-cnc browse{device} --filter \"{name}\" looks for names like it in every \
-                 channel, and with --variables for variables"
+                "ads-cnc browse{device} --filter \"{name}\" searches every channel for similar \
+                 names, and with --variables for variables"
             ));
         }
-        let browse = format!("{browse} shows what there is");
+        let browse = format!("{browse} lists similar variables");
         Some(match error {
             ToolError::Ads { function: Function::WriteByName, .. }
                 if ["V.P.", "V.L.", "V.S."].iter().any(|kind| name.starts_with(kind)) =>
             {
                 format!(
-                    "V.P, V.L and V.S are written as variables, which takes a CNC from V4.18.0, \
-                     V3.1.3115, V3.1.3081.07, V2.11.2847 or V2.11.2077 on (ads-de 1.051, section \
-                     4.1). {browse}"
+                    "writing V.P, V.L and V.S by name needs a CNC from V4.18.0, V3.1.3115, \
+                     V3.1.3081.07, V2.11.2847 or V2.11.2077 on (ads-de 1.051, section 4.1). {browse}"
                 )
             }
             _ if lacks_axis => {
-                format!("of which axis? --axis PLACE says it, or {name}.X with its name. {browse}")
+                format!("specify the axis: --axis INDEX, or its name, as in {name}.X. {browse}")
             }
             _ => browse,
         })
     }
 }
 
-/// Maximum number of axes of a channel that are asked for a variable.
+/// Maximum number of axes of a channel that are queried for a variable.
 const AXES_MAX: u32 = 32;
 
-/// How long the names of a CNC are compared with one that it does not have.
+/// Time limit for the search for names similar to an unknown one.
 const COMPARING_MAX: Duration = Duration::from_secs(5);
 
 fn is_like_variable(name: &str) -> bool {
@@ -133,7 +132,7 @@ fn is_like_variable(name: &str) -> bool {
 }
 
 impl NameArgs {
-    /// The axes that have the variable, if another was asked.
+    /// The axes that have the variable, if the given one does not.
     fn axes(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
         if self.axis.is_none() || target.capture().is_some() {
             return None;
@@ -148,10 +147,10 @@ impl NameArgs {
         }
         let number = self.channel.channel.number();
         let axes = (!axes.is_empty()).then(|| axes.join(", "))?;
-        Some(format!("places of axes of channel {number} with {}: {axes}", self.name))
+        Some(format!("axes of channel {number} with {}: {axes}", self.name))
     }
 
-    /// The channels if this one is not there, or the nearest names.
+    /// The channels of the CNC if the given one does not exist, otherwise the most similar names.
     fn look_for(&self, target: &TargetArgs, model: &ModelArgs, objects: bool) -> Option<String> {
         // A second session would overwrite the capture of the first one.
         if target.capture().is_some() {
@@ -164,7 +163,7 @@ impl NameArgs {
         if !channels.contains(&channel) {
             let there: Vec<String> = channels.iter().map(|one| one.number().to_string()).collect();
             let number = channel.number();
-            return Some(format!("there is no channel {number}; channels: {}", there.join(", ")));
+            return Some(format!("no channel {number}; channels: {}", there.join(", ")));
         }
         let mut names: Vec<String> = Vec::new();
         for variables in [true, false] {
@@ -221,15 +220,15 @@ fn given_name(text: &str) -> Result<String, String> {
 }
 
 fn axis(text: &str) -> Result<ChannelAxis, String> {
-    let place = text.parse().map_err(|_| "a number is needed".to_owned())?;
+    let place = text.parse().map_err(|_| "expected a number".to_owned())?;
     ChannelAxis::new(place).map_err(|error| error.to_string())
 }
 
-/// A broken pipe is not an error: the reader has seen enough.
+/// Maps a write error; a broken pipe is not an error, because the reader closed it on purpose.
 pub(super) fn written(result: io::Result<()>) -> Result<(), ToolError> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(ToolError::Internal(format!("the output could not be written: {error}")))
+            Err(ToolError::Internal(format!("cannot write the output: {error}")))
         }
         _ => Ok(()),
     }
@@ -243,5 +242,5 @@ pub(super) fn number(text: &str) -> Result<u32, String> {
         Some(digits) => u32::from_str_radix(digits, 16).ok(),
         None => text.parse().ok(),
     };
-    number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
+    number.ok_or_else(|| "expected a number of 32 bits, decimal or in hex with 0x".to_owned())
 }

@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 use crate::process::progress::{Counts, counts};
 use crate::text::plural;
 
-/// The line of a terminal changes at most this often.
+/// Minimum time between two updates of the line on a terminal.
 pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
-/// Short enough not to wrap: the rest of a wrapped line would stay on the screen.
+/// Maximum number of characters: the remainder of a wrapped line would stay on the screen.
 pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, overwritten in place on a terminal.
@@ -27,7 +27,7 @@ impl ProgressLine {
         Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
     }
 
-    /// Shows a text on a terminal, unless the line was updated a moment ago.
+    /// Shows a text on a terminal, unless the line was updated within [`UPDATE_INTERVAL`].
     pub(super) fn update(&mut self, text: impl FnOnce() -> String) {
         if self.live && self.is_due(UPDATE_INTERVAL) {
             self.show(&text());
@@ -43,7 +43,7 @@ impl ProgressLine {
     pub(super) fn show(&mut self, text: &str) {
         self.last = Instant::now();
         let line = self.fitted(text);
-        // A run must not fail because its progress cannot be written.
+        // A run must not fail because its progress cannot be shown.
         let _unseen = if self.live {
             write!(io::stderr(), "\r{line:<0$}", self.width)
         } else {
@@ -52,7 +52,7 @@ impl ProgressLine {
         self.width = line.chars().count();
     }
 
-    /// The part of a text that fits on a line of the terminal.
+    /// The part of a text that fits on one line of the terminal.
     pub(super) fn fitted(&self, text: &str) -> String {
         let most = if self.live { WIDTH } else { usize::MAX };
         text.chars().take(most).collect()
@@ -84,10 +84,10 @@ pub(super) fn clear() {
     }
 }
 
-/// A run that takes less shows no progress.
+/// A shorter run shows no progress.
 const SHORT_RUN: Duration = Duration::from_secs(1);
 
-/// The time between two lines if stderr is no terminal.
+/// Time between two lines if stderr is not a terminal.
 pub(super) const LOG_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Shows the counts of a run on stderr until it is dropped.
@@ -97,7 +97,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Starts it; `unit` is the name of a step.
+    /// Starts the thread that shows the progress; `unit` names the counted steps, as in "cases".
     pub(super) fn start(unit: &'static str) -> Self {
         let live = io::stderr().is_terminal();
         let (stop, stopped) = mpsc::channel();
@@ -157,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn progress_says_what_is_left() {
+    fn progress_estimates_the_remaining_time() {
         let counts = Counts { all: 20, done: 5, failed: 1, requests: 300 };
         assert_eq!(
             progress_text(counts, "cases", Duration::from_secs(10)),

@@ -1,4 +1,4 @@
-//! The formats of a report: options of `run` and `report`, and writing them.
+//! The options of `run`, `check` and `report` for the formats of a report, and their output.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -70,7 +70,7 @@ impl ReportFormats {
         let files = json.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {
             0 | 1 => Ok(()),
-            _ => Err("one report at most can go to stdout".to_owned()),
+            _ => Err("only one report can be written to stdout".to_owned()),
         }
     }
 
@@ -79,7 +79,7 @@ impl ReportFormats {
     }
 }
 
-/// What whoever is judged is reported in, and the failures that are known of it.
+/// The reports of a run, and the file of known failures.
 #[derive(Args, Clone, Debug)]
 pub(super) struct Reports {
     /// Read the accepted known failures from this file
@@ -100,7 +100,7 @@ impl Reports {
         self.json.as_deref()
     }
 
-    /// The known failures, after a check that the reports can be written.
+    /// Checks that the reports can be written, and returns the known failures.
     pub(super) fn waivers(&self) -> Result<Waivers, String> {
         let waivers = self.waivers.as_deref().map(waivers).transpose()?;
         self.forms.check(self.json())?;
@@ -108,14 +108,15 @@ impl Reports {
         Ok(waivers.unwrap_or_default())
     }
 
-    /// Removes the files of an earlier run, because this one has no report.
+    /// Removes the reports of an earlier run, because this run produced none.
     pub(super) fn remove(&self) {
         let files = self.json().into_iter().chain(self.forms.files());
-        // A device, a pipe or a link to them stays.
+        // Keep a device, a pipe or a link to them.
         let is_file = |file: &&Path| fs::symlink_metadata(file).is_ok_and(|it| it.is_file());
         for file in files.filter(is_file) {
             if let Err(error) = fs::remove_file(file) {
-                print_error(format_args!("{}: of an earlier run: {error}", file.display()));
+                let name = file.display();
+                print_error(format_args!("{name}: cannot remove the earlier report: {error}"));
             }
         }
     }
@@ -126,7 +127,7 @@ impl Reports {
         report: &Report,
         print: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Exit {
-        // Files first: a reader of the console may close the pipe.
+        // Write the files first: the reader of stdout may close the pipe.
         let json = self.json();
         let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
         let written = written.and_then(|()| self.forms.write(report));
@@ -137,8 +138,7 @@ impl Reports {
     }
 }
 
-/// Checks that a report can be written to a file, before the run; an existing file keeps its
-/// content.
+/// Checks before the run that a report can be written; an existing file keeps its content.
 fn writable(file: &Path) -> Result<(), String> {
     if is_stdout(file) {
         return Ok(());
@@ -147,18 +147,18 @@ fn writable(file: &Path) -> Result<(), String> {
     let opened = OpenOptions::new().create(true).append(true).open(file);
     opened.map_err(|error| format!("{}: {error}", file.display()))?;
     if !was_there {
-        // The run may never finish.
+        // Leave no empty file, because the run may not finish.
         let _gone = fs::remove_file(file);
     }
     Ok(())
 }
 
-/// Whether the file name is `-`.
+/// Whether the file name is `-`, which is stdout.
 pub(super) fn is_stdout(file: &Path) -> bool {
     file.as_os_str() == "-"
 }
 
-/// Writes a file, or to stdout.
+/// Writes to a file, or to stdout if its name is `-`.
 pub(super) fn write(
     file: &Path,
     make: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -172,19 +172,19 @@ pub(super) fn write(
     make(&mut out).and_then(|()| out.flush()).map_err(named)
 }
 
-/// Writes to stdout.
+/// Writes to stdout; a broken pipe is not an error.
 pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
-    // A broken pipe is neither an error of this tool nor a success of the target.
+    // The exit code still depends on the result, not on the reader of stdout.
     make(&mut out).and_then(|()| out.flush()).or_else(|error| match error.kind() {
         io::ErrorKind::BrokenPipe => Ok(()),
         _ => Err(error),
     })
 }
 
-/// Exit code for a report that cannot be written.
+/// Prints that a report cannot be written, and returns the exit code.
 pub(super) fn lost(error: io::Error) -> Exit {
-    print_error(format_args!("the report could not be written: {error}"));
+    print_error(format_args!("cannot write the report: {error}"));
     Exit::Internal
 }
 
@@ -196,7 +196,7 @@ fn waivers(file: &Path) -> Result<Waivers, String> {
     let known: Vec<String> = cases.map(|case| case.id).collect();
     if let Some(id) = waivers.cases().find(|id| known.iter().all(|known| known != id)) {
         let near = did_you_mean(id, known.iter().map(String::as_str));
-        return Err(format!("{}: no case is called {id}{near}", file.display()));
+        return Err(format!("{}: no case has the ID {id}{near}", file.display()));
     }
     Ok(waivers)
 }

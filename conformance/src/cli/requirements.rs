@@ -1,4 +1,4 @@
-//! `ads-cnc requirements`: the traceability matrix.
+//! `ads-cnc requirements`: prints the traceability matrix.
 
 use std::io::{self, Write as _};
 
@@ -49,7 +49,7 @@ impl Requirements {
             let ids: Vec<&str> = ids.collect();
             for word in self.wanted.iter().chain(&self.only) {
                 let near = did_you_mean(word, ids.iter().copied());
-                print_error(format_args!("no requirement, area or case is called {word}{near}"));
+                print_error(format_args!("no requirement, area or case has the ID {word}{near}"));
             }
             return Exit::Nothing;
         }
@@ -65,10 +65,10 @@ impl Requirements {
         });
         match printed {
             Ok(()) => Exit::Success,
-            // A broken pipe: the reader has seen enough.
+            // The reader closed the pipe on purpose.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
             Err(error) => {
-                print_error(format_args!("the matrix is not printed: {error}"));
+                print_error(format_args!("cannot write the requirements: {error}"));
                 Exit::Internal
             }
         }

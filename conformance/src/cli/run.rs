@@ -1,4 +1,4 @@
-//! `ads-cnc run`: the suite against a target.
+//! `ads-cnc run`: runs the suite against a target.
 
 #![cfg_attr(
     not(test),
@@ -178,7 +178,7 @@ Exit codes, the first that applies:
     )
 }
 
-/// Prints what could not be restored; returns whether there is any.
+/// Prints the values that could not be restored; returns whether there are any.
 fn print_left_changed(changes: &Changes) -> bool {
     let left = changes.left();
     for one in &left {
@@ -191,7 +191,7 @@ fn lossy(argument: OsString) -> String {
     argument.to_string_lossy().into_owned()
 }
 
-/// Why there is no report.
+/// The reason why a run ended without a report.
 enum Stopped {
     Usage(String),
     Target(ToolError),
@@ -233,8 +233,8 @@ impl Run {
             self.target.allowed().map_err(|error| error.to_string())?;
             if self.target.has_file() && !self.target.is_device() {
                 return Err(
-                    "--allow-write needs --target: the cases write to the simulated CNC of \
-                            this process without a file"
+                    "--allow-write needs --target: no file is needed to write to the simulated \
+                            CNC of this process"
                         .to_owned(),
                 );
             }
@@ -273,7 +273,7 @@ impl Run {
         }
     }
 
-    /// Runs the selected cases, also to their end after a signal, and writes the reports.
+    /// Runs the selected cases and writes the reports, also after a signal.
     fn judged(
         &self,
         seed: u32,
@@ -286,7 +286,7 @@ impl Run {
         let first_words = move || {
             if !first.left().is_empty() {
                 print_error(
-                    "interrupted: what was changed is restored; a second signal ends at once",
+                    "interrupted: restoring the changed value; a second signal ends at once",
                 );
             }
         };
@@ -298,7 +298,7 @@ impl Run {
                 return Exit::Internal;
             }
         };
-        // With a client that connects by itself, the address is printed before.
+        // While waiting for a client, the address is printed first, and then the deadline.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         let is_default = self.deadline.is_default();
         if asks && !is_default && !self.client.waits() && !self.display.is_quiet() {
@@ -311,7 +311,7 @@ impl Run {
             None => self.device(seed, waivers, profile, changes),
         };
         if interrupt.is_requested() && !self.client.waits() {
-            print_error("interrupted: the reports have what was done until then");
+            print_error("interrupted: the reports contain the results up to now");
         }
         match report {
             Ok(report) => self.write(&report),
@@ -321,7 +321,7 @@ impl Run {
             }
             Err(Stopped::Target(error)) => {
                 print_error(&error);
-                // The report of an earlier run could be taken for that of this run.
+                // The report of an earlier run could be mistaken for the report of this run.
                 if !matches!(error, ToolError::NotSent) {
                     self.reports.remove();
                 }
@@ -346,7 +346,7 @@ impl Run {
         let kept = if self.is_simulated() { without.unwritten.clone() } else { Cow::default() };
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
-        // A write of these changes what other cases expect of the simulated CNC.
+        // Writing these variables would change values that other cases of the simulated CNC expect.
         let new = kept.iter().filter(|name| !profile.unwritten.contains(name));
         let unwritten = profile.unwritten.iter().chain(new).cloned().collect();
         Ok(Profile { edition, unwritten, ..profile })
@@ -398,7 +398,7 @@ impl Run {
                 return Exit::Usage;
             }
         };
-        // The simulated CNC of this process may be written without limits.
+        // Every write to the simulated CNC of this process is allowed.
         let gate = self
             .target
             .is_device()
@@ -467,7 +467,7 @@ impl Run {
     }
 
     fn write(&self, report: &Report) -> Exit {
-        // A device is described on stderr before its cases: on a terminal it is there already.
+        // A device is described on stderr before its cases: do not repeat this on a terminal.
         let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
         let display = Display { found_shown, ..self.display.display() };
         self.reports.write(report, |out| report::print(report, display, out))

@@ -1,4 +1,4 @@
-//! `ads-cnc run --client`: the suite is the CNC, and judges who talks to it.
+//! `ads-cnc run --client`: the suite acts as the CNC and judges a client.
 
 #![cfg_attr(
     not(test),
@@ -25,7 +25,7 @@ use crate::report::TargetReport;
 /// The heading of these options in the help.
 const CLIENT: &str = "Client under test";
 
-/// A client instead of a target.
+/// Options for a client under test instead of a target.
 #[derive(Args, Clone, Debug, Default)]
 pub(super) struct ClientArgs {
     /// Judge a client: start this command and send it actions (see conformance/adapters/CLIENTS.md)
@@ -59,7 +59,7 @@ impl ClientArgs {
         self.client.is_some() || self.client_listen.is_some()
     }
 
-    /// Whether it waits for a client that connects by itself: a signal ends the waiting.
+    /// Whether the run waits for a client that connects by itself; a signal ends the wait.
     pub(super) const fn waits(&self) -> bool {
         self.client.is_none() && self.client_listen.is_some()
     }
@@ -75,7 +75,7 @@ impl ClientArgs {
     /// Judges the client by the cases of a plan.
     ///
     /// # Errors
-    /// If the address cannot be listened on.
+    /// If the suite cannot listen on the address.
     pub(super) fn judge(
         &self,
         plan: &Plan,
@@ -93,7 +93,7 @@ impl ClientArgs {
             Some(command) => Ok(self.run_command(command, &server, plan, deadline)),
             None => wait_for_client(&server, deadline, interrupt),
         };
-        server.end_capture().map_err(|error| format!("the capture: {error}"))?;
+        server.end_capture().map_err(|error| format!("cannot write the capture: {error}"))?;
         judged
     }
 
@@ -130,11 +130,11 @@ fn wait_for_client(
 ) -> Result<OfClient, String> {
     let (addr, net_id) = (server.addr(), server.net_id());
     let mut told = false;
-    // Called for the first time when the server listens.
+    // The first call comes when the server listens.
     let go_on = || {
         if !told {
             print_error(format_args!(
-                "waiting for a client on {addr}, AMS NetId {net_id}, until it has closed or Ctrl-C"
+                "waiting for a client on {addr}, AMS NetId {net_id}, until it disconnects or Ctrl-C"
             ));
             told = true;
         }

@@ -16,8 +16,8 @@ use ads_cnc::operation::{Effect, Function};
 use crate::gate::Allowed;
 use crate::profile::{Claim, Profile};
 
-/// Lists the functions that a run requests from a device with this profile, and what it may write.
-/// Without a file for the profile the run asks first what there is.
+/// Lists the functions that a run requests from a device with this profile, and its allowed writes.
+/// Without a profile file, the run first queries the device for its ports, channels and axes.
 pub(super) fn list(
     profile: &Profile,
     has_file: bool,
@@ -27,13 +27,13 @@ pub(super) fn list(
     writeln!(out)?;
     writeln!(
         out,
-        "The suite asks what the profile claims, as often as there is something to ask for:"
+        "The suite requests these functions of the profile, once for each item of the device:"
     )?;
     if !has_file {
         writeln!(
             out,
-            "(no --profile: it first asks by the same functions which ports, channels 1 to 255, axes \
-             and\nspindles there are, and then what it found)"
+            "(without --profile, it first searches with the same functions for the ports, the \
+             channels 1 to\n255, the axes and the spindles, and then requests what it found)"
         )?;
     }
     let claimed = || Function::ALL.iter().copied().filter(|one| profile.claims(*one) != Claim::No);
@@ -41,7 +41,7 @@ pub(super) fn list(
     for spec in queries.map(Function::spec) {
         let (service, port) = (spec.service.to_string(), spec.task.port().0);
         writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;
-        // GEO has to answer too, and serves the queries of the classes.
+        // The cases query the classes at GEO too.
         if spec.name == Function::FindInstance.spec().name && profile.has_port(AmsPort::GEO) {
             let port = AmsPort::GEO.0;
             writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;
@@ -49,7 +49,7 @@ pub(super) fn list(
     }
     let ports: Vec<String> = profile.ports.iter().map(ToString::to_string).collect();
     let ports = ports.join(", ");
-    writeln!(out, "  and a few times ReadDeviceInfo and ReadState at the ports {ports}")?;
+    writeln!(out, "  and sometimes ReadDeviceInfo and ReadState at the ports {ports}")?;
     match allowed {
         None => writeln!(out, "It writes nothing without a file for --allow-write.")?,
         Some(allowed) => {
@@ -63,7 +63,7 @@ pub(super) fn list(
     }
     writeln!(
         out,
-        "Which requests that makes, the device's answers decide; to see them for the simulated CNC, \
-         run the\nsuite with --capture against ads-cnc serve."
+        "The requests depend on the replies of the device. To see the requests to the simulated \
+         CNC, run the\nsuite with --capture against ads-cnc serve."
     )
 }

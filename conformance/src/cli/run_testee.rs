@@ -1,4 +1,4 @@
-//! `ads-cnc run --testee`: a codec that is asked over pipes.
+//! `ads-cnc run --testee`: judges a codec in another process over stdin and stdout.
 
 #![cfg_attr(
     not(test),
@@ -18,7 +18,7 @@ use crate::report::TargetReport;
 use crate::testee::{Finding, JudgedTestee, Terms, TesteeProcess, check_protocol, judge};
 use crate::text::shorten;
 
-/// Maximum number of bytes of stderr, its end, in a report.
+/// Maximum number of bytes of stderr in a report, which shows its end.
 const STDERR_SHOWN: usize = 4000;
 
 /// Maximum number of characters of a name in a report.
@@ -45,7 +45,7 @@ pub(super) fn run(
     OfTestee { target: target("testee", command, identity, &process.stderr()), outcomes }
 }
 
-/// The program of a command in a report: its name, version and language, and the end of stderr.
+/// The program in a report: its name, version and language, and the end of its stderr.
 pub(super) fn target(
     kind: &str,
     command: &str,
@@ -67,13 +67,13 @@ pub(super) fn target(
     }
 }
 
-/// Goes through the protocol step by step and prints what is wrong and what is expected.
+/// Checks the protocol step by step, and prints each fault with the expected answer.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = TesteeProcess::new(command, timeout);
     let findings = check_protocol(&mut process);
     let faults = findings.iter().filter(|finding| finding.fault.is_some()).count();
     if interrupt::is_requested() {
-        writeln!(out, "Interrupted: the protocol was not gone through.")?;
+        writeln!(out, "Interrupted: the protocol was not checked.")?;
         return Ok(Exit::Nothing);
     }
     for Finding { what, sent, received, fault } in findings {
@@ -91,18 +91,18 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
     }
     let stderr = process.stderr();
     if !stderr.is_empty() {
-        writeln!(out, "stderr, which is not judged:")?;
+        writeln!(out, "stderr (not judged):")?;
         for line in stderr.lines().rev().take(20).collect::<Vec<_>>().into_iter().rev() {
             writeln!(out, "       {line}")?;
         }
     }
     match faults {
         0 => {
-            writeln!(out, "The protocol is kept; run without --check-protocol judges the codec.")?;
+            writeln!(out, "The protocol is correct. To judge the codec, omit --check-protocol.")?;
             Ok(Exit::Success)
         }
         _ => {
-            writeln!(out, "{faults} wrong; the protocol is in conformance/adapters/README.md")?;
+            writeln!(out, "{faults} wrong; see conformance/adapters/README.md for the protocol")?;
             Ok(Exit::Failure)
         }
     }

@@ -1,4 +1,4 @@
-//! `ads-cnc selftest`: the suite tried on itself.
+//! `ads-cnc selftest`: tests the suite itself.
 
 use std::path::PathBuf;
 use std::sync::Mutex;

@@ -1,4 +1,4 @@
-//! `ads-cnc serve`: the simulated CNC as a process.
+//! `ads-cnc serve`: serves the simulated CNC.
 
 use std::io::{self, Write as _};
 use std::net::SocketAddr;
@@ -43,7 +43,7 @@ that sends no complete request within 10 s, and a frame that is not complete wit
 Exit codes: 0 ended by a signal; 2 wrong usage, an invalid model, or an address that cannot be
 listened on; 70 internal error.";
 
-/// The help states these limits.
+/// The help text states these limits.
 const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
 const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 
@@ -79,7 +79,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "PACE")]
     pace: Option<Pace>,
 
-    /// Write the streamed lines that this channel ran to this file at the end, at most the last
+    /// At the end, write the streamed lines that this channel ran to this file, at most the last
     /// MiB; repeatable for several channels.
     #[arg(long, value_name = "CHANNEL=FILE")]
     executed: Vec<ExecutedTo>,
@@ -146,15 +146,12 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     let line = format!("listening on {}, AMS NetId {}\n", server.addr(), server.net_id());
     let mut out = io::stdout().lock();
     if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
-        return exit_with_error(
-            Exit::Internal,
-            format_args!("the address cannot be printed: {error}"),
-        );
+        return exit_with_error(Exit::Internal, format_args!("cannot print the address: {error}"));
     }
     drop(out);
-    // The threads of the server do the work.
+    // The threads of the server handle the connections.
     interrupt.wait();
-    tracing::info!("interrupted, ending");
+    tracing::info!("stopped by a signal");
     drop(server);
     executed::log(&cnc);
     match executed.into_iter().try_for_each(|one| one.write(&cnc)) {
@@ -184,14 +181,14 @@ pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), 
     let open = "the simulated CNC does not authenticate clients";
     if allow_remote {
         print_error(format_args!(
-            "warning: {addr} is not a loopback address: {open}, and whoever reaches it can read \
-             and write"
+            "warning: {addr} is not a loopback address: {open}, and any machine that reaches it \
+             can read and write"
         ));
         return Ok(());
     }
     Err(format!(
-        "{addr} is not a loopback address; {open}, so it is served on this machine only, for \
-         example on 127.0.0.1:48898, unless --allow-remote says otherwise"
+        "{addr} is not a loopback address: {open}. Listen on a loopback address, such as \
+         127.0.0.1:48898, or set --allow-remote"
     ))
 }
 
@@ -199,8 +196,8 @@ fn start(addr: SocketAddr, cnc: Faulty, options: ServerOptions) -> Result<Server
     let listener = net::listen(addr).map_err(|error| {
         let next = match error.kind() {
             io::ErrorKind::AddrInUse => {
-                "; does another CNC or an ADS router run here? --listen 127.0.0.1:0 lets the system \
-                 pick a port"
+                "; is another CNC or an ADS router running on this machine? With --listen \
+                 127.0.0.1:0 the system chooses a port"
             }
             _ => "",
         };
@@ -212,7 +209,7 @@ fn start(addr: SocketAddr, cnc: Faulty, options: ServerOptions) -> Result<Server
 
 fn address(text: &str) -> Result<SocketAddr, String> {
     text.parse().map_err(|_| {
-        "an IP address and a port are needed, as 127.0.0.1:48898 or [::1]:48898".to_owned()
+        "expected an IP address and a port, such as 127.0.0.1:48898 or [::1]:48898".to_owned()
     })
 }
 
@@ -236,7 +233,7 @@ fn print_model() -> ExitCode {
     match out.write_all(DEFAULT_MODEL.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            exit_with_error(Exit::Internal, format_args!("the model is not written: {error}"))
+            exit_with_error(Exit::Internal, format_args!("cannot write the model: {error}"))
         }
     }
 }
@@ -250,14 +247,13 @@ fn list_defects(part: &str) -> ExitCode {
     if listed.peek().is_none() {
         let parts = faults::all().iter().flat_map(|seed| seed.id.split('.'));
         let near = did_you_mean(part, parts);
-        let why =
-            format!("no defect contains {part} in its ID, or breaks such a requirement{near}");
+        let why = format!("no defect contains {part} in its ID or its requirements{near}");
         return exit_with_error(Exit::Usage, why);
     }
     for seed in listed {
         let broken = seed.requirements.join(" ");
         if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
-            // A broken pipe: the reader has seen enough.
+            // The reader closed the pipe on purpose.
             break;
         }
     }
@@ -274,6 +270,6 @@ fn unknown_defect(id: &str) -> String {
     let all = faults::all().iter().map(|seed| seed.id.as_str());
     let near = did_you_mean(id, all);
     format!(
-        "no defect has the ID {id}{near}\nserve --list-defects PART shows those that contain PART"
+        "no defect has the ID {id}{near}\nserve --list-defects PART lists those that contain PART"
     )
 }

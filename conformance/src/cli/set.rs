@@ -74,7 +74,7 @@ a value that does not fit; 3 no reply; 4 rejected for safety; 70 internal error.
 impl Set {
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |error| match error {
-            ToolError::NotSent => Some("with --type TYPE the write itself is shown".to_owned()),
+            ToolError::NotSent => Some("specify --type TYPE to see the write itself".to_owned()),
             error => self.name.advice(error, &self.target, &self.model),
         })
     }
@@ -124,27 +124,27 @@ impl Set {
         self.show(&object, &ty, old.as_deref(), new.as_deref())?;
         if session.is_simulated() {
             print_error(
-                "written to a temporary simulated CNC, which is gone now; --target writes to a running one",
+                "written to a temporary simulated CNC, which has ended; --target writes to a running CNC",
             );
         }
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// Asks the gate before connecting, if the name alone determines the address.
+    /// Checks the write with the gate before connecting, if the name alone determines the address.
     fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), ToolError> {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
         let checked = session.check_write(&object.address);
         if checked.is_err() && session.is_dry() {
-            // The gate shows the value of a rejected write; it is known only if the type is given.
+            // The gate shows the value of a rejected write, which is known only with a type.
             let value = parse(&object.ty, &self.value).unwrap_or_default();
             return session.write(&object.address, &value);
         }
         checked
     }
 
-    /// For the simulated CNC the gate allows exactly this write, in a dry run too.
+    /// Connects; for the simulated CNC, also in a dry run, the gate allows exactly this write.
     fn open(&self, alone: Option<&Object>) -> Result<Session, ToolError> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
@@ -167,7 +167,7 @@ impl Set {
             None => "(not readable)".to_owned(),
         };
         let (name, old, new) = (object.name.to_string(), text(old), text(new));
-        // Long values go on two lines.
+        // Show long values on two lines.
         let between = if old.len().max(new.len()) > 30 { "\n  → " } else { " → " };
         let start = if between.starts_with('\n') { "\n    " } else { " " };
         let name = crate::values::printable(&name);
@@ -179,21 +179,21 @@ impl Set {
 fn check(object: &Object) -> Result<(), ToolError> {
     let name = &object.name;
     if matches!(object.address, ValueAddress::Parameter { kind: DynamicKind::P, .. }) {
-        let why = format!("{name} is a P parameter, and no documented function writes those");
+        let why = format!("{name} is a P parameter, which no documented function can write");
         return Err(ToolError::Unable(why));
     }
     match object.access {
         ReportedAccess::Read => Err(ToolError::Unable(format!(
-            "{name} is read only, as the CNC says; nothing was written"
+            "nothing was written: the CNC describes {name} as read only"
         ))),
         _ => Ok(()),
     }
 }
 
-/// Whether the value read back is the one written; a text is compared up to its end.
+/// Compares the value read back with the written one; a text up to its end.
 fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let Some(new) = new else {
-        print_error("it was written, and the CNC does not let it be read back");
+        print_error("the value was written, but the CNC rejects reading it back");
         return Exit::Success;
     };
     let same = written == new
@@ -202,6 +202,6 @@ fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
         return Exit::Success;
     }
     let wrote = plain(ty, written).unwrap_or_default();
-    print_error(format_args!("the CNC took {wrote}, and reads another value now"));
+    print_error(format_args!("the CNC accepted {wrote}, but now returns another value"));
     Exit::Failure
 }

@@ -1,4 +1,4 @@
-//! `ads-cnc tables` and `ads-cnc wireshark`: the tables of the codec for other programs.
+//! `ads-cnc tables` and `ads-cnc wireshark`: print the tables of the codec for other programs.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! Options of all tools that talk to a CNC.
+//! Options of all commands that connect to a CNC.
 
 use std::fmt;
 use std::io;
@@ -25,7 +25,7 @@ use crate::text::shown_time;
 /// The heading of these options in the help.
 const TARGET: &str = "Target";
 
-/// The end of a tool's help, as `after_long_help`.
+/// The end of the long help of a command that connects to a CNC.
 pub(super) const REACHING_A_DEVICE: &str = "\
 Reaching a device:
   The device listens for AMS/TCP on TCP port 48898 and answers only clients with a route. In its ADS
@@ -34,7 +34,7 @@ Reaching a device:
   --net-id is the device's own AMS NetId, as its router shows it. Requests go to the AMS ports 551
   (GEO), 552 (SDA) and 553 (COM); nothing is written without --allow-write.";
 
-/// The end of the help of a tool that may write.
+/// The end of the long help of a command that may write.
 pub(super) const WHAT_MAY_BE_WRITTEN: &str = "\
 Allowed writes, a file for --allow-write:
   target = \"192.0.2.7.1.1\"             # AMS NetId of the device; 127.0.0.1.1.1 on loopback only
@@ -44,11 +44,10 @@ Allowed writes, a file for --allow-write:
   channel = 1
   name = \"V.E.name\"
   The error for a rejected write shows the entry that it needs. A write by a handle or by the name
-  of an object is also rejected if the device has the same handle or address for a name that is not
-  in
-  the file.";
+  of an object is also rejected if the device uses the same handle or address for a name that is
+  not in the file.";
 
-/// Whom to talk to. Without --target a simulated CNC is started for the purpose.
+/// The target. Without --target, the command starts a simulated CNC.
 #[derive(Args, Clone, Debug)]
 pub(super) struct TargetArgs {
     /// Host name or IP address of the device; the port defaults to 48898 [default: a simulated CNC]
@@ -85,7 +84,7 @@ pub(super) struct TargetArgs {
     #[arg(long, help_heading = TARGET)]
     dry_run: bool,
 
-    /// Whether malformed requests are allowed; `run` has an option for that.
+    /// Whether malformed requests are allowed; set by an option of `run`.
     #[arg(skip)]
     malformed: bool,
 
@@ -94,7 +93,7 @@ pub(super) struct TargetArgs {
     lost: Arc<AtomicBool>,
 }
 
-/// How long a tool asks that may have much to ask for.
+/// The deadline of commands that may send many requests.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct DeadlineArgs {
     /// Deadline for all requests, in seconds; the rest is reported as not requested
@@ -103,7 +102,7 @@ pub(super) struct DeadlineArgs {
     deadline: u64,
 }
 
-/// The default. A run at two requests a second takes less.
+/// The default in seconds. A run at two requests per second takes less.
 const DEADLINE: u64 = 4 * 3600;
 
 impl DeadlineArgs {
@@ -111,7 +110,7 @@ impl DeadlineArgs {
         self.deadline == DEADLINE
     }
 
-    /// Starts the time.
+    /// The deadline, counted from now.
     pub(super) fn begin(self) -> Deadline {
         Deadline::after(Duration::from_secs(self.deadline))
     }
@@ -123,7 +122,7 @@ impl fmt::Display for DeadlineArgs {
     }
 }
 
-/// Which channel.
+/// The channel.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct ChannelArgs {
     /// Number of the channel
@@ -137,7 +136,7 @@ impl TargetArgs {
         self.target.is_some()
     }
 
-    /// How long to wait for a reply.
+    /// Timeout for a reply.
     pub(super) fn timeout(&self) -> Duration {
         self.timeout.map_or(TIMEOUT, Duration::from_millis)
     }
@@ -147,12 +146,12 @@ impl TargetArgs {
         self.allow_write.is_some()
     }
 
-    /// Whether nothing is to be sent.
+    /// Whether this is a dry run.
     pub(super) const fn is_dry(&self) -> bool {
         self.dry_run
     }
 
-    /// Waits this long for a reply, unless an option says how long.
+    /// Sets the timeout for a reply, unless an option sets it.
     pub(super) fn with_timeout(mut self, timeout: Option<Duration>) -> Self {
         let milliseconds = timeout.and_then(|time| u64::try_from(time.as_millis()).ok());
         self.timeout = self.timeout.or(milliseconds);
@@ -164,13 +163,13 @@ impl TargetArgs {
         Self { malformed, ..self }
     }
 
-    /// Connects to the device, or to a simulated CNC that is started here.
+    /// Connects to the device, or to a simulated CNC of this process.
     pub(super) fn open(&self) -> Result<Session, ToolError> {
         self.open_or(default_cnc)
     }
 
-    /// Connects to the device, or starts this CNC. The gate of the simulated CNC allows this one
-    /// write if there is no file for --allow-write.
+    /// Connects to the device, or starts this CNC. Without a file for --allow-write, the gate of the
+    /// simulated CNC allows this entry only.
     pub(super) fn open_to_write(
         &self,
         entry: Entry,
@@ -186,8 +185,8 @@ impl TargetArgs {
         }
     }
 
-    /// Asks the gate of a device before connecting: a forbidden write needs no connection. A dry
-    /// run shows the rejected write instead.
+    /// Checks a write with the gate of a device before connecting, because a rejected write needs no
+    /// connection. A dry run shows the rejected write instead.
     pub(super) fn ask_gate(
         &self,
         check: impl FnOnce(&Session) -> Result<(), ToolError>,
@@ -235,7 +234,7 @@ impl TargetArgs {
         }
     }
 
-    /// The options of the device as a hint repeats them; empty for the simulated CNC.
+    /// The options of the device, for a command line in a hint; empty for the simulated CNC.
     pub(super) fn as_options(&self) -> String {
         let mut options = String::new();
         let ids = [("--net-id", self.net_id), ("--source-net-id", self.source_net_id)];
@@ -251,7 +250,7 @@ impl TargetArgs {
         self.capture.as_deref()
     }
 
-    /// The session, captured if the option says so.
+    /// The session, with a capture if the option requests one.
     pub(super) fn recorded(&self, session: Session) -> Result<Session, ToolError> {
         let capture = self.begin_capture()?;
         Ok(match capture {
@@ -260,7 +259,7 @@ impl TargetArgs {
         })
     }
 
-    /// The capture that the option asks for.
+    /// Starts the capture that the option requests.
     pub(super) fn begin_capture(&self) -> Result<Option<Capture>, ToolError> {
         let Some(file) = &self.capture else { return Ok(None) };
         let failed = |error: io::Error| {
@@ -275,7 +274,7 @@ impl TargetArgs {
         };
         let (lost, name) = (Arc::clone(&self.lost), file.display().to_string());
         let capture = Capture::create(file).map_err(failed)?.or_tell(move |error| {
-            print_error(format_args!("{name}: {error}: the capture is not whole"));
+            print_error(format_args!("{name}: the capture is incomplete: {error}"));
             lost.store(true, Ordering::Relaxed);
         });
         Ok(Some(capture))
@@ -318,10 +317,10 @@ impl TargetArgs {
     }
 }
 
-/// Says that the answers are not those of a machine.
+/// Prints once that the replies are those of a simulated CNC.
 fn tell_simulated() {
     static TOLD: Once = Once::new();
-    TOLD.call_once(|| print_error("simulated CNC, no machine: --target is not given"));
+    TOLD.call_once(|| print_error("using a simulated CNC, because --target is not given"));
 }
 
 /// The default model of the simulated CNC.
@@ -343,7 +342,7 @@ pub(super) fn simulator_gate(entry: Entry) -> Gate {
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {
-    let odd = || "channels are numbered from 1 to 255".to_owned();
+    let odd = || "expected the number of a channel, from 1 to 255".to_owned();
     Channel::new(text.parse().map_err(|_| odd())?).map_err(|_| odd())
 }
 
@@ -353,20 +352,20 @@ pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
             Ok(IpAddr::V4(_)) => format!("; did you mean {text}.1.1?"),
             _ => String::new(),
         };
-        format!("six numbers from 0 to 255 with dots are needed, as 192.0.2.10.1.1{hint}")
+        format!("expected six numbers from 0 to 255 with dots, such as 192.0.2.10.1.1{hint}")
     })
 }
 
 fn seconds(text: &str) -> Result<u64, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0);
-    seconds.ok_or_else(|| "a whole number of seconds over 0 is needed".to_owned())
+    seconds.ok_or_else(|| "expected a whole number of seconds greater than 0".to_owned())
 }
 
-/// Parses requests per second; returns the time between two.
+/// Parses a number of requests per second; returns the time between two requests.
 fn pace(text: &str) -> Result<Duration, String> {
-    let odd = || "a number over 0 is needed".to_owned();
+    let odd = || "expected a number greater than 0".to_owned();
     let rate: f64 = text.parse().map_err(|_| odd())?;
-    // Infinity would be no time between requests, and 0 an infinite one.
+    // An infinite rate would mean no time between requests, and 0 an infinite time.
     Duration::try_from_secs_f64(rate.recip()).map_err(|_| odd())
 }
 

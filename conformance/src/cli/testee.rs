@@ -1,4 +1,4 @@
-//! `ads-cnc testee`: this project's codec over the testee protocol.
+//! `ads-cnc testee`: answers the testee protocol with this project's codec.
 
 use std::io::{self, BufRead as _, Write as _};
 

@@ -46,7 +46,7 @@ pub(super) fn of_data(
 
 /// An address without data.
 pub(super) fn alone(place: &ServiceAddress) -> ExplainedStream {
-    // For a content, which can be read and written, the read is explained.
+    // Explain a content, which can be read and written, as a read.
     let reading = ServiceAddress { reply: true, ..*place };
     let found = find(if place.service.is_none() { &reading } else { place });
     ExplainedStream { address: Some(report(place, found)), ..ExplainedStream::default() }
@@ -63,14 +63,13 @@ fn no_data(
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
     if !place.reply {
-        // VAR-17 specifies the reply.
+        // The requirement of the stream (VAR-17) only specifies the reply.
         (part.clause, part.sources) = (None, Vec::new());
     }
-    let (service, what) =
-        (spec.service, if place.reply { "brings none back" } else { "carries none" });
+    let (service, what) = (spec.service, if place.reply { "returns none" } else { "sends none" });
     part.notes.push(format!("a {service} {what}"));
     if !place.reply && !bytes.is_empty() {
-        part.notes.push("what came back is explained as its reply".to_owned());
+        part.notes.push("for the data of the reply, specify --reply".to_owned());
     }
     part
 }
@@ -95,13 +94,13 @@ fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
         let takes = spec.service;
         match place.service {
             Some(asked) if asked == takes => return Ok(function),
-            // A function takes precedence over content at the same address (SDA-12).
+            // A function takes precedence over a content at the same address (SDA-12).
             Some(asked) if !spec.is_content() => {
                 return Err(DispatchError::Service { expected: takes, found: asked });
             }
             Some(asked) => refusal = DispatchError::Service { expected: takes, found: asked },
             None if !spec.is_content() => return Ok(function),
-            // The direction decides between the read and the write of a content.
+            // The direction distinguishes the read and the write of a content.
             None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
             None => {}
         }
@@ -137,7 +136,7 @@ fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Exp
     }
 }
 
-/// The function that another task has at this address.
+/// The function of another task at this address.
 fn at_other_port(place: &ServiceAddress) -> Option<String> {
     let port = place.port?;
     let spec = find(&ServiceAddress { port: None, ..*place }).ok()?.spec();
@@ -148,7 +147,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     let effect = match spec.effect {
         Effect::Query => "query",
         Effect::Write => "write",
-        // An effect that is not known to be harmless is shown as motion.
+        // Show an effect that is not known to be harmless as motion.
         _ => "motion",
     };
     let numbered = spec.section.starts_with(|first: char| first.is_ascii_digit());
@@ -170,7 +169,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     }
 }
 
-/// Other functions at the address, and notes about the function.
+/// Adds notes about the function, and about other functions at the address.
 fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
     let spec = function.spec();
     if place.port.is_some_and(|port| port != spec.task.port()) {
@@ -209,7 +208,7 @@ fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>)
         && let Some((axis, element)) = axis_and_element(place.offset, AxisStride::X10000)
     {
         notes.push(format!(
-                "also the place of {}element {element:#x} of the decoder; the function is what is there (SDA-12)",
+                "also the address of {}element {element:#x} of the decoder; the function takes precedence (SDA-12)",
                 of_axis(axis),
             ));
     }
@@ -235,7 +234,7 @@ fn offset(place: &ServiceAddress, function: Option<Function>, notes: &mut Vec<St
         (Some(OffsetRule::OfAxis(_)), _) => split(offset, AxisStride::X10000),
         (Some(OffsetRule::At(_)), _) => String::new(),
         (_, Some(Group::Com(ComGroup { access: Access::Object, .. }))) => match offset.get() {
-            0 => "the list itself".to_owned(),
+            0 => "the whole list".to_owned(),
             object => format!("object {object} of the list"),
         },
         (_, Some(Group::Com(_))) => {
@@ -247,17 +246,19 @@ fn offset(place: &ServiceAddress, function: Option<Function>, notes: &mut Vec<St
                     split(offset, near),
                 ));
             }
-            "as the object's descriptor has it".to_owned()
+            "from the object's descriptor".to_owned()
         }
         (_, Some(Group::Class(class))) => {
             if class.class == Class::Hld && (0x1000..0x1_0000).contains(&offset.get()) {
                 notes.push(format!(
-                    "the platform axes of the HLD are printed 0x1000 apart: {} (E-01)",
+                    "in the manual, the platform axes of the HLD are 0x1000 apart: {} (E-01)",
                     split(offset, AxisStride::X1000),
                 ));
             }
             match offset.get() {
-                0 => "element 0, which names and counts the instance".to_owned(),
+                0 => {
+                    "element 0, with the name and the number of elements of the instance".to_owned()
+                }
                 _ => split(offset, AxisStride::X10000),
             }
         }

@@ -43,15 +43,15 @@ pub(super) const fn ads_error(error: AdsError) -> Option<&'static str> {
         AdsError::SERVICE_NOT_SUPPORTED => "service not supported",
         AdsError::INVALID_GROUP => "invalid index group",
         AdsError::INVALID_OFFSET => "invalid index offset",
-        AdsError::INVALID_ACCESS => "must not be read or written",
-        AdsError::INVALID_SIZE => "size is wrong",
+        AdsError::INVALID_ACCESS => "read or write not allowed",
+        AdsError::INVALID_SIZE => "invalid size",
         AdsError::INVALID_DATA => "job cannot be executed",
         AdsError::SYMBOL_NOT_FOUND => "unknown name",
         _ => return None,
     })
 }
 
-/// A number, in decimal, and also in hex if that differs.
+/// A number in decimal, and also in hex if the digits differ.
 pub(super) fn number(number: u32) -> String {
     if number < 10 { number.to_string() } else { format!("{number} ({number:#x})") }
 }
@@ -71,7 +71,7 @@ pub(super) fn quoted(bytes: &[u8]) -> String {
     format!("{text:?}")
 }
 
-/// A text with its terminator.
+/// A text with its NULs.
 pub(super) fn text_of(text: TextRef<'_>) -> String {
     let bytes: Vec<u8> = text.text().bytes().collect();
     let shown = quoted(&bytes);
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_shows_its_end() {
+    fn a_text_is_shown_with_its_nuls() {
         for (bytes, shown) in [
             (&b"V.E\0"[..], "\"V.E\" NUL"),
             (b"V.E", "\"V.E\" without NUL"),

@@ -1,4 +1,4 @@
-//! AMS/TCP frames: headers, service, and the stream inside.
+//! Explains AMS/TCP frames: headers, service, and the stream in its data.
 
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ use super::value::bytes as in_words;
 use crate::values::ValueFormat;
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
-/// Index group and offset of requests, by source, target and invoke ID.
+/// Command, index group and offset of requests, by source, target and invoke ID.
 type PendingRequests = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
 
 /// Whether the bytes begin with a frame, or at least with valid headers of one.
@@ -89,7 +89,7 @@ impl FrameExplainer<'_> {
         len
     }
 
-    /// Explains a header by its table; returns whether it is complete.
+    /// Explains a header by its table; returns whether the header is complete.
     fn header(&mut self, stream: Stream, at: usize, bytes: &[u8]) -> bool {
         let part = part::of_stream(stream, at, bytes, self.values);
         let whole = part.faults.is_empty();
@@ -97,21 +97,17 @@ impl FrameExplainer<'_> {
         whole
     }
 
-    /// Adds a fault of the last header, and the bytes after it as unread.
+    /// Adds an error in the last header, and the following bytes as unread.
     fn fault(&mut self, error: &Error, base: usize, rest: &[u8]) {
         let Some(part) = self.parts.last_mut() else { return };
         part.push_fault(ExplainedFault::of(error, base));
         if !rest.is_empty() {
             let at = part.at.saturating_add(part.length);
-            self.parts.push(ExplainedStream::opaque(
-                "After the fault, not read".to_owned(),
-                at,
-                rest,
-            ));
+            self.parts.push(ExplainedStream::opaque("Unread after the error".to_owned(), at, rest));
         }
     }
 
-    /// Adds a fault for missing data at the end of a frame.
+    /// Adds an error for missing data at the end of a frame.
     fn cut(&mut self, header: &AmsHeader, there: usize) {
         let Some(part) = self.parts.last_mut() else { return };
         let found = u32::try_from(there).unwrap_or(u32::MAX);
@@ -123,7 +119,7 @@ impl FrameExplainer<'_> {
             expected: Some(expected),
             found: Some(found),
             text: format!(
-                "the frame is truncated after the header, {expected} bytes expected, {found} there"
+                "the frame is truncated after the header: expected {expected} bytes, found {found}"
             ),
         });
     }
@@ -132,10 +128,10 @@ impl FrameExplainer<'_> {
         let reply = header.state_flags.0 & RESPONSE_BIT != 0;
         if header.state_flags != StateFlags::REQUEST && header.state_flags != StateFlags::RESPONSE {
             let what = if reply { "response" } else { "request" };
-            self.note(format!("by the lowest bit of its state flags a {what}"));
+            self.note(format!("the lowest bit of the state flags means a {what}"));
         }
         if reply && data.is_empty() && !header.error.is_ok() {
-            return self.note("an answer with an AMS error may have no data (ADS-6)".to_owned());
+            return self.note("a reply with an AMS error may have no data (ADS-6)".to_owned());
         }
         let Some(service) = service_of(header.command) else {
             return self.other(header.command, reply, at, data);
@@ -164,13 +160,13 @@ impl FrameExplainer<'_> {
         let Some(place) = place else {
             if reply && stream != Stream::WriteReply && !failed {
                 self.note(
-                    "what it answers is not among these bytes: give index group and offset"
+                    "the request is not in these bytes: specify its index group and offset"
                         .to_owned(),
                 );
             }
             return;
         };
-        // An error reply has no data, and of a truncated service none may be left.
+        // An error reply has no data, and a truncated service may have none left.
         if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
             return;
         }
@@ -182,7 +178,7 @@ impl FrameExplainer<'_> {
         self.parts.push(part);
     }
 
-    /// The address of a request; stored for its reply.
+    /// The address of a request, which is stored for its reply.
     fn asks(
         &mut self,
         header: &AmsHeader,
@@ -197,7 +193,7 @@ impl FrameExplainer<'_> {
         Some(ServiceAddress { port, service, group, offset, reply: false })
     }
 
-    /// The address of a reply: from its request, or as given by the caller.
+    /// The address of a reply, from its request or from the caller.
     fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<ServiceAddress> {
         let key = (header.target, header.source, header.invoke_id);
         let asked = self.asked.get(&key).filter(|(command, ..)| *command == header.command);
@@ -215,7 +211,7 @@ impl FrameExplainer<'_> {
         let name = codes::command(command)
             .map_or_else(|| format!("AMS command {}", command.0), ToOwned::to_owned);
         let what = if reply { "response" } else { "request" };
-        let title = format!("{name}, {what}: no stream of the CNC");
+        let title = format!("{name}, {what}: not a stream of the CNC");
         self.parts.push(ExplainedStream::opaque(title, at, data));
     }
 
@@ -243,7 +239,7 @@ fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
 /// The number in a field, if the stream can be read up to it.
 fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     let mut number = None;
-    // A fault after the field does not matter here.
+    // An error after the field is irrelevant here.
     let _fault = stream.walk(bytes, |segment| {
         if segment.field.name() == field {
             number = segment.bytes.first_chunk().map(|le| u32::from_le_bytes(*le));
@@ -252,7 +248,7 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     number
 }
 
-/// The codec's error for a request whose streams are valid each by itself.
+/// The codec's error for a request whose streams are valid by themselves.
 fn refused(
     place: &ServiceAddress,
     port: AmsPort,
@@ -269,9 +265,9 @@ fn refused(
     };
     match call.dispatch() {
         Err(DispatchError::Stream(error)) => {
-            Some(format!("the codec refuses the request: {error}"))
+            Some(format!("the codec rejects the request: {error}"))
         }
-        // A missing function is explained with the address.
+        // The address already explains a missing function.
         _ => None,
     }
 }

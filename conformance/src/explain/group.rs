@@ -1,4 +1,4 @@
-//! What an index group addresses, in words.
+//! Describes index groups in words.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, Class, ClassGroup, ComGroup, ComTable, Group, IndexGroup,
@@ -25,7 +25,7 @@ pub fn describe(group: IndexGroup) -> String {
     }
 }
 
-/// Appended for a group with addressing by index.
+/// The end of the description of a group with addressing by index.
 const BY_INDEX: &str = "; by index, which moves when a channel is deactivated (ADR-11)";
 
 fn channel(addressing: Addressing, instance: u8) -> String {

@@ -1,7 +1,7 @@
 //! Explains bytes field by field: offset, bytes, field, value, meaning, requirement.
 //!
-//! [`explain`] accepts any bytes and never fails: faults are part of the [`Explanation`], which
-//! shows all fields up to the fault, marks it, and contains the unread bytes. The fields are those
+//! [`explain`] accepts any bytes and never fails: errors are part of the [`Explanation`], which
+//! contains all fields up to an error, the error itself and the unread bytes. The fields are those
 //! of [`ads_cnc::layout`]; there is no second table.
 //!
 //! ```
@@ -47,7 +47,7 @@ pub use show::{Paint, print};
 
 use ads_cnc::layout::Stream;
 
-/// Explains bytes. It opens nothing and remembers nothing, and no bytes make it panic.
+/// Explains bytes. The result depends only on the arguments, and no bytes cause a panic.
 pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     let values = &question.values;
     let parts = match &question.subject {
@@ -59,8 +59,7 @@ pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     Explanation::new(bytes.len(), parts)
 }
 
-/// The streams that these bytes decode as completely, by name: suggestions if no stream is
-/// specified.
+/// The names of the streams that match all of the bytes: suggestions if no stream is specified.
 pub fn candidates(bytes: &[u8]) -> Vec<&'static str> {
     let takes = |stream: &Stream| stream.walk(bytes, |_| ()).is_ok();
     Stream::all().filter(takes).map(|stream| stream.layout().name).collect()

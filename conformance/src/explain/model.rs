@@ -13,24 +13,24 @@ use crate::judge::Exit;
 use crate::text::hex::spaced;
 use crate::values::ValueFormat;
 
-/// What the bytes are.
+/// The meaning of the bytes, and the types of values in them.
 #[derive(Clone, Debug)]
 pub struct ExplainQuery {
-    /// A stream, data of a service, or frames.
+    /// The bytes are a stream, data of a service, or frames.
     pub subject: ExplainSubject,
-    /// Types of values and contents, which no stream contains.
+    /// The type of values and contents, which the streams do not contain.
     pub values: ValueFormat,
 }
 
-/// What the bytes are.
+/// The meaning of the bytes.
 #[derive(Clone, Debug)]
 pub enum ExplainSubject {
     Stream(Stream),
-    /// Request or reply data of this address.
+    /// Data of a request to this address, or of its reply.
     Place(ServiceAddress),
-    /// No bytes: the address alone is explained.
+    /// Only the address is explained; there are no bytes.
     Address(ServiceAddress),
-    /// Consecutive AMS/TCP frames, and the address of replies whose request is missing.
+    /// Consecutive AMS/TCP frames, and the address for replies whose request is missing.
     Frames(Option<ServiceAddress>),
 }
 
@@ -38,23 +38,24 @@ pub enum ExplainSubject {
 #[derive(Clone, Copy, Debug)]
 pub struct ServiceAddress {
     pub port: Option<AmsPort>,
-    /// The service; if unknown, that of the function at this address.
+    /// The service; `None` for that of the function at this address.
     pub service: Option<Service>,
     pub group: IndexGroup,
     pub offset: IndexOffset,
-    /// Whether the bytes are the reply.
+    /// Whether the bytes belong to the reply.
     pub reply: bool,
 }
 
-/// The explanation of bytes; as JSON one document with a format number.
+/// The explanation of bytes; in JSON, one document with a format version.
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
-    /// Version of this structure.
+    /// Version of the format.
     pub format: u32,
     /// Number of bytes.
     pub length: usize,
     pub outcome: ExplanationOutcome,
-    /// Streams in the order of their bytes; the data of a service is a stream after the service's.
+    /// The streams in the order of their bytes; the data of a service follows the stream of the
+    /// service.
     pub parts: Vec<ExplainedStream>,
 }
 
@@ -63,9 +64,9 @@ pub struct Explanation {
 pub enum ExplanationOutcome {
     /// Every stream is explained.
     Explained,
-    /// The bytes have a fault.
+    /// The bytes contain an error.
     Faulty,
-    /// No fault, but no table describes the bytes.
+    /// The bytes contain no error, but no table describes them.
     Unknown,
 }
 
@@ -88,17 +89,17 @@ pub struct ExplainedStream {
     pub stream: Option<&'static str>,
     /// The requirement that defines it.
     pub clause: Option<&'static str>,
-    /// Its sources: document, edition, section.
+    /// The sources of the requirement: document, edition, section.
     pub sources: Vec<String>,
     /// Offset of the stream in the input.
     pub at: usize,
     pub length: usize,
-    /// The address it is sent to, or comes from.
+    /// The address to which the stream is sent, or which returns it.
     pub address: Option<ExplainedAddress>,
-    /// Its fields, up to the first fault.
+    /// The fields up to the first error.
     pub rows: Vec<ExplainedField>,
     pub faults: Vec<ExplainedFault>,
-    /// The bytes from the fault on.
+    /// The bytes from the error on.
     pub unread: Option<Unread>,
     /// Further notes.
     pub notes: Vec<String>,
@@ -114,9 +115,9 @@ pub struct ExplainedField {
     pub hex: String,
     /// The field's name.
     pub field: String,
-    /// Index of the record in a stream of records, else 0.
+    /// Index of the record in a stream of records, otherwise 0.
     pub record: u32,
-    /// Index of the item in a field with several, else 0.
+    /// Index of the item in a field with several items, otherwise 0.
     pub item: u32,
     /// Name of the type.
     #[serde(rename = "type")]
@@ -126,26 +127,26 @@ pub struct ExplainedField {
     pub meaning: &'static str,
     /// The requirement that defines the field.
     pub clause: &'static str,
-    /// Whether the fault is in this field.
+    /// Whether this field contains the error.
     pub faulty: bool,
     /// The meaning of the value.
     pub notes: Vec<String>,
-    /// The bytes are explained as a stream of their own.
+    /// Whether the bytes are explained as a separate stream.
     #[serde(skip)]
     pub below: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplainedFault {
-    /// The class of the fault, as in vectors; `nc-line` and `nc-word` for NC text.
+    /// The class of the error, as in vectors; `nc-line` or `nc-word` for NC text.
     pub class: &'static str,
-    /// The field; `stream` for the stream as a whole.
+    /// The field; `stream` for the whole stream.
     pub field: String,
     pub offset: usize,
-    /// What was expected, in the unit of the class.
+    /// The expected number, in the unit of the class.
     pub expected: Option<u32>,
     pub found: Option<u32>,
-    /// The whole fault as text.
+    /// The error as text.
     pub text: String,
 }
 
@@ -159,12 +160,12 @@ pub struct Unread {
     pub hex: String,
 }
 
-/// The address of a service, explained.
+/// The explanation of a service's address.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplainedAddress {
-    /// The AMS port, if it is known.
+    /// The AMS port, if known.
     pub port: Option<u16>,
-    /// The service, if it is known.
+    /// The service, if known.
     pub service: Option<String>,
     pub index_group: u32,
     pub index_offset: u32,
@@ -173,7 +174,7 @@ pub struct ExplainedAddress {
     /// The meaning of the index offset.
     pub offset: String,
     pub function: Option<FunctionReport>,
-    /// Other meanings, and why there is no function.
+    /// Other meanings, and the reason if there is no function.
     pub notes: Vec<String>,
 }
 
@@ -181,9 +182,9 @@ pub struct ExplainedAddress {
 #[derive(Clone, Debug, Serialize)]
 pub struct FunctionReport {
     pub name: &'static str,
-    /// The service it is called with.
+    /// The service that calls the function.
     pub service: String,
-    /// The task that executes it.
+    /// The task that executes the function.
     pub task: String,
     /// The task's AMS port.
     pub port: u16,
@@ -191,7 +192,7 @@ pub struct FunctionReport {
     pub effect: String,
     /// The requirement that defines it.
     pub clause: &'static str,
-    /// Its sources.
+    /// The sources of the function.
     pub section: String,
     /// The stream of the request.
     pub request: Option<&'static str>,
@@ -239,7 +240,7 @@ impl ExplainedStream {
         self.address.as_ref().is_some_and(|address| address.function.is_some())
     }
 
-    /// Adds a fault and marks the row it is in.
+    /// Adds an error and marks its row.
     pub(super) fn push_fault(&mut self, fault: ExplainedFault) {
         let at = fault.offset;
         let here = |row: &&mut ExplainedField| {
@@ -284,11 +285,11 @@ impl ExplainedField {
 }
 
 impl ExplainedFault {
-    /// The fault of a codec error; offsets are counted from `base` bytes before the stream.
+    /// Converts a codec error; its offset is counted from `base` bytes before the stream.
     pub(super) fn of(error: &Error, base: usize) -> Self {
         let field: Field = error.field();
         let offset = size(error.offset()).saturating_sub(base);
-        // The stream is omitted because the part names it.
+        // Omit the stream, because the part names it.
         let whole = error.to_string();
         let reason = whole.split_once(": ").map_or(whole.as_str(), |(_, rest)| rest);
         let reason = reason.split_once(": ").map_or(reason, |(_, rest)| rest);
@@ -313,7 +314,7 @@ pub(super) fn size(number: u32) -> usize {
 /// The sources of a requirement.
 pub(crate) fn sources(clause: &str) -> Vec<String> {
     let Some(requirement) = requirement(clause) else { return Vec::new() };
-    // One entry for each document, with all its sections.
+    // Create one entry for each document, with all its sections.
     let mut all: Vec<(&str, String)> = Vec::new();
     for source in &requirement.sources {
         let (document, section) = (source.document.as_str(), source.section.as_str());

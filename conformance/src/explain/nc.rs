@@ -1,4 +1,4 @@
-//! NC text in a stream, line by line, with the rules of streaming.
+//! Explains NC text in a stream line by line, with the rules of streaming.
 
 use ads_cnc::layout::Segment;
 use ads_cnc::streaming::{self, LineError, NcText, check_line_ends};
@@ -32,7 +32,7 @@ pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
         row.meaning = if number == 1 { whole.meaning } else { "" };
         part.rows.push(row);
     }
-    // A CNC accepts these bytes and finds a missing line end only when it reads the line.
+    // A CNC accepts these bytes, and detects a missing line end only when it reads the line.
     if let Err(error) = check_line_ends(data) {
         let number = streaming::LINE_END_ERROR;
         fault(part, &lines, &error, &format!(": the CNC aborts with error {number}"));
@@ -58,7 +58,7 @@ pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
             }
             part.faults.sort_by_key(|fault| fault.offset);
             part.notes.push(
-                "checked as one text; jumps and comments may go on in another write".to_owned(),
+                "checked as one text; jumps and comments may continue in another write".to_owned(),
             );
         }
     }
@@ -81,7 +81,7 @@ fn place(lines: &[Line<'_>], line: u32, column: u32) -> usize {
     lines.get(back(line)).map_or(0, |line| line.at.saturating_add(back(column)))
 }
 
-/// The lines with their ends, as the codec counts them: LF, CR LF, or CR alone.
+/// The lines with their line ends, as the codec counts them: LF, CR LF, or only CR.
 fn lines(data: &[u8]) -> Vec<Line<'_>> {
     let (mut lines, mut at, mut rest) = (Vec::new(), 0_usize, data);
     while !rest.is_empty() {

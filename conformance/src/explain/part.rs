@@ -18,7 +18,7 @@ pub(super) fn of_stream(
     let mut part = ExplainedStream::new(stream, at, bytes);
     let (mut segments, fault) = walk(stream, bytes);
     if fault.is_some_and(|error| error.kind() == ErrorKind::TooLong) && segments.is_empty() {
-        // Of a stream that is too long, the fields up to the maximum length are shown.
+        // If the stream is too long, show the fields up to the maximum length.
         (segments, _) = walk(stream, bytes.get(..size(stream.layout().max)).unwrap_or(bytes));
     }
     let mut end = 0_usize;

@@ -1,4 +1,4 @@
-//! Prints an explanation, plain or coloured.
+//! Prints an explanation, with or without colour.
 
 use std::io::{self, Write};
 
@@ -86,7 +86,7 @@ fn show_part(
     if let Some(unread) = &part.unread {
         for (number, chunk) in chunks(&unread.hex).enumerate() {
             let at = unread.offset + number * LINE;
-            // The field whose bytes are missing.
+            // Show the field whose bytes are missing.
             let mut cut = part.faults.iter().filter(|fault| fault.offset == at);
             let name =
                 cut.next().map(|fault| fault.field.as_str()).filter(|name| *name != "stream");
@@ -160,10 +160,10 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
             function.port,
         )?;
         let streams = match (function.request, function.reply) {
-            (Some(request), Some(reply)) => format!("{request} goes in, {reply} comes back"),
-            (Some(request), None) => format!("{request} goes in"),
-            (None, Some(reply)) => format!("{reply} comes back"),
-            (None, None) => "nothing goes in or comes back".to_owned(),
+            (Some(request), Some(reply)) => format!("sends {request}, returns {reply}"),
+            (Some(request), None) => format!("sends {request}"),
+            (None, Some(reply)) => format!("returns {reply}"),
+            (None, None) => "sends and returns no data".to_owned(),
         };
         writeln!(out, "  {:<8}  {streams}", "")?;
         let text = format!("{}: {}", function.clause, function.section);

@@ -1,4 +1,4 @@
-//! Values and contents with the type from their description or descriptor.
+//! Decodes values and contents by the type from their description or descriptor.
 
 use ads_cnc::value::{DataType, Element, Elements};
 use ads_cnc::{Error, U32List};
@@ -7,9 +7,9 @@ use super::codes::text_of;
 
 /// An element of a value.
 pub(super) struct TypedElement {
-    /// Its number of bytes.
+    /// Length in bytes.
     pub(super) len: usize,
-    /// Its indices in brackets, or empty.
+    /// The indices in brackets; empty for a single value.
     pub(super) place: String,
     pub(super) value: String,
 }
@@ -39,7 +39,7 @@ fn element(element: Element<'_>) -> String {
     }
 }
 
-/// The indices of an element; the last runs fastest (VAR-21, assumed).
+/// The indices of an element; the last index changes fastest (VAR-21, assumed).
 fn place(item: u32, dimensions: &[u32]) -> String {
     let (mut left, mut indices) = (item, Vec::new());
     for &length in dimensions.iter().rev() {
@@ -55,7 +55,7 @@ mod tests {
     use crate::values::type_by_name;
 
     #[test]
-    fn the_last_index_runs_fastest() {
+    fn the_last_index_changes_fastest() {
         let bytes: Vec<u8> = (1..=6).collect();
         let typed = elements(type_by_name("uns08").unwrap(), &[2, 3], &bytes).unwrap();
         let shown: Vec<_> =

@@ -101,21 +101,21 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
         (_, "error" | "result") => {
             let known = codes::ads_error(AdsError(read));
             if read != 0 {
-                row.notes.push("which number a CNC gives is not documented (ADS-7)".to_owned());
+                row.notes.push("the error numbers of a CNC are not documented (ADS-7)".to_owned());
             }
             Some(known.unwrap_or("an error").to_owned())
         }
         (Stream::VariableDescription | Stream::VariableDescriptionByName, "type") => {
-            Some(VariableType(read).name().unwrap_or("no type of the manuals").to_owned())
+            Some(VariableType(read).name().unwrap_or("not a type of the manuals").to_owned())
         }
         (_, "access") => {
-            Some(VariableAccess(read).name().unwrap_or("no code of the manuals").to_owned())
+            Some(VariableAccess(read).name().unwrap_or("not a code of the manuals").to_owned())
         }
         (_, "synchronisation") => {
-            Some(Synchronisation(read).name().unwrap_or("no code of the manuals").to_owned())
+            Some(Synchronisation(read).name().unwrap_or("not a code of the manuals").to_owned())
         }
         (_, "validity") => {
-            Some(Validity(read).name().unwrap_or("no code of the manuals").to_owned())
+            Some(Validity(read).name().unwrap_or("not a code of the manuals").to_owned())
         }
         (_, "write_access") => Some(if read == 0 { "read-only" } else { "writable" }.to_owned()),
         _ => None,
@@ -131,20 +131,20 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
         row.value = bytes(all.len());
         let guesses = guesses(all);
         if !guesses.is_empty() {
-            row.notes.push(format!("the type is not in the stream; it would be {guesses}"));
+            row.notes.push(format!("the stream does not contain the type; possible: {guesses}"));
         } else if !all.is_empty() {
-            row.notes.push("the type is not in the stream".to_owned());
+            row.notes.push("the stream does not contain the type".to_owned());
         }
         part.rows.push(row);
         return;
     };
-    // With indices the value is one element, of any variable.
+    // With indices, the value is one element of an unknown variable.
     let one = part.rows.iter().any(|before| before.field == "indices");
     let dimensions = if one { &[][..] } else { values.dimensions.as_slice() };
     match typed::elements(ty, dimensions, all) {
         Ok(elements) => {
             if dimensions.len() > 1 {
-                part.notes.push("the last index runs fastest (VAR-21, assumed)".to_owned());
+                part.notes.push("the last index changes fastest (VAR-21, assumed)".to_owned());
             }
             let (mut rest, mut at) = (all, row.offset);
             for (item, element) in (0..).zip(elements) {
@@ -161,7 +161,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
             }
         }
         Err(error) => {
-            // The error's offset is relative to the value, and it names another table.
+            // The error names another table, and its offset is relative to the value.
             row.value = bytes(all.len());
             let shape: String = dimensions.iter().map(|length| format!("[{length}]")).collect();
             let mut fault = ExplainedFault::of(&error, 0);

@@ -1,4 +1,4 @@
-//! The permitted writes: entries, and the requests that each allows.
+//! The allowed writes: target, expiry and entries.
 
 use std::net::IpAddr;
 
@@ -9,18 +9,18 @@ use super::{Entry, Moment, Reason};
 /// The default AMS NetId of the simulated CNC.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
-/// The permitted writes: target, values and expiry.
+/// The allowed writes: target, values and expiry.
 ///
-/// As a file. Every table may be repeated; channels and axes have the numbers of the CNC:
+/// In a file, every table may be repeated; channels and axes have the numbers of the CNC:
 ///
 /// ```
 /// let file = r#"
 /// target = "192.0.2.7.1.1"             # the AMS NetId of the device
-/// address = "192.0.2.7"                # its IP address; without it any that has the NetId
-/// expires = 2026-05-04T17:30:00+02:00  # from then on nothing is written
-/// malformed = false                    # whether run --malformed may send it malformed requests
+/// address = "192.0.2.7"                # the IP address of the device; default: any
+/// expires = 2026-05-04T17:30:00+02:00  # no writes from then on
+/// malformed = false                    # whether run --malformed may send malformed requests
 ///
-/// [[variable]]                 # with its elements; "V.E.list[3]" is one element alone
+/// [[variable]]                 # including its elements; "V.E.list[3]" is only one element
 /// channel = 1                  # or rank = 1, the first of the active channels
 /// name = "V.E.list"
 ///
@@ -29,7 +29,7 @@ pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 /// axis = 2
 /// name = "V.A.WCS"
 ///
-/// [[object]]                   # content of a COM object, by its address
+/// [[object]]                   # the content of a COM object by its address
 /// group = 0x120101
 /// offset = 0x1
 ///
@@ -37,14 +37,14 @@ pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 /// channel = 1                  # of a rank or of a platform axis
 /// name = "mc_command_single_block_w"
 ///
-/// [[element]]                  # content of an element of a class
+/// [[element]]                  # the content of an element of a class
 /// group = 0x123301
 /// offset = 1
 ///
 /// [[stream]]                   # NC programs: this moves the machine
 /// channel = 1
 ///
-/// [[service]]                  # the answers of a Service Interface host
+/// [[service]]                  # the responses of a host of the Service Interface
 /// channel = 1
 /// "#;
 /// let allowed = ads_cnc_conformance::gate::Allowed::from_toml(file)?;
@@ -53,24 +53,24 @@ pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Allowed {
-    /// The AMS NetId of the one target that it is for.
+    /// The AMS NetId of the only allowed target.
     pub target: AmsNetId,
-    /// The IP address of the target, if the file binds it.
+    /// The IP address of the target; `None` for any.
     pub address: Option<IpAddr>,
     /// Whether malformed requests may be sent to the target.
     pub malformed: bool,
-    /// When it is over.
+    /// The time after which no write is allowed.
     pub expires: Moment,
-    /// The permitted writes.
+    /// The allowed writes.
     pub entries: Vec<Entry>,
 }
 
 impl Allowed {
-    /// Checks whether the file applies to this target now; `address` is that of the connection, if
-    /// known.
+    /// Checks whether the file applies to this target now; `address` is the address of the
+    /// connection, if known.
     ///
     /// # Errors
-    /// The first reason why it does not.
+    /// The first reason why the file does not apply.
     pub(super) fn check_target(
         &self,
         target: AmsNetId,
@@ -83,7 +83,7 @@ impl Allowed {
         if self.address.is_some() && self.address != address {
             return Err(Reason::OtherAddress { allowed: self.address, address });
         }
-        // Routers know their own machine by this NetId: another machine's would take it for itself.
+        // Each router uses this NetId for its own machine, so on another machine it means that one.
         if target == NET_ID && !address.is_some_and(|address| address.is_loopback()) {
             return Err(Reason::LocalNetId(address));
         }

@@ -1,4 +1,4 @@
-//! One thing that may be written.
+//! An allowed write.
 
 use std::fmt;
 
@@ -7,15 +7,15 @@ use ads_cnc::operation::{ObjectList, Operation as _, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
-/// One thing that may be written. Shown as the table that allows it.
+/// An allowed write. `Display` formats it as a TOML table of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// A variable by its name, or by a handle that was asked for by this name.
+    /// A variable by its name, or by a handle that the device returned for this name.
     Variable {
         channel: Channel,
-        /// Which axis, over the axis interface.
+        /// The axis, for the axis interface.
         axis: Option<ChannelAxis>,
-        /// The name. Without an index it includes the elements.
+        /// The name. Without an index, it includes all elements.
         name: CncString,
     },
     /// The content of a COM object or of an element, by its address.
@@ -39,7 +39,7 @@ pub enum AllowedList {
 }
 
 impl AllowedList {
-    /// The list with its addressing.
+    /// The list, with addressing by number or by index as for the channel.
     pub fn list(self) -> ObjectList {
         match self {
             Self::Platform => ObjectList::PLATFORM,
@@ -88,7 +88,7 @@ impl Entry {
     }
 }
 
-/// The variables that a host writes; the NC program writes the others.
+/// The variables of the Service Interface that the host writes; the NC program writes the others.
 const SERVICE: [ServiceVariable; 3] =
     [ServiceVariable::RequestState, ServiceVariable::ResponseState, ServiceVariable::Response];
 
@@ -96,7 +96,7 @@ fn is_of_service(name: CncStr<'_>) -> bool {
     SERVICE.iter().any(|variable| name == *variable.name())
 }
 
-/// Whether a name is this one, or this one followed by indices.
+/// Whether `asked` is `name`, optionally followed by indices.
 fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
     let asked: Vec<u8> = asked.bytes().collect();
     let Some(rest) = asked.strip_prefix(name.as_bytes()) else { return false };
@@ -111,7 +111,7 @@ fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
     }
 }
 
-/// As a TOML table of the file.
+/// Formats the entry as a TOML table of the file.
 impl fmt::Display for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,4 +1,4 @@
-//! The file of `--allow-write`.
+//! Reads the file of `--allow-write`.
 
 use std::fmt;
 use std::fs;
@@ -42,7 +42,7 @@ impl Allowed {
     /// Reads a file.
     ///
     /// # Errors
-    /// If the file cannot be read, and those of [`from_toml`](Self::from_toml).
+    /// If the file cannot be read, or [`from_toml`](Self::from_toml) fails.
     pub fn from_file(file: &Path) -> Result<Self, AllowFileError> {
         let failed = |why: String| AllowFileError { file: Some(file.to_owned()), why };
         let bytes = fs::read(file).map_err(|error| failed(error.to_string()))?;
@@ -53,8 +53,8 @@ impl Allowed {
     /// Parses the text of a file.
     ///
     /// # Errors
-    /// The line and what is wrong in it: unknown or missing keys, values out of range, an address
-    /// that is not written to.
+    /// Unknown or missing keys, values out of range, or an address that cannot be written. The error
+    /// contains the line.
     pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
         let file: AllowListFile = toml::from_str(text).map_err(|error| {
             // `Display` quotes the line; `message` has no line number.
@@ -108,18 +108,18 @@ struct AllowListFile {
 fn net_id<'de, D: Deserializer<'de>>(value: D) -> Result<AmsNetId, D::Error> {
     let text = String::deserialize(value)?;
     let shaped =
-        |_| D::Error::custom("an AMS NetId is six numbers with dots, as \"192.0.2.7.1.1\"");
+        |_| D::Error::custom("expected an AMS NetId, six numbers with dots: \"192.0.2.7.1.1\"");
     text.parse().map_err(shaped)
 }
 
 fn address<'de, D: Deserializer<'de>>(value: D) -> Result<Option<IpAddr>, D::Error> {
     let text = String::deserialize(value)?;
-    let shaped = |_| D::Error::custom("an IP address is needed without a port, as \"192.0.2.7\"");
+    let shaped = |_| D::Error::custom("expected an IP address without a port: \"192.0.2.7\"");
     text.parse().map(|address: IpAddr| Some(address.to_canonical())).map_err(shaped)
 }
 
 fn moment<'de, D: Deserializer<'de>>(value: D) -> Result<Moment, D::Error> {
-    let lacking = "a date and a time with an offset from UTC, as 2026-05-04T17:30:00+02:00";
+    let lacking = "expected a date and time with a UTC offset: 2026-05-04T17:30:00+02:00";
     Moment::from_datetime(Datetime::deserialize(value)?).ok_or_else(|| D::Error::custom(lacking))
 }
 
@@ -175,20 +175,20 @@ impl TryFrom<RawObject> for AllowedObject {
                         PlatformAxis::new(axis).map_err(|error| error.to_string())?,
                     ),
                     (channel, rank, None) => AllowedList::Channel(one_of(channel, rank)?),
-                    _ => return Err("an object is in the list of a channel or of an axis".into()),
+                    _ => return Err("expected either a channel or an axis for the object".into()),
                 };
                 Ok(Self(Entry::Object { list, name: text(&name, DESCRIPTOR_TEXT_LEN)? }))
             }
             (None, Some(group), Some(offset), false) => {
                 let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
                 if offset == streaming::INDEX_OFFSET {
-                    return Err("the program stream is allowed by a table [[stream]]".into());
+                    return Err("use a table [[stream]] to allow the program stream".into());
                 }
                 let odd = |_| format!("no content of a COM object is at {group}, {offset}");
                 WriteObject::new(group, offset, &[][..]).map_err(odd)?;
                 Ok(Self(Entry::Content { group, offset }))
             }
-            _ => Err("an object has either group and offset, or channel and name".into()),
+            _ => Err("expected either group and offset, or channel and name".into()),
         }
     }
 }
@@ -243,7 +243,7 @@ fn one_of(channel: Option<u32>, rank: Option<u32>) -> Result<Channel, String> {
     let channel = match (channel, rank) {
         (Some(number), None) => Channel::new(number),
         (None, Some(rank)) => Channel::by_index(rank),
-        _ => return Err("either channel, its number, or rank is needed".into()),
+        _ => return Err("expected either channel (the number) or rank".into()),
     };
     channel.map_err(|error| error.to_string())
 }
@@ -252,6 +252,6 @@ fn text(text: &str, max: usize) -> Result<CncString, String> {
     let name: CncString = text.parse().map_err(|error: ads_cnc::Error| error.to_string())?;
     match name.as_bytes().len() {
         len if (1..=max).contains(&len) => Ok(name),
-        _ => Err(format!("a name has 1 to {max} characters")),
+        _ => Err(format!("expected a name of 1 to {max} characters")),
     }
 }

@@ -1,14 +1,15 @@
 //! Decides which frames may be sent to a target. A frame may move a machine, so every frame that is
 //! not allowed is rejected.
 //!
-//! A frame reaches a socket only with the [`Permit`] that [`Gate::check`] returns for its bytes,
-//! see [`Wire::send`](crate::net::Wire::send). By default the gate allows the queries of the
-//! function table at their documented port, ReadDeviceInfo and ReadState. A write needs an entry in
-//! a file with the value, the target and an expiry: [`Allowed`].
+//! [`Wire::send`](crate::net::Wire::send) sends a frame only with the [`Permit`] that
+//! [`Gate::check`] returns for its bytes. By default, the gate allows the queries of the function
+//! table at their documented port, ReadDeviceInfo and ReadState. A write needs an entry in a file
+//! with the value, the target and an expiry: see [`Allowed`].
 //!
-//! A file contains names, a write contains a handle or an address, and only the device knows which
-//! name belongs to it. So the gate observes the names in replies, and rejects a write by a handle
-//! or address to which any reply gives a name that is not in the file: see [`Ambiguity`].
+//! A file contains names, but a write contains a handle or an address, and only the device knows
+//! which name belongs to it. Therefore, the gate observes the names in replies. It rejects a write by
+//! a handle or address for which any reply contains a name that is not in the file: see
+//! [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -18,7 +19,7 @@
 //! let state = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
 //!               \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
 //! assert!(gate::check(state).is_ok());
-//! // WriteControl of the same
+//! // WriteControl of the COM task
 //! let mut control = state.to_vec();
 //! control[22] = 5;
 //! assert!(gate::check(&control).is_err());
@@ -47,14 +48,14 @@ use ads_cnc::streaming;
 
 use observed::Observed;
 
-/// Checks every frame before any of it is sent.
+/// Checks every frame before it is sent.
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
-    /// Whether malformed frames are allowed if the file permits them.
+    /// Whether malformed frames are allowed if the file permits them, too.
     malformed: bool,
     /// The address of a simulated CNC in this process, to which every write is allowed.
     simulated: Option<SocketAddr>,
-    /// The IP address that the frames go to, if known.
+    /// The IP address to which the frames are sent, if known.
     peer: Option<IpAddr>,
     allowed: Option<Allowed>,
     observed: Observed,
@@ -81,58 +82,58 @@ impl<'f> Permit<'f> {
 /// Checks a frame without a file, see [`Gate::queries`].
 ///
 /// # Errors
-/// Why it may not be sent, and which entry would allow it.
+/// The reason why the frame must not be sent, and the entry that would allow it.
 pub fn check(frame: &[u8]) -> Result<Permit<'_>, Refusal> {
     Gate::queries().check(frame, Moment::EPOCH)
 }
 
 impl Gate {
-    /// A gate that allows only well-formed queries of the function table.
+    /// Creates a gate that allows only well-formed queries of the function table.
     pub fn queries() -> Self {
         Self::default()
     }
 
-    /// A gate that allows every request except those that are never sent, and only to this address:
-    /// that of a [`Server`](crate::simulator::Server) of this process, see [`Gate::of_server`].
+    /// Creates a gate that allows every request except those that are never sent, but only to this
+    /// address of a [`Server`](crate::simulator::Server) of this process, see [`Gate::of_server`].
     pub(crate) fn of_address(simulated: SocketAddr) -> Self {
         Self { simulated: Some(simulated), ..Self::default() }
     }
 
-    /// The only address that the gate allows, if it is restricted to one.
+    /// The only address that the gate allows; `None` if it is not restricted.
     pub const fn simulated(&self) -> Option<SocketAddr> {
         self.simulated
     }
 
-    /// Whether any write may be allowed at all.
+    /// Whether the gate may allow any write.
     pub const fn may_let_writes_pass(&self) -> bool {
         self.simulated.is_some() || self.allowed.is_some()
     }
 
-    /// The content of the file.
+    /// The content of the file; `None` without a file.
     pub const fn allowed(&self) -> Option<&Allowed> {
         self.allowed.as_ref()
     }
 
-    /// Allows the writes of a file too.
+    /// Also allows the writes of a file.
     #[must_use]
     pub fn with_allowed(self, allowed: Option<Allowed>) -> Self {
         Self { allowed, ..self }
     }
 
-    /// Allows malformed requests too, to the target for which a file permits them.
+    /// Also allows malformed requests, to the target for which a file permits them.
     /// [`Client`](crate::client::Client) accepts such a gate only for a CNC on this machine.
     #[must_use]
     pub fn and_malformed(self) -> Self {
         Self { malformed: true, ..self }
     }
 
-    /// Sets the IP address that the frames go to, which a file may require.
+    /// Sets the IP address to which the frames are sent; a file may require an address.
     #[must_use]
     pub fn to_address(self, peer: IpAddr) -> Self {
         Self { peer: Some(peer.to_canonical()), ..self }
     }
 
-    /// Whether malformed frames are allowed: a CNC may execute some of them as writes.
+    /// Whether malformed frames may be allowed; a CNC may execute some of them as writes.
     pub fn lets_malformed_pass(&self) -> bool {
         let permits = |allowed: &Allowed| allowed.malformed;
         self.simulated.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
@@ -141,7 +142,7 @@ impl Gate {
     /// Checks whether the file applies to this target now.
     ///
     /// # Errors
-    /// Why it does not; none without a file.
+    /// The reason why the file does not apply; without a file, never.
     pub fn check_target(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         let Some(allowed) = &self.allowed else { return Ok(()) };
         allowed.check_target(target, self.peer, now).map_err(Refusal::from)
@@ -156,16 +157,16 @@ impl Gate {
         }
     }
 
-    /// Checks whether this frame may be sent now. The result depends on the gate and the arguments
-    /// only.
+    /// Checks whether this frame may be sent now. The result depends only on the gate and the
+    /// arguments.
     ///
     /// # Errors
-    /// Why it may not be sent, and which entry would allow it.
+    /// The reason why the frame must not be sent, and the entry that would allow it.
     pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, Refusal> {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
         let whole = match whole(frame) {
             Ok(whole) => whole,
-            // Without a valid header the target is unknown.
+            // Without a valid header, the target is unknown.
             Err(_) if self.simulated.is_some() => return permit(false),
             Err(reason) => return Err(reason.into()),
         };
@@ -178,7 +179,7 @@ impl Gate {
             }
         };
         let header = whole.header();
-        // A command that is never sent is not sent with invalid flags either.
+        // Check the command first, so that invalid flags do not allow one that is never sent.
         let repeatable = match header.command {
             Command::WRITE_CONTROL
             | Command::ADD_NOTIFICATION
@@ -204,8 +205,8 @@ impl Gate {
         permit(repeatable)
     }
 
-    /// Records the handles and object addresses in a reply, to check later whether a write by one
-    /// of them is to a name in the file.
+    /// Records the handles and object addresses in a reply, to check later whether a write by a
+    /// handle or an address affects a name in the file.
     pub fn observe(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
             self.observed.observe(allowed, call, reply);
@@ -217,8 +218,8 @@ impl Gate {
         self.observed.knows_handle(channel, handle)
     }
 
-    /// Forgets the observations that allow writes, because the next replies may come from another
-    /// device. Those that forbid writes are kept.
+    /// Discards the observations that allow writes, because the next replies may come from another
+    /// device. Keeps the observations that forbid writes.
     pub fn forget(&mut self) {
         self.observed.forget();
     }
@@ -238,7 +239,7 @@ impl Gate {
         match spec.effect {
             Effect::Query if at_home => Ok(true),
             Effect::Query if lets_malformed_pass => self.check_malformed(to, now).map(|()| true),
-            // The entries are for SDA and COM only.
+            // Entries only apply to SDA and COM.
             _ if call.port != spec.task.port() => {
                 Err(Reason::Port(call.port, request.function()).into())
             }
@@ -275,8 +276,8 @@ impl Gate {
     }
 }
 
-/// The queries of classes, which the manual documents for SDA and GEO alike (section 2.2). That GEO
-/// serves the other functions of SDA too is assumed, so they are not sent to GEO.
+/// The queries of classes, which the manual documents for both SDA and GEO (section 2.2). It is only
+/// assumed that GEO serves the other functions of SDA, so they are not sent to GEO.
 const OF_CLASSES: [Function; 8] = [
     Function::FindInstance,
     Function::CountElements,
@@ -299,7 +300,7 @@ fn never(call: &Call<'_>) -> Result<(), Refusal> {
         && com.access == Access::Element
         && com.table == ComTable::Channel;
     // Channel 0, the platform, may have the same stream as channel 1. Reads of the stream, and
-    // writes at another port than COM's, are not documented.
+    // writes at ports other than that of COM, are not documented.
     let documented =
         call.service == Service::Write && com.instance != 0 && call.port == AmsPort::COM;
     if stream && !documented { Err(Reason::Stream.into()) } else { Ok(()) }

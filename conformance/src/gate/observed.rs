@@ -1,4 +1,4 @@
-//! The names that replies give to handles and to object addresses.
+//! Observes the names of handles and object addresses in replies.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,16 +9,16 @@ use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 use super::refusal::OBSERVATIONS_MAX;
 use super::{Allowed, Ambiguity, Entry};
 
-/// Facts from the replies of a connection: those that allow a write and those that forbid it.
+/// The facts from the replies of a connection that allow or forbid writes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
-    /// By channel as addressed: whether a rank and a number are the same channel is unknown.
+    /// By channel as addressed, because a rank and a number may mean the same channel.
     handles: BTreeMap<(Channel, u32), HandleNames>,
-    /// The handle of each variable in the file; `None` if replies give it several.
+    /// The handle of each variable in the file; `None` if replies contain several.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
-    /// The lists with an object in the file.
+    /// The lists for which the file contains an object.
     lists: BTreeMap<IndexGroup, ObservedObjects>,
-    /// By address: the name of the object, and a different name from another list.
+    /// By address: the name of the object, and a different name in another list, if any.
     contents: BTreeMap<(IndexGroup, IndexOffset), (CncString, Option<CncString>)>,
     kept: usize,
     full: bool,
@@ -29,13 +29,13 @@ pub(super) struct Observed {
 struct HandleNames {
     /// Names in the file.
     allowed: BTreeMap<CncString, Sources>,
-    /// Axis and name if the handle is one of the axis interface.
+    /// Axis and name if the handle belongs to the axis interface.
     of_axis: Option<(ChannelAxis, CncString)>,
     /// The first name that is not in the file.
     foreign: Option<CncString>,
 }
 
-/// The replies that gave a handle to a name.
+/// The kinds of replies that contained a handle of a name.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sources {
     handle_by_name: bool,
@@ -47,7 +47,7 @@ impl Sources {
     const DESCRIPTION: Self = Self { handle_by_name: false, description: true };
 }
 
-/// A list of objects as observed so far.
+/// The part of a list of objects that was observed so far.
 #[derive(Clone, Debug, Default)]
 struct ObservedObjects {
     count: Option<u32>,
@@ -56,9 +56,9 @@ struct ObservedObjects {
 }
 
 impl Observed {
-    /// Forgets the observations that allow writes; foreign names are kept.
+    /// Discards the observations that allow writes; keeps foreign names.
     pub(super) fn forget(&mut self) {
-        // A variable with several handles stays forbidden.
+        // A variable with several handles remains forbidden.
         self.variables.retain(|_, handle| handle.is_none());
         self.lists.clear();
         self.handles.values_mut().for_each(|named| named.allowed.clear());
@@ -67,7 +67,7 @@ impl Observed {
         self.kept = kept.into_iter().fold(0, usize::saturating_add);
     }
 
-    /// Whether a reply returned this handle; false once the limit was exceeded.
+    /// Whether a reply contained this handle; false after the limit was exceeded.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         let has_names = |named: &HandleNames| !named.allowed.is_empty() || named.foreign.is_some();
         self.full || self.handles.get(&(channel, handle.0)).is_some_and(has_names)
@@ -76,7 +76,7 @@ impl Observed {
     /// Checks whether a handle belongs to a variable in the file.
     ///
     /// # Errors
-    /// Why the handle may belong to another variable too.
+    /// The reason why the handle may also belong to another variable.
     pub(super) fn is_variable(&self, channel: Channel, handle: Handle) -> Result<bool, Ambiguity> {
         let Some(named) = self.handles.get(&(channel, handle.0)) else { return Ok(false) };
         let Some(name) = named.allowed.keys().next() else { return Ok(false) };
@@ -86,7 +86,7 @@ impl Observed {
         if let Some(foreign) = &named.foreign {
             return Err(Ambiguity::Shared(foreign.clone()));
         }
-        // The axis interface has the same variable without the axis in its name.
+        // On the axis interface, the name of the variable does not contain the axis.
         let without_axis = |name: &CncString| {
             VariablePath::from_text(name.as_cnc_str()).and_then(|path| path.without_axis()).ok()
         };
@@ -108,11 +108,11 @@ impl Observed {
         }
     }
 
-    /// Checks whether the only object with a name in a list is at this address. Only a list that
-    /// was read completely shows that no other object has the same name.
+    /// Checks whether the only object with a name in a list has this address. Only a completely read
+    /// list shows that no other object has the same name.
     ///
     /// # Errors
-    /// Why another object may be at the address.
+    /// The reason why another object may have this address.
     pub(super) fn is_object(
         &self,
         list: ObjectList,
@@ -146,7 +146,7 @@ impl Observed {
         }
     }
 
-    /// Checks that no list gives a second name to an address in the file.
+    /// Checks that no list contains a second name for an address in the file.
     ///
     /// # Errors
     /// The second name.
@@ -193,14 +193,14 @@ impl Observed {
         }
     }
 
-    /// Counts an entry; returns whether it is within the limit.
+    /// Counts an observation; returns whether it is within the limit.
     fn has_room(&mut self) -> bool {
         self.full |= self.kept >= OBSERVATIONS_MAX;
         self.kept = self.kept.saturating_add(1);
         !self.full
     }
 
-    /// The names of a handle, to add one.
+    /// The names of a handle, to which the caller adds a name.
     fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut HandleNames> {
         let key = (channel, handle.0);
         let is_new = !self.handles.contains_key(&key);
@@ -217,7 +217,7 @@ impl Observed {
         name: CncStr<'_>,
         from: Sources,
     ) {
-        // A handle reaches all elements, so an entry for a single element does not allow it.
+        // A handle allows access to all elements, so an entry for one element does not allow it.
         let whole = |entry: &Entry| match entry {
             Entry::Variable { name, .. } => !name.as_bytes().ends_with(b"]"),
             _ => true,
@@ -248,7 +248,7 @@ impl Observed {
         let asked = (axis, CncString::from(name));
         let Some(named) = self.named(key) else { return };
         let known = named.of_axis.get_or_insert_with(|| asked.clone());
-        // A handle of two axes belongs to neither.
+        // A handle that belongs to two axes is allowed for neither.
         if *known != asked {
             named.foreign.get_or_insert(asked.1);
         }
@@ -292,7 +292,7 @@ impl Observed {
 }
 
 impl ObservedObjects {
-    /// Whether every object of the list was read.
+    /// Whether all objects of the list were read.
     fn is_whole(&self) -> bool {
         let Some(count) = self.count else { return false };
         let seen = self.seen.range(1..=count.max(1)).count();
@@ -306,8 +306,8 @@ fn is_named(allowed: &Allowed, asked: ObjectList) -> bool {
     entries.any(|entry| matches!(entry, Entry::Object { list, .. } if list.list() == asked))
 }
 
-/// Whether a content may belong to an object of the list. The number of a channel given by rank is
-/// unknown.
+/// Whether a content may belong to an object of the list; the number of a channel is unknown if it is
+/// addressed by rank.
 fn is_of(list: ObjectList, group: IndexGroup) -> bool {
     let (list, Some(Group::Com(content))) = (list.parts(), group.parts()) else { return false };
     let same = list.instance == content.instance;
@@ -322,7 +322,7 @@ impl Entry {
     /// Checks whether the entry allows a request other than a query.
     ///
     /// # Errors
-    /// Why the value written may be another than the entry names.
+    /// The reason why the write may affect a value other than that of the entry.
     pub(super) fn allows(
         &self,
         request: &Request<'_>,
@@ -332,7 +332,7 @@ impl Entry {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
                 observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))
             }
-            // `is_variable` checks every name of the handle, whichever entry allows it.
+            // `is_variable` checks every name of the handle, independent of the entry.
             (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
                 observed.is_variable(op.channel, op.handle)
             }

@@ -1,4 +1,4 @@
-//! Why the gate rejects a frame, and which entry would allow it.
+//! The reason why the gate rejects a frame, and the entry that would allow it.
 
 use std::fmt;
 use std::net::IpAddr;
@@ -11,19 +11,19 @@ use ads_cnc::{CncString, Error};
 
 use super::{Entry, Moment};
 
-/// Maximum number of handles, names and addresses stored for a connection. Beyond it every write by
-/// a handle or to a named object is rejected.
+/// Maximum number of handles, names and addresses stored for a connection. Beyond that, the gate
+/// rejects every write by a handle or to a named object.
 pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 
-/// A frame that the gate rejects.
+/// The rejection of a frame.
 #[derive(Clone, Debug)]
 pub struct Refusal {
     pub reason: Reason,
-    /// The entry that would allow it, if there is one.
+    /// The entry that would allow the frame, if any.
     pub needed: Option<Entry>,
 }
 
-/// Why a frame is rejected.
+/// The reason why a frame is rejected.
 #[derive(Clone, Debug)]
 pub enum Reason {
     /// The bytes are not one complete frame.
@@ -32,7 +32,7 @@ pub enum Reason {
     Malformed(Error),
     /// The state flags are not those of a request.
     NoRequest(StateFlags),
-    /// The port is not that of a task.
+    /// The port does not belong to a task.
     NoTask(AmsPort),
     /// The command has no data, but data follows.
     Data(Command),
@@ -40,13 +40,13 @@ pub enum Reason {
     Never(Command),
     /// A sum command, which may contain writes.
     Sum(IndexGroup),
-    /// The program stream, but not written to a channel's at the port of COM: the effect is not
-    /// documented.
+    /// An access to the program stream other than a write to that of a channel at the port of COM; the
+    /// effect is not documented.
     Stream,
-    /// No documented function: the effect is unknown.
+    /// Not a documented function, so the effect is unknown.
     Unknown(operation::DispatchError),
-    /// The function is documented for another port, or is a write to GEO, for which the file has no
-    /// entries.
+    /// The function is documented for another port, or is a write to GEO, which no entry of a file can
+    /// allow.
     Port(AmsPort, Function),
     /// The function is a write, and there is no file.
     NoFile(Function, AmsNetId),
@@ -60,18 +60,18 @@ pub enum Reason {
         /// The address of the connection, if known.
         address: Option<IpAddr>,
     },
-    /// The file is for 127.0.0.1.1.1, the local machine, but the connection is not to it.
+    /// The file is for 127.0.0.1.1.1, the local machine, but the connection is to another machine.
     LocalNetId(Option<IpAddr>),
     /// The file has expired at this time.
     Expired(Moment),
-    /// The name is in the file, but the handle or the address may belong to another name too.
+    /// The name is in the file, but the handle or the address may also belong to another name.
     Ambiguous(Function, Ambiguity),
     /// The file does not permit malformed requests.
     NoMalformed(AmsNetId),
 }
 
 impl Reason {
-    /// Whether a file of --allow-write would have to permit the request, or to be another one.
+    /// Whether another file of --allow-write could allow the request.
     pub(crate) const fn is_of_file(&self) -> bool {
         matches!(
             self,
@@ -87,18 +87,18 @@ impl Reason {
     }
 }
 
-/// Why a handle or an address may belong to a name that is not in the file.
+/// The reason why a handle or an address may belong to a name that is not in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ambiguity {
-    /// The device gives it to this name too.
+    /// The device also uses it for this name.
     Shared(CncString),
-    /// The device gives several handles to this name.
+    /// The device has several handles for this name.
     Several(CncString),
-    /// Only one of HandleByName and a description gave it to this name.
+    /// Only one of HandleByName and a description returned the handle for this name.
     Unconfirmed(CncString),
     /// The address of the object with this name belongs to another channel or axis.
     Elsewhere(CncString),
-    /// More names were returned than can be stored.
+    /// The device returned more names than can be stored.
     TooMuch,
 }
 
@@ -106,23 +106,23 @@ impl fmt::Display for Ambiguity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Shared(name) => {
-                write!(f, "the device gives it to {name} too, which the file does not name")
+                write!(f, "the device also uses it for {name}, which is not in the file")
             }
-            Self::Several(name) => write!(f, "the device gives several to {name}"),
+            Self::Several(name) => write!(f, "the device has several for {name}"),
             Self::Unconfirmed(name) => {
-                write!(f, "the handle by name and the description of {name} have not both given it")
+                write!(f, "HandleByName and the description of {name} have not both returned it")
             }
             Self::Elsewhere(name) => {
-                write!(f, "it is in another channel or axis than the list that has {name}")
+                write!(f, "it belongs to another channel or axis than the list of {name}")
             }
             Self::TooMuch => {
-                write!(f, "the device has more names than the {OBSERVATIONS_MAX} that are compared")
+                write!(f, "the device has more than the maximum of {OBSERVATIONS_MAX} names")
             }
         }
     }
 }
 
-/// The end of the permission that an advice shows.
+/// The expiry shown in advice.
 fn tomorrow() -> Moment {
     Moment::now().after(Duration::from_secs(24 * 3600))
 }
@@ -132,36 +132,36 @@ impl Refusal {
         Self { reason, needed }
     }
 
-    /// Advice over several lines; empty if there is none.
+    /// Advice of one or more lines; empty if there is none.
     pub fn advice(&self) -> String {
         match (&self.reason, &self.needed) {
             (Reason::NoFile(_, target), Some(entry)) => format!(
-                "If nothing can come to harm, allow it in a file for --allow-write:\n\n\
+                "If this is safe, allow it in a file for --allow-write:\n\n\
                  target = \"{target}\"\n\
-                 expires = {}  # nothing is written from then on\n\n{entry}",
+                 expires = {}  # no writes from then on\n\n{entry}",
                 tomorrow()
             ),
             (Reason::NoEntry(_), Some(entry)) => {
-                format!("If nothing can come to harm, add to the file of --allow-write:\n\n{entry}")
+                format!("If this is safe, add to the file of --allow-write:\n\n{entry}")
             }
             (Reason::NoFile(..) | Reason::NoEntry(_), None) => {
-                "A handle can be written by after the device has given it, by HandleByName and in \
-                 a description, to a name that the file of --allow-write has."
+                "Before a write by handle, the device must return the handle, both by HandleByName \
+                 and in a description, for a name in the file of --allow-write."
                     .to_owned()
             }
             (Reason::OtherTarget { .. }, _) => {
-                "Write a file for this target; see that it is the right one.".to_owned()
+                "Check that this is the right target, and write a file for it.".to_owned()
             }
             (Reason::OtherAddress { .. }, _) => {
-                "See whether it is the right device; the file says its address.".to_owned()
+                "Check that this is the right device, and its address in the file.".to_owned()
             }
             (Reason::LocalNetId(_), _) => {
-                "Write a file for the NetId that the device's own router shows.".to_owned()
+                "Use the NetId that the router of the device shows in the file.".to_owned()
             }
             (Reason::NoMalformed(target), _) => format!(
-                "If nothing can come to harm, permit it in a file for --allow-write:\n\n\
+                "If this is safe, allow it in a file for --allow-write:\n\n\
                  target = \"{target}\"\n\
-                 expires = {}  # nothing is written from then on\n\
+                 expires = {}  # no writes from then on\n\
                  malformed = true",
                 tomorrow()
             ),
@@ -169,12 +169,10 @@ impl Refusal {
                 "An object that shares its address with another one cannot be written.".to_owned()
             }
             (Reason::Ambiguous(Function::WriteObject, _), _) => {
-                "An object can be written by its group and offset, if the file has them.".to_owned()
+                "Use the group and offset of the object, also in the file.".to_owned()
             }
-            (Reason::Ambiguous(..), _) => "A variable can be written by its name.".to_owned(),
-            (Reason::Expired(_), _) => {
-                "See whether nothing can come to harm, and set another time.".to_owned()
-            }
+            (Reason::Ambiguous(..), _) => "Write the variable by its name instead.".to_owned(),
+            (Reason::Expired(_), _) => "If this is safe, set a later time.".to_owned(),
             _ => String::new(),
         }
     }
@@ -190,30 +188,26 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = |function: &Function| function.spec().name;
         match &self.reason {
-            Reason::NoFrame => f.write_str("not one whole frame"),
+            Reason::NoFrame => f.write_str("not exactly one complete frame"),
             Reason::Malformed(error) => write!(f, "malformed: {error}"),
-            Reason::NoRequest(flags) => write!(f, "no request: state flags {:#06x}", flags.0),
+            Reason::NoRequest(flags) => write!(f, "not a request: state flags {:#06x}", flags.0),
             Reason::NoTask(port) => write!(f, "no task of a CNC has port {port}"),
             Reason::Data(command) => write!(f, "command {} has no data", command.0),
             Reason::Never(command) => write!(f, "command {} is never sent", command.0),
             Reason::Sum(group) => {
-                write!(f, "index group {group} carries requests inside, which may write")
+                write!(f, "index group {group} is for sum commands, which may contain writes")
             }
-            Reason::Stream => f.write_str("what this does to the program stream is not documented"),
-            Reason::Unknown(refusal) => write!(f, "no documented query: {refusal}"),
+            Reason::Stream => f.write_str("the effect on the program stream is not documented"),
+            Reason::Unknown(refusal) => write!(f, "not a documented query: {refusal}"),
             Reason::Port(port, function) => {
                 write!(f, "\"{}\" is not sent to port {port}", name(function))
             }
             Reason::NoFile(function, _) => {
-                write!(
-                    f,
-                    "\"{}\" is not a query, and nothing is allowed to be written",
-                    name(function)
-                )
+                write!(f, "\"{}\" is not a query, and no file allows writes", name(function))
             }
             Reason::NoEntry(function) => write!(
                 f,
-                "\"{}\" is not a query, and the file of --allow-write does not name this",
+                "\"{}\" is not a query, and no entry in the file of --allow-write allows it",
                 name(function)
             ),
             Reason::OtherTarget { allowed, target } => {
@@ -227,20 +221,20 @@ impl fmt::Display for Refusal {
             ),
             Reason::LocalNetId(address) => write!(
                 f,
-                "the file of --allow-write is for 127.0.0.1.1.1, which is the NetId of whichever \
-                 machine is asked, and {} is not this one",
+                "the file of --allow-write is for 127.0.0.1.1.1, which always means the local \
+                 machine, but {} is another machine",
                 address_text(address)
             ),
             Reason::Ambiguous(function, ambiguity) => write!(
                 f,
-                "\"{}\" may reach what the file of --allow-write does not name: {ambiguity}",
+                "\"{}\" may write a value that is not in the file of --allow-write: {ambiguity}",
                 name(function)
             ),
             Reason::NoMalformed(target) => {
                 write!(f, "no file permits malformed requests to {target}")
             }
             Reason::Expired(moment) => {
-                // A write may be rejected before, if it could not be restored in time.
+                // A write that could not be restored in time is rejected earlier.
                 let verb = if Moment::now() >= *moment { "expired" } else { "expires" };
                 write!(f, "the file of --allow-write {verb} at {moment}")
             }

@@ -1,33 +1,33 @@
-//! What is asked for by a name.
+//! A name to find, and the options that narrow the search.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::value::DataType;
 
 use crate::objects::Pattern;
 
-/// A name to look for, and its kind of value:
+/// A name to find. The name determines the kind of value:
 ///
-/// | name | is |
+/// | name | kind |
 /// |---|---|
 /// | `V.L.…`, `V.P.…`, `V.S.…`, `P` and a digit | a dynamic parameter |
-/// | any other `V.…` | a variable; with `[i][j]` at its end an element |
+/// | any other `V.…` | a variable; with `[i][j]` at the end, an element of an array |
 /// | anything else | a COM object or an element of SDA or GEO, by its whole name |
 #[derive(Clone, Debug)]
 pub struct Lookup {
     pub name: String,
     pub channel: Channel,
-    /// The axis, for access through the axis interface; V.A only.
+    /// The axis, for access through the axis interface; only for V.A.
     pub axis: Option<ChannelAxis>,
     /// The lists of objects to search, if several have the name.
     pub lists: Option<Pattern>,
     /// The index offset, if a list has the name several times.
     pub offset: Option<u32>,
-    /// The type, in place of that of the description.
+    /// The type, instead of the type in the description.
     pub ty: Option<DataType>,
 }
 
 impl Lookup {
-    /// Looks for a name in a channel.
+    /// A lookup of a name in a channel, without further options.
     pub fn new(name: &str, channel: Channel) -> Self {
         let name = name.to_owned();
         Self { name, channel, axis: None, lists: None, offset: None, ty: None }

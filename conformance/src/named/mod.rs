@@ -35,7 +35,7 @@ use crate::session::{Session, ToolError};
 /// ```
 ///
 /// # Errors
-/// If no object or several objects have this name, with advice.
+/// If no object, or more than one object, has this name; the error contains advice.
 pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
@@ -44,10 +44,10 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError>
     }
 }
 
-/// The object, if its name alone determines its address; its type is the one the caller gives.
+/// The object without any request, if its name determines its address; the type is that of `lookup`.
 ///
 /// # Errors
-/// A name that cannot be encoded.
+/// If the name cannot be encoded.
 pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, ToolError> {
     let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
     is_variable.then(|| variable::unasked(lookup)).transpose()

@@ -1,4 +1,4 @@
-//! Objects and elements by their names.
+//! Finds objects and elements by their names.
 
 use ads_cnc::CncString;
 
@@ -10,7 +10,7 @@ use crate::values::Type;
 /// Maximum number of candidates in an error.
 const SHOWN: usize = 12;
 
-/// Searches all lists that may have the name; two matches are an error.
+/// Searches all lists that may contain the name; more than one match is an error.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
     let Lookup { name, channel, lists, offset, ty, .. } = lookup;
     let wanted: CncString = name.parse().map_err(ToolError::Unsendable)?;
@@ -24,7 +24,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
     if found.is_cut {
         // The search is incomplete: another object may have the same name.
         let why = found.notes.pop().unwrap_or_default();
-        return Err(ToolError::Enough(format!("{name} was not found for certain: {why}")));
+        return Err(ToolError::Enough(format!("the search for {name} is incomplete: {why}")));
     }
     found.objects.retain(|object| {
         let at = object.address.content().map(|(_, offset)| offset.get());
@@ -49,7 +49,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
 }
 
 fn several(name: &str, all: &[&Object]) -> String {
-    let mut why = format!("{} have the name {name}; say which:", all.len());
+    let mut why = format!("{} objects have the name {name}; select one:", all.len());
     for object in all.iter().take(SHOWN) {
         let Object { list, address, .. } = object;
         let offset = address.content().map(|(_, offset)| offset.to_string()).unwrap_or_default();
@@ -59,7 +59,7 @@ fn several(name: &str, all: &[&Object]) -> String {
     }
     let more = all.len().saturating_sub(SHOWN);
     if more > 0 {
-        why.push_str(&format!("\n  and {more} more, which browse --filter \"{name}\" shows"));
+        why.push_str(&format!("\n  and {more} more; browse --filter \"{name}\" lists them"));
     }
     why
 }
@@ -71,5 +71,5 @@ fn absent(lookup: &Lookup) -> String {
         (None, None) => format!("of channel {number}, the platform, its axes and spindles"),
         _ => "there".to_owned(),
     };
-    format!("no object or element {place} is called {name}; upper and lower case count")
+    format!("no object or element {place} has the name {name} (case-sensitive)")
 }

@@ -1,4 +1,4 @@
-//! Variables and parameters by their names.
+//! Finds variables and parameters by their names.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::dynamic::DynamicKind;
@@ -14,7 +14,7 @@ use crate::values::Type;
 /// The kinds of variables that have lists.
 const KINDS: [&str; 4] = ["V.E", "V.G", "V.A", "V.CYC"];
 
-/// Whether the name is one of a variable or a parameter.
+/// Whether the name is that of a variable or a parameter.
 pub(super) fn is_named(name: &str) -> bool {
     name.starts_with("V.") || kind_of_parameter(name).is_some()
 }
@@ -29,24 +29,24 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
     number.starts_with(|digit: char| digit.is_ascii_digit()).then_some(DynamicKind::P)
 }
 
-/// What is wrong in a name, and after which part of it.
+/// The error in a name, and the part of the name before it.
 fn told(name: &str, error: &ads_cnc::Error) -> String {
     let error_text = error.to_string();
     let what = match error.kind() {
-        ads_cnc::ErrorKind::Truncated => "the rest is missing",
+        ads_cnc::ErrorKind::Truncated => "incomplete",
         _ => error_text.rsplit(": ").next().unwrap_or_default(),
     };
-    // A character of CP1252 is a byte.
+    // Each character of CP1252 is one byte.
     let offset = usize::try_from(error.offset()).unwrap_or(usize::MAX);
     let front: String = name.chars().take(offset).collect();
     if front.is_empty() {
-        format!("{what}, at its beginning")
+        format!("{what}, at the beginning")
     } else {
         format!("{what}, after \"{front}\"")
     }
 }
 
-/// The object, from its name alone.
+/// The object, from its name only.
 pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
     let text: CncString = name.parse().map_err(ToolError::Unsendable)?;
@@ -66,7 +66,7 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
             })?;
             let kind = path.kind().text().to_string();
             if axis.is_some() && kind != "V.A" {
-                let why = format!("--axis is for V.A variables, and {name} is of {kind}");
+                let why = format!("--axis is for V.A variables only, and {name} is of {kind}");
                 return Err(ToolError::Usage(why));
             }
             let kind = KINDS.into_iter().find(|known| *known == kind).unwrap_or("V");
@@ -93,8 +93,8 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
     }
 }
 
-/// The variable with its type: from the description by name if the CNC has that function, else from
-/// the descriptions by index.
+/// The variable with its type, from the description by name, or from the descriptions by index if
+/// the CNC does not have that function.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
@@ -109,7 +109,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
     let told = match told {
         Some(told) => Some(told),
         None => {
-            // Fails early if the variable does not exist.
+            // Fail early if the variable does not exist.
             session.read(&object.address)?;
             listed(session, channel, &path, axis.is_some())?
         }
@@ -125,7 +125,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
     Ok(Object { ty, access, handle, ..object })
 }
 
-/// The facts from a description that are used here.
+/// The used part of a description.
 struct DescribedVariable {
     ty: Type,
     access: ReportedAccess,
@@ -144,7 +144,7 @@ fn described(
         Ok(variable) => Ok(Some(DescribedVariable {
             ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
             access: ReportedAccess::of_variable(variable.access),
-            // A variable that is accessible by name only has the handle 0.
+            // The handle is 0 if the variable is accessible by name only.
             handle: Some(variable.handle).filter(|handle| handle.0 != 0),
         })),
         Err(ToolError::Ads { .. } | ToolError::Reply(_)) => Ok(None),
@@ -182,7 +182,7 @@ fn listed(
                 }));
             }
             Ok(_) | Err(ToolError::Reply(_)) => {}
-            // The number of variables has decreased meanwhile.
+            // The number of variables has decreased in the meantime.
             Err(ToolError::Ads { .. }) => return Ok(None),
             Err(error) => return Err(error),
         }

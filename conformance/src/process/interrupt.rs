@@ -11,10 +11,10 @@ use crate::judge::Exit;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// The exit code of a process ended by Ctrl-C, as in a shell.
+/// The exit code of a process that was ended by Ctrl-C, as in a shell.
 const INTERRUPTED: i32 = 130;
 
-/// A second signal within this time is the first one again.
+/// A second signal within this time counts as a repetition of the first.
 const REPEATED: Duration = Duration::from_millis(200);
 
 /// The polling interval of interruptible waits.
@@ -25,7 +25,7 @@ pub(crate) fn is_requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
 }
 
-/// Linux: SIGSTKFLT, SIGPWR and the real-time signals end a process too.
+/// On Linux, SIGSTKFLT, SIGPWR and the real-time signals also end a process.
 #[cfg(unix)]
 fn numbered() -> impl Iterator<Item = i32> {
     let is_linux = cfg!(all(
@@ -68,8 +68,8 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(handler).map_err(io::Error::other)
 }
 
-/// After the first signal the tool cleans up and ends by itself. A second one ends the process at
-/// once, with all commands that it has started.
+/// After the first signal, the command of the tool cleans up and ends by itself. A second signal ends
+/// the process at once, with all commands that it has started.
 #[derive(Debug)]
 pub(crate) struct Interrupt(Receiver<()>);
 
@@ -79,8 +79,8 @@ impl Interrupt {
         Self::catch_with(|| (), || None)
     }
 
-    /// Catches the signals. `on_first` is called at the first signal. `on_second` is called
-    /// before a second one ends the process, and may return another exit code than that of an
+    /// Catches the signals. Calls `on_first` at the first signal. Calls `on_second` before a second
+    /// signal ends the process; `on_second` may return an exit code other than that of an
     /// interrupted process.
     pub(crate) fn catch_with(
         on_first: impl Fn() + Send + 'static,
@@ -91,7 +91,7 @@ impl Interrupt {
         let handler = move || {
             let begun: &Instant = begun.get_or_init(Instant::now);
             if REQUESTED.swap(true, Ordering::SeqCst) {
-                // `timeout` signals the process, and then its whole group.
+                // `timeout` sends the signal to the process, and then to its whole group.
                 if begun.elapsed() < REPEATED {
                     return;
                 }
@@ -99,7 +99,7 @@ impl Interrupt {
                 super::end_all();
                 process::exit(code);
             }
-            // Without a waiting thread the flag is polled.
+            // Nobody may be waiting: `is_requested` polls the flag.
             let _waiting = tell.send(());
             on_first();
         };
@@ -120,7 +120,7 @@ impl Interrupt {
 
     /// Waits for this time or until a signal; returns whether one was received.
     pub(crate) fn sleep(&self, time: Duration) -> bool {
-        // The channel delivers once; afterwards the flag is true.
+        // The channel delivers each signal once, after the flag was set.
         self.is_requested() || self.0.recv_timeout(time).is_ok()
     }
 }

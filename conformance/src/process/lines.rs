@@ -11,14 +11,14 @@ use std::time::{Duration, Instant};
 use super::{RunningCommand, interrupt};
 use crate::text::escape_lines;
 
-/// Maximum length of a line. The longest valid answer has some thousand bytes.
+/// Maximum length of a line in bytes. The longest valid answer has a few thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
 
 /// Maximum number of commas and opening brackets in a line. Each may begin a JSON value, which
-/// takes up to 7 kB when parsed.
+/// occupies up to 7 kB of memory when parsed.
 const VALUES_MAX: usize = 1 << 13;
 
-/// Maximum number of stored bytes of stderr: the last ones.
+/// Maximum number of stored bytes of stderr; the last ones are kept.
 const STDERR_MAX: usize = 64 << 10;
 
 /// The end of a command's stderr.
@@ -43,33 +43,33 @@ impl Stderr {
     }
 }
 
-/// Why no line was received.
+/// The reason why no line was received.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RecvError {
-    /// No line within the time.
+    /// No line arrived within the time limit.
     Silence,
     /// This process was interrupted.
     Interrupted,
-    /// The command has closed its stdout.
+    /// The command closed its stdout.
     Closed,
-    /// The output is not a line; the rest is not read.
+    /// The output is not a line; the rest of the output is not read.
     Garbled(String),
     /// The line is not UTF-8, or has too many values.
     NoText(String),
 }
 
-/// A running command; dropping it ends it with all processes it started.
+/// A running command. Dropping it ends the command and all processes that the command started.
 #[derive(Debug)]
 pub struct LineProcess {
     child: RunningCommand,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
-    /// Disconnected when all of stderr has been read.
+    /// Disconnected when stderr has been read to its end.
     stderr_end: Receiver<()>,
 }
 
 impl LineProcess {
-    /// Starts a command in a process group of its own.
+    /// Starts a command in its own process group.
     pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let child = RunningCommand::start(command)?;
@@ -102,7 +102,7 @@ impl LineProcess {
         Ok(Self { child, to, from, stderr_end })
     }
 
-    /// Sends a line. A command that has ended is detected when its answer is received.
+    /// Sends a line. If the command has ended, this is detected when receiving the answer.
     pub fn send(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         let _gone = self.to.send(line);
@@ -126,18 +126,18 @@ impl LineProcess {
         }
     }
 
-    /// An additional line, if one has already been received.
+    /// A line that was received without a request, if there is one.
     pub fn unasked(&self) -> Option<String> {
         self.from.try_recv().ok().map(|line| show(&line))
     }
 
-    /// Closes stdin and waits for the end; returns `None` if the command does not end in time and
-    /// is killed.
+    /// Closes stdin and waits for the command to end; kills the command and returns `None` if it
+    /// does not end in time.
     pub fn ended(self, limit: Duration) -> Option<ExitStatus> {
         self.finish(limit).0
     }
 
-    /// Like `ended`, and also returns the first line received until then.
+    /// Like `ended`, but also returns the first line received before the end.
     pub fn finish(mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.to = mpsc::channel().0;
         let mut unasked = None;
@@ -156,7 +156,7 @@ impl LineProcess {
             }
         });
         let until = Instant::now().checked_add(OUTPUT_AFTER_EXIT);
-        // A process that it started may keep stdout and stderr open.
+        // A process started by the command may keep stdout and stderr open.
         while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
         {
         }
@@ -171,7 +171,7 @@ impl LineProcess {
 /// Interval at which the command is polled.
 const POLL: Duration = Duration::from_millis(2);
 
-/// How long to wait for output after the command has ended.
+/// Time to wait for output after the command has ended.
 const OUTPUT_AFTER_EXIT: Duration = Duration::from_millis(200);
 
 fn show(line: &Result<Vec<u8>, String>) -> String {
@@ -185,7 +185,8 @@ fn spawn(name: &str, run: impl FnOnce() + Send + 'static) -> io::Result<()> {
     thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
 }
 
-/// Writes in a thread of its own: a command that does not read must not block this process.
+/// Writes lines to the command in a separate thread: a command that does not read must not block
+/// this process.
 fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
     while let Ok(line) = lines.recv() {
         if stdin.write_all(&line).and_then(|()| stdin.flush()).is_err() {
@@ -194,7 +195,7 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
     }
 }
 
-/// The next line without its end; `None` at the end of the stream.
+/// Reads the next line without its line end; returns `None` at the end of the stream.
 ///
 /// ```
 /// use ads_cnc_conformance::process::read_line;
@@ -207,8 +208,8 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// ```
 ///
 /// # Errors
-/// A line with more than `most` bytes without its end. It is dropped, and the rest of the stream
-/// cannot be read as lines.
+/// If a line has more than `most` bytes without its line end. The line is dropped, and the rest of
+/// the stream cannot be read as lines.
 pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>, String>> {
     let limit = u64::try_from(most).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();
@@ -231,7 +232,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
 /// A line of JSON as text.
 ///
 /// # Errors
-/// If it has too many values, or is not UTF-8.
+/// If the line has too many values, or is not UTF-8.
 pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
         return Err(RecvError::NoText(format!("a line with more than {VALUES_MAX} values")));
@@ -258,13 +259,13 @@ fn wait(
     }
 }
 
-/// What is wrong with a line that is not a JSON message of the protocol.
+/// The error message for a line that is not a JSON message of the protocol.
 pub(crate) fn not_json(line: &str, error: &serde_json::Error) -> String {
     let shown = cut(line);
     if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
         format!("{error}: {shown}")
     } else {
-        format!("the line is not JSON: {shown}; stdout is for answers alone, print to stderr")
+        format!("the line is not JSON: {shown}; print only answers to stdout, the rest to stderr")
     }
 }
 

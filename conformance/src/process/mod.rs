@@ -1,5 +1,5 @@
-//! Commands given by the user: started in a process group of their own, and ended with all
-//! processes they started.
+//! Runs the user's commands in their own process group, and ends them with all processes that they
+//! started.
 
 pub(crate) mod interrupt;
 mod lines;
@@ -30,7 +30,7 @@ pub fn shell(line: &str) -> Command {
     {
         use std::os::windows::process::CommandExt as _;
 
-        // cmd does not know the escapes of `arg`. With /S it removes the outer quotes, and no others.
+        // cmd does not understand the escapes of `arg`. With /S, it only removes the outer quotes.
         let mut command = Command::new("cmd");
         command.raw_arg(format!("/S /C \"{line}\""));
         command
@@ -48,11 +48,11 @@ type SharedChild = Mutex<Box<dyn ChildWrapper>>;
 /// The running commands.
 static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 
-/// A running command. Dropping it ends it and the processes it started, even if it has ended
-/// itself: on Unix its process group (a process that created a group or session of its own
-/// continues), on Windows its job.
+/// A running command. Dropping it ends the command and the processes that it started, even if the
+/// command has already ended: on Unix its process group (a process that created its own group or
+/// session continues), on Windows its job.
 ///
-/// Ctrl-C of a terminal reaches this tool only, which ends the command.
+/// Ctrl-C in a terminal only reaches this tool, which then ends the command.
 #[derive(Debug)]
 pub struct RunningCommand(Arc<SharedChild>);
 
@@ -65,7 +65,7 @@ impl RunningCommand {
         command
             .wrap(CreationFlags(windows::Win32::System::Threading::CREATE_NEW_PROCESS_GROUP))
             .wrap(JobObject);
-        // Locked during the start, so that `end_all` cannot miss the new command.
+        // Keep the lock during the start, so that `end_all` cannot miss the new command.
         let mut running = lock(&RUNNING);
         let child = Arc::new(Mutex::new(command.spawn()?));
         running.retain(|one| one.strong_count() > 0);
@@ -73,22 +73,22 @@ impl RunningCommand {
         Ok(Self(child))
     }
 
-    /// Its stdin, if it is a pipe and was not taken before.
+    /// Takes the command's stdin, if it is a pipe and was not taken before.
     pub fn take_stdin(&self) -> Option<ChildStdin> {
         lock(&self.0).stdin().take()
     }
 
-    /// Its stdout, if it is a pipe and was not taken before.
+    /// Takes the command's stdout, if it is a pipe and was not taken before.
     pub fn take_stdout(&self) -> Option<ChildStdout> {
         lock(&self.0).stdout().take()
     }
 
-    /// Its stderr, if it is a pipe and was not taken before.
+    /// Takes the command's stderr, if it is a pipe and was not taken before.
     pub fn take_stderr(&self) -> Option<ChildStderr> {
         lock(&self.0).stderr().take()
     }
 
-    /// Its exit status, if it has ended.
+    /// The exit status, if the command has ended.
     pub fn try_wait(&self) -> io::Result<Option<ExitStatus>> {
         lock(&self.0).try_wait()
     }
@@ -97,24 +97,24 @@ impl RunningCommand {
 impl Drop for RunningCommand {
     fn drop(&mut self) {
         let mut child = lock(&self.0);
-        // Processes that it started may still run. The number of an empty group is not reused that
-        // soon.
+        // Processes started by the command may still run. The ID of an empty group is not reused so
+        // quickly.
         let _ended = child.start_kill();
         let _waited = child.inner_mut().wait();
     }
 }
 
-/// Ends all running commands; no further one can be started.
+/// Ends all running commands, and prevents that others are started.
 pub(crate) fn end_all() {
     let running = lock(&RUNNING);
     for child in running.iter().filter_map(Weak::upgrade) {
-        // A locked child is being ended or polled by another thread.
+        // Another thread that holds the lock is ending or polling the child.
         let _ended = lock(&child).start_kill();
     }
     std::mem::forget(running);
 }
 
 fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // A panic leaves the data valid.
+    // The data is valid even after a panic of another thread.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! Counts what a long run has done so far, for the line of progress that the command line shows.
+//! Counts the steps of a long run, for the progress line of the command line.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -16,7 +16,7 @@ pub(crate) struct Counts {
     pub(crate) requests: usize,
 }
 
-/// Begins a part of the run with this number of steps.
+/// Begins a part of the run with `all` steps.
 pub(crate) fn begin(all: usize) {
     ALL.store(all, Ordering::Relaxed);
     for count in [&DONE, &FAILED, &REQUESTS] {
@@ -35,7 +35,7 @@ pub(crate) fn steps(number: usize) {
     DONE.fetch_add(number, Ordering::Relaxed);
 }
 
-/// Sets how many cases have failed.
+/// Sets the number of failed cases.
 pub(crate) fn set_failed(number: usize) {
     FAILED.store(number, Ordering::Relaxed);
 }

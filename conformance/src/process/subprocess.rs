@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::{LineProcess, RecvError, Stderr, cut, interrupt, shell};
 use crate::deadline::Deadline;
 
-/// How long a program may take to end after its stdin is closed.
+/// Time limit for a program to end after its stdin is closed.
 pub const GRACE: Duration = Duration::from_secs(2);
 
 /// The reaction of a program to a line.
@@ -17,13 +17,13 @@ pub enum Reaction<A> {
     Garbled(String),
     /// The program ended, or closed its stdout.
     Died(String),
-    /// No line within this time.
+    /// No line arrived within this time.
     Silent(Duration),
     /// The line could not be sent.
     Broken(String),
 }
 
-/// A program that is started by a command line.
+/// A program that is started with a command line.
 #[derive(Debug)]
 pub struct Subprocess {
     line: String,
@@ -47,20 +47,20 @@ impl Subprocess {
         Self { deadline: Some(deadline), ..self }
     }
 
-    /// The reason why no further line may be sent; `None` if one may.
+    /// The reason why no further line may be sent; `None` if sending is allowed.
     pub fn over(&self) -> Option<String> {
         self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
     }
 
-    /// The end of its stderr.
+    /// The end of the program's stderr.
     pub fn stderr(&self) -> String {
         self.stderr.text()
     }
 
-    /// Starts it, or starts it again, with these variables.
+    /// Starts or restarts the program with these environment variables.
     ///
     /// # Errors
-    /// [`Reaction::Broken`]: why it cannot be started.
+    /// [`Reaction::Broken`], if the program cannot be started.
     pub fn start<A>(
         &mut self,
         variables: impl IntoIterator<Item = (&'static str, String)>,
@@ -77,18 +77,18 @@ impl Subprocess {
         Ok(())
     }
 
-    /// Sends a line, if it runs.
+    /// Sends a line, if the program is running.
     pub fn send(&self, line: Vec<u8>) {
         if let Some(running) = &self.running {
             running.send(line);
         }
     }
 
-    /// The line of its answer. Without a line the program is ended; a line that is not text does not
-    /// end it.
+    /// Receives the line of an answer. If no line arrives, the program is ended; a line that is not
+    /// text does not end it.
     ///
     /// # Errors
-    /// The reaction in place of an answer.
+    /// The reaction instead of an answer.
     pub fn recv<A>(&mut self, timeout: Duration) -> Result<String, Reaction<A>> {
         let limit = self.limit(timeout);
         let Some(running) = self.running.take() else {
@@ -119,13 +119,13 @@ impl Subprocess {
         }
     }
 
-    /// Closes its stdin and waits for its end: exit status, if it ended, and the first line it sent
-    /// until then.
+    /// Closes the program's stdin and waits for its end. Returns the exit status if it ended, and the
+    /// first line that it sent before.
     pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
-    /// Tells a running program to end; returns the first line it sent until then.
+    /// Tells a running program to end; returns the first line that it sent before.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

@@ -20,7 +20,7 @@ struct Badge {
 }
 
 /// Writes a badge for shields.io: version of the suite, result, editions and, if any, the number of
-/// waivers. A value that was not restored is named; of several the first, with their number.
+/// waivers. Of the values that were not restored, the badge names the first and counts the others.
 pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let (word, color) = match report.exit() {
         Exit::Success => ("passed", "brightgreen"),
@@ -57,6 +57,6 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 /// Name and values, truncated to fit a badge.
 fn describe(left: &LeftChanged) -> String {
     let cut = |text: &str| shorten(text, 40);
-    let is = left.is.as_deref().map_or_else(|| "not known".to_owned(), cut);
+    let is = left.is.as_deref().map_or_else(|| "unknown".to_owned(), cut);
     format!("{}, was {}, is {is}", cut(&left.name), cut(&left.was))
 }

@@ -25,26 +25,26 @@ use crate::text::{Moment, hex};
 /// The parameters of a run.
 #[derive(Clone, Debug)]
 pub struct About {
-    /// When it began.
+    /// The time at which the run began.
     pub time: Moment,
-    /// The only edition judged by; `None` for both.
+    /// The edition to judge by; `None` for both.
     pub edition: Option<Edition>,
     /// The seed of the order of cases.
     pub seed: u32,
     /// The selection; empty for all.
     pub only: Vec<String>,
     pub target: TargetReport,
-    /// Of a capture: what it has, and which part of it was not judged.
+    /// For a capture: its content, and the parts that were not judged.
     pub traffic: Vec<String>,
     pub profile: Option<Profile>,
-    /// What the queries before the cases found.
+    /// The result of the queries before the cases.
     pub found: Option<FoundReport>,
     /// Known failures.
     pub waivers: Waivers,
     pub frames: usize,
-    /// The command that runs the same again.
+    /// The command that repeats the run.
     pub again: Option<String>,
-    /// How long the cases of each subject took.
+    /// The duration of the cases of each subject.
     pub times: Vec<(CaseSubject, Duration)>,
     /// Values that were changed and not restored.
     pub left_changed: Vec<LeftChanged>,
@@ -73,12 +73,12 @@ impl Report {
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
         let mut tally = VerdictTally::default();
         for one in cases.iter().flat_map(|case| &case.requirements) {
-            // A pass of the protocol alone is not a judgement of requirements.
+            // A pass of the protocol does not judge any requirement.
             if one.verdict != Verdict::Pass || requirement(&one.requirement).is_some() {
                 tally.add(one.verdict, one.waived);
             }
         }
-        // The simulated CNC has no gate; a device with rejected requests was not judged completely.
+        // A device was not judged completely if the gate rejected requests.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
@@ -121,8 +121,8 @@ impl Report {
         .escaped()
     }
 
-    /// Adds the rejected entries of the file of `--allow-write`, and the names of written values. With a
-    /// rejected entry the run does not end with success: a write that was asked for was not tried.
+    /// Adds the rejected entries of the file of `--allow-write`, and the names of written values. A
+    /// rejected entry prevents success, because a requested write was not tried.
     #[must_use]
     pub fn with_writes(mut self, rejected: Vec<String>, written: Vec<String>) -> Self {
         let decided = [Exit::Internal, Exit::LeftChanged, Exit::Usage].contains(&self.exit());
@@ -135,7 +135,7 @@ impl Report {
     }
 }
 
-/// The requests that the gate rejected: each reason once, with its cases.
+/// The reasons why the gate rejected requests, each once, with its cases.
 fn rejected(outcomes: &[CaseOutcome]) -> Vec<String> {
     let mut cases: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for outcome in outcomes.iter().filter(|outcome| outcome.refused) {
@@ -171,7 +171,7 @@ fn of_subject(subject: CaseSubject, cases: &[&CaseReport], only: &[String]) -> S
             last.requirements.push(of_requirement(&requirement.id, cases, only));
         }
     }
-    // The protocols are not in the catalogue, but a failure there must be counted.
+    // The protocols are not in the catalogue, but their failures must be counted.
     for protocol in [TESTEE, CLIENT] {
         let all = cases.iter().flat_map(|case| &case.requirements);
         if all.into_iter().any(|one| one.requirement == protocol) {
@@ -197,8 +197,8 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
     totals
 }
 
-/// The verdict on a requirement in all cases: without a case it is not observed, or not run if it
-/// was not selected.
+/// The verdict on a requirement in all cases: without a case it is "not observed", or "not run" if
+/// it was not selected.
 fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> RequirementReport {
     let all = cases.iter().flat_map(|case| &case.requirements);
     let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
@@ -208,7 +208,7 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The gravest verdict. A waived one does not hide one that is not waived.
+/// The gravest verdict; a waived verdict does not hide another one.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
     let open = gravest(open).filter(|verdict| verdict.fails_run());
@@ -264,7 +264,7 @@ fn case(outcome: &CaseOutcome, waivers: &[WaiverReport]) -> CaseReport {
 
 fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
     let clause = requirement(judgement.requirement);
-    // An ID that is not in the catalogue belongs to a protocol.
+    // An ID outside the catalogue belongs to a protocol.
     let protocol = match judgement.requirement {
         CLIENT => ("The protocol between the suite and a client.", "CLIENTS.md"),
         _ => ("The protocol between the suite and a testee.", "README.md"),
@@ -290,7 +290,7 @@ fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
     }
 }
 
-/// Marks the field that a failed check is about, where no expected bytes show it.
+/// Marks the field of a failed check, if there are no expected bytes to compare with.
 fn marked(mut evidence: EvidenceReport, judgement: &Judgement) -> EvidenceReport {
     let EvidenceReport { sent, received, expected, .. } = &mut evidence;
     if expected.is_some() || judgement.verdict != Verdict::Fail {
@@ -328,7 +328,7 @@ impl From<&Evidence> for EvidenceReport {
     }
 }
 
-/// The text of a requirement at a level: the whole, or its parts of that level.
+/// The text of a requirement, or of its parts of this level.
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
     let parts = parts.map(|part| part.text.as_str());
@@ -337,7 +337,7 @@ fn text(requirement: &Requirement, level: Option<Level>) -> String {
     is_whole.then_some(whole).into_iter().chain(parts).collect::<Vec<_>>().join(" ")
 }
 
-/// The sources of a requirement; an assumed part has none.
+/// The sources of a requirement; none for an assumed part.
 fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
     if level == Some(Level::Info) { Vec::new() } else { explain::sources(&requirement.id) }
 }
@@ -347,9 +347,9 @@ mod tests {
     use super::*;
     use crate::judge::RequirementVerdict;
 
-    /// A testee that keeps to the protocol, but claims no requirement, has not passed.
+    /// A testee that follows the protocol, but claims no requirement, has not passed.
     #[test]
-    fn a_protocol_kept_is_nothing_judged() {
+    fn a_correct_protocol_alone_judges_nothing() {
         let outcome = |requirement, verdict| {
             let case = crate::suite::cases().swap_remove(0);
             let judged = RequirementVerdict { requirement, verdict, judgements: Vec::new() };

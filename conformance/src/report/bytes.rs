@@ -1,4 +1,4 @@
-//! Bytes field by field, with those marked that differ from the expected ones.
+//! Bytes field by field; bytes that differ from the expected ones are marked.
 
 use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
@@ -13,13 +13,13 @@ use crate::text::hex::{compact, spaced};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BytesReport {
-    /// Name of their stream; `None` if no table describes them.
+    /// Name of the stream; `None` if no table describes the bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
     pub length: usize,
     /// The fields in order; together they contain all bytes.
     pub fields: Vec<FieldReport>,
-    /// Faults of the bytes themselves.
+    /// Errors that parsing the bytes found.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<String>,
 }
@@ -29,9 +29,9 @@ pub struct BytesReport {
 #[serde(deny_unknown_fields)]
 pub struct FieldReport {
     pub offset: usize,
-    /// Its bytes in hex.
+    /// The bytes of the field in hex.
     pub hex: String,
-    /// Its name; `?` for unreadable bytes, empty for bytes that no table describes.
+    /// The name of the field; `?` for unreadable bytes, empty for bytes that no table describes.
     pub field: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub value: String,
@@ -44,7 +44,7 @@ pub struct FieldReport {
 }
 
 impl BytesReport {
-    /// Splits bytes into fields; `other` are the bytes to compare them with.
+    /// Splits bytes into fields, and marks the differences from `other`.
     pub fn new(
         stream: Option<&str>,
         bytes: &[u8],
@@ -68,8 +68,8 @@ impl BytesReport {
         report
     }
 
-    /// The headers of a frame and, if it is short, the fields of its service, with offsets in the frame.
-    /// Faulty fields are marked and, with the `request`, what differs in the headers from an answer to it.
+    /// The headers of a frame and, if the frame is short, the fields of its service, with offsets in
+    /// the frame. Marks invalid fields and, for a reply to `request`, wrong bytes of the headers.
     pub(super) fn of_frame(frame: &[u8], request: Option<&[u8]>) -> Vec<Self> {
         if frame.is_empty() {
             return Vec::new();
@@ -113,7 +113,7 @@ impl BytesReport {
         }
     }
 
-    /// Marks all bytes of the field that a path such as `descriptors[1].size` ends in.
+    /// Marks all bytes of the last field of a path such as `descriptors[1].size`.
     pub(super) fn mark_field(&mut self, path: &str) {
         let number = path.split(['[', ']']).nth(1).and_then(|number| number.parse().ok());
         let name = path.rsplit('.').next().unwrap_or(path);
@@ -124,7 +124,7 @@ impl BytesReport {
         }
     }
 
-    /// Marks the fields that a clause defines, if other clauses define the others.
+    /// Marks the fields that a clause defines, unless it defines all fields.
     pub(super) fn mark_clause(&mut self, clause: &str) {
         let Some(stream) = self.stream.as_deref().and_then(Stream::by_name) else { return };
         let layout = stream.layout();
@@ -148,18 +148,18 @@ impl BytesReport {
     }
 }
 
-/// A frame is the AMS/TCP header, the AMS header and the data of its service.
+/// Number of parts of a frame: the AMS/TCP header, the AMS header and the data of the service.
 const FRAME_PARTS: usize = 3;
-/// Maximum number of bytes of a frame whose data is shown too.
+/// Maximum size in bytes of a frame whose data is shown.
 const SHORT_FRAME: usize = 512;
 
-/// The frame with the headers that an answer to the request must have.
+/// The frame with the headers of a correct reply to the request.
 fn with_headers_of_answer(request: &[u8], frame: &[u8]) -> Option<Vec<u8>> {
     let header = |frame: &[u8]| {
         AmsHeader::decode(frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?).ok()
     };
     let (asked, answered) = (header(request)?, header(frame)?);
-    // Another frame may follow, unless a length is wrong.
+    // If the lengths are consistent, another frame may follow.
     let whole = FrameRef::split(frame, u32::MAX).ok().flatten().map(|(_, len)| len);
     let frame = whole.and_then(|whole| frame.get(..whole)).unwrap_or(frame);
     let expected = AmsHeader {
@@ -182,7 +182,7 @@ pub(super) enum ShownField<'r> {
     More(usize),
 }
 
-/// Number of items of a field that are shown.
+/// Maximum number of shown items of a field.
 const ITEMS: usize = 6;
 
 impl BytesReport {
@@ -190,7 +190,7 @@ impl BytesReport {
         self.fields.iter().flat_map(FieldReport::bytes).collect()
     }
 
-    /// The fields, without most items of a long list; items that differ are always shown.
+    /// The fields to show: of a long list only the first items and those that differ.
     pub(super) fn visible_fields(&self) -> Vec<ShownField<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);
         for list in self.fields.chunk_by(|one, next| one.field == next.field) {
@@ -234,9 +234,9 @@ mod tests {
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 
-    /// The fields contain all bytes once, and exactly the differing ones are marked.
+    /// The fields contain each byte once, and only differing bytes are marked.
     #[test]
-    fn fields_are_the_bytes() {
+    fn fields_contain_all_bytes() {
         let mut wrong = DESCRIPTION.to_vec();
         wrong[13] = 7;
         wrong[30] = b'_';
@@ -259,7 +259,7 @@ mod tests {
         fields.map(|field| (field.field.as_str(), field.offset)).collect()
     }
 
-    /// Without expected bytes the field is marked that a check is about, by its path or its clause.
+    /// Without expected bytes, the field of a failed check is marked by its path or its clause.
     #[test]
     fn a_field_is_marked_by_path_or_clause() {
         let values = ValueFormat::default();
@@ -267,7 +267,7 @@ mod tests {
         let mut report = BytesReport::new(stream, DESCRIPTION, None, &values);
         report.mark_clause("VAR-8");
         assert_eq!(marked(&report), [("size", 12)]);
-        // The clause of the whole stream marks none.
+        // A clause of the whole stream marks no field.
         let mut report = BytesReport::new(stream, DESCRIPTION, None, &values);
         report.mark_clause("VAR-4");
         assert_eq!(marked(&report), []);
@@ -277,7 +277,7 @@ mod tests {
         assert_eq!(marked(&report), [("size", 88)]);
     }
 
-    /// In a frame the headers are marked that are not those of an answer to the request.
+    /// In a frame, the bytes of the headers that do not match the request are marked.
     #[test]
     fn a_frame_is_compared_with_its_request() {
         let header = AmsHeader::decode(&[7; 32]).unwrap();
@@ -295,7 +295,7 @@ mod tests {
         assert_eq!(of_frame(answer), []);
         let wrong = AmsHeader { invoke_id: 8, ..answer };
         assert_eq!(of_frame(wrong), [("invoke_id".to_owned(), 34)]);
-        // A length that is wrong by itself, and no bytes at all.
+        // An inconsistent length, and an empty frame.
         let mut cut = request.clone();
         cut[26] = 9;
         let parts = BytesReport::of_frame(&cut, None);
@@ -304,9 +304,9 @@ mod tests {
         assert_eq!(BytesReport::of_frame(&[], Some(&request)), []);
     }
 
-    /// A missing byte is marked on the side that has it.
+    /// A missing byte is marked on the side that contains it.
     #[test]
-    fn a_byte_too_many_differs() {
+    fn an_additional_byte_is_marked() {
         let values = ValueFormat::default();
         let long = BytesReport::new(None, &[1, 2, 3], Some(&[1, 2]), &values);
         assert_eq!(long.fields[0].differs, [2]);
@@ -317,7 +317,7 @@ mod tests {
 
     /// A long list is truncated, but its differing items are shown.
     #[test]
-    fn lists_are_shown_in_part() {
+    fn long_lists_are_truncated() {
         let mut bytes = [1_u32.to_le_bytes(), 40_u32.to_le_bytes()].concat();
         bytes.extend([7; 160]);
         let mut other = bytes.clone();
@@ -337,9 +337,9 @@ mod tests {
         );
     }
 
-    /// A broken stream is shown up to its fault, with the name of the field.
+    /// An invalid stream is shown up to the error, which names the field.
     #[test]
-    fn a_fault_is_shown_where_it_is() {
+    fn an_error_names_its_field() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
         let report =
             BytesReport::new(Some("variable-handle-read"), &bytes, None, &ValueFormat::default());

@@ -8,7 +8,7 @@ use super::model::{Report, RequirementReport};
 use crate::judge::{CaseSubject, Exit, Verdict};
 use crate::text::plural;
 
-/// Maximum number of cases that a line names.
+/// Maximum number of cases named on a line.
 const CASES_MAX: usize = 3;
 
 /// How a verdict has changed.
@@ -16,7 +16,7 @@ const CASES_MAX: usize = 3;
 enum Change {
     NoLongerJudged,
     NewlyJudged,
-    Mended,
+    Fixed,
     NewlyDeviating,
     NewlyFailing,
 }
@@ -26,13 +26,13 @@ impl Change {
         match self {
             Self::NoLongerJudged => "no longer judged",
             Self::NewlyJudged => "newly judged",
-            Self::Mended => "mended",
+            Self::Fixed => "fixed",
             Self::NewlyDeviating => "newly deviating",
             Self::NewlyFailing => "newly failing",
         }
     }
 
-    /// The change from one verdict to another; `None` without one that matters.
+    /// The change from one verdict to another; `None` if it is irrelevant.
     fn of(before: Option<&RequirementReport>, now: Option<&RequirementReport>) -> Option<Self> {
         let fails = |one: Option<&RequirementReport>| one.is_some_and(is_failing);
         let judged =
@@ -42,7 +42,7 @@ impl Change {
         let deviates = is(now, Verdict::Warning) || is(now, Verdict::Differs);
         match (fails(before), fails(now)) {
             (false, true) => Some(Self::NewlyFailing),
-            (true, false) if judged(now) => Some(Self::Mended),
+            (true, false) if judged(now) => Some(Self::Fixed),
             (true, true) => None,
             (false, false) if is(before, Verdict::Pass) && deviates => Some(Self::NewlyDeviating),
             _ if !judged(before) && judged(now) => Some(Self::NewlyJudged),
@@ -66,10 +66,10 @@ fn judged(report: &Report) -> Judged<'_> {
     of_case.collect()
 }
 
-/// What makes two reports comparable, where they differ: target, profile and selection.
+/// The differences that make two reports hard to compare: target, profile and selection.
 fn differences(now: &Report, before: &Report) -> Vec<String> {
     let differ = |what: &str, before: String, now: String| {
-        (before != now).then(|| format!("not the same {what}: {before} before, {now} now"))
+        (before != now).then(|| format!("different {what}: {before} before, {now} now"))
     };
     let target = |report: &Report| {
         let net_id = report.target.net_id.as_deref();
@@ -96,14 +96,15 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
     let all = [
         differ("target", target(before), target(now)),
         differ("profile", name(before), name(now)),
-        claims.map(|names| format!("not the same claims of the profile: {names}")),
+        claims.map(|names| format!("different claims of the profile: {names}")),
         differ("selection", only(before), only(now)),
     ];
     all.into_iter().flatten().collect()
 }
 
-/// Writes what has changed since an earlier report, new failures last. Returns the exit code:
-/// [`Exit::Failure`] for a new failure, else [`Exit::Nothing`] for a requirement that is no longer judged.
+/// Writes the changes since an earlier report, new failures last. Returns the exit code:
+/// [`Exit::Failure`] for a new failure, otherwise [`Exit::Nothing`] if a requirement is no longer
+/// judged.
 pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result<Exit> {
     let warnings = differences(now, before);
     let (new, old) = (judged(now), judged(before));
@@ -118,7 +119,7 @@ pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result
             continue;
         }
         let (subject, requirement, case) = *key;
-        let [was, is] = [before, now].map(|one| one.map_or("not there", |one| one.verdict.name()));
+        let [was, is] = [before, now].map(|one| one.map_or("none", |one| one.verdict.name()));
         let cases = changes.entry((change, requirement, subject)).or_default();
         cases.push(format!("{case} ({was} -> {is})"));
     }
@@ -141,10 +142,10 @@ pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result
     let unjudged = number(Change::NoLongerJudged) + interrupted;
     writeln!(
         out,
-        "{failing} newly failing, {} newly deviating, {} mended, {} newly judged, {unjudged} no \
+        "{failing} newly failing, {} newly deviating, {} fixed, {} newly judged, {unjudged} no \
          longer judged, of {}",
         number(Change::NewlyDeviating),
-        number(Change::Mended),
+        number(Change::Fixed),
         number(Change::NewlyJudged),
         plural(new.len(), "verdict")
     )?;
@@ -160,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_change_is_one_of_failing_or_of_being_judged() {
+    fn changes_are_classified() {
         use Verdict::*;
         let one = |verdict, waived| RequirementReport {
             requirement: "VAR-8".to_owned(),
@@ -170,14 +171,14 @@ mod tests {
         let change = |before, now| Change::of(Some(&one(before, false)), Some(&one(now, false)));
         assert_eq!(change(Pass, Fail), Some(Change::NewlyFailing));
         assert_eq!(change(NotRun, Fail), Some(Change::NewlyFailing));
-        assert_eq!(change(Fail, Pass), Some(Change::Mended));
+        assert_eq!(change(Fail, Pass), Some(Change::Fixed));
         assert_eq!(change(Fail, NotRun), Some(Change::NoLongerJudged));
         assert_eq!(change(NotRun, Pass), Some(Change::NewlyJudged));
         assert_eq!(change(Fail, Vacuous), None);
         assert_eq!(change(Pass, Warning), Some(Change::NewlyDeviating));
         assert_eq!(change(Pass, Differs), Some(Change::NewlyDeviating));
         assert_eq!(change(Differs, Warning), None);
-        assert_eq!(change(Fail, Warning), Some(Change::Mended));
+        assert_eq!(change(Fail, Warning), Some(Change::Fixed));
         assert_eq!(change(Pass, Interrupted), Some(Change::NoLongerJudged));
         assert_eq!(Change::of(None, Some(&one(Fail, true))), Some(Change::NewlyJudged));
         assert_eq!(Change::of(None, Some(&one(Fail, false))), Some(Change::NewlyFailing));

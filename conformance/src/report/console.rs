@@ -39,7 +39,7 @@ pub fn print(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
     parts(report, out)?;
     waivers(&report.waivers, out)?;
     for number in report.found.iter().flat_map(|found| &found.silent_channels) {
-        writeln!(out, "profile: channel {number} is claimed, but nothing answers there")?;
+        writeln!(out, "profile: channel {number} is claimed, but does not reply")?;
     }
     blocks(report, display, out)?;
     if verbose || !report.waivers.is_empty() {
@@ -49,13 +49,15 @@ pub fn print(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
     tail(report, display, out)
 }
 
-/// The failure of a testee or client that did not answer its first line, so that nothing was judged.
+/// The failure of a testee or client that did not answer its first line, so that nothing was
+/// judged.
 fn unanswered(report: &Report) -> Option<&FailureReport> {
     let mut all = report.cases.iter().flat_map(|case| &case.failures);
     all.find(|one| [TESTEE, CLIENT].contains(&one.requirement.as_str()) && one.expected == HELLO)
 }
 
-/// What a testee or client did instead of answering, the likely cause and the next command.
+/// Shows the reaction of a testee or client that did not answer, the likely cause and the next
+/// command.
 fn unstarted(
     report: &Report,
     failure: &FailureReport,
@@ -76,31 +78,31 @@ fn unstarted(
     writeln!(out, "{verdict}  {}", shorten(&what, RESULT_MAX.saturating_mul(2)))?;
     let stderr = report.target.stderr.as_deref().unwrap_or_default();
     let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
-    // The end of a testee that has ended is in `found`.
+    // If the testee has ended, `found` already contains the end of its stderr.
     if let Some(last) = last.filter(|_| !found.contains("its stderr ends with: ")) {
-        writeln!(out, "  its stderr: {}", shorten(last, RESULT_MAX))?;
+        writeln!(out, "  stderr: {}", shorten(last, RESULT_MAX))?;
     }
     let cause = if garbled.is_some() {
-        "Nothing else was run."
+        "No other case was run."
     } else if found.contains("within") {
-        "Is each line flushed (in Python: print(..., flush=True)), with a line feed at its end?"
+        "Check that each line ends with a line feed and is flushed (Python: print(..., flush=True))."
     } else if found.contains("127") {
-        "Is the command spelt as the shell finds it, from this folder?"
+        "Check that the shell finds the command in this folder."
     } else {
-        "Does the command run by itself, from this folder?"
+        "Check that the command runs by itself in this folder."
     };
     let next = match (&report.again, kind) {
-        (Some(again), "testee") => format!("{again} --check-protocol shows each line"),
-        _ => format!("the protocol is in conformance/adapters/{protocol}"),
+        (Some(again), "testee") => format!("To see each line: {again} --check-protocol"),
+        _ => format!("For the protocol, see conformance/adapters/{protocol}"),
     };
     writeln!(out, "  {cause} {next}")
 }
 
-/// The head of a report: what was asked.
+/// The head of a report: versions, target, profile and selection.
 fn head(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
-    // A capture has its own order.
+    // The seed does not affect a capture.
     let seed = if target.file.is_none() { format!(", seed {seed}") } else { String::new() };
     writeln!(out, "ads-cnc {suite}, vectors {vectors}, by {editions}{seed}")?;
     writeln!(out, "target   {}", describe(target))?;
@@ -149,14 +151,14 @@ pub(super) const fn heading(subject: CaseSubject) -> &'static str {
     match subject {
         CaseSubject::Codec => "The codec against the golden vectors",
         CaseSubject::Testee => "The testee against the golden vectors",
-        CaseSubject::Target => "The target, asked over AMS/TCP",
-        CaseSubject::Client => "The client, answered over AMS/TCP",
+        CaseSubject::Target => "The target over AMS/TCP",
+        CaseSubject::Client => "The client over AMS/TCP",
         CaseSubject::CapturedClient => "The clients in the captured traffic",
         CaseSubject::CapturedCnc => "The CNCs in the captured traffic",
     }
 }
 
-/// The cases of a subject, those of vectors by stream.
+/// The cases of a subject; vectors are grouped by stream.
 fn cases(report: &Report, who: CaseSubject, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(who))?;
     let sorted = report.sorted();
@@ -206,12 +208,12 @@ fn parts(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Why cases were not judged, the commonest reason first.
+/// The reasons why cases were not judged, the most common first.
 fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     let mut all: BTreeMap<(Verdict, &str), (usize, BTreeSet<&str>)> = BTreeMap::new();
     for case in cases {
         if let Some(note) = &case.note {
-            // Several actions or streams that are missing are one reason.
+            // All missing actions count as one reason, and so do all missing streams.
             let parts = LACKS.iter().find_map(|lacks| Some((*lacks, note.strip_prefix(lacks)?)));
             let (reason, name) = parts.map_or((note.as_str(), None), |(all, one)| (all, Some(one)));
             let (number, names) = all.entry((case.verdict, reason)).or_default();
@@ -224,7 +226,7 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     let more = all.len().saturating_sub(REASONS_MAX);
     for ((verdict, note), (number, names)) in all.into_iter().take(REASONS_MAX) {
         let names = names.into_iter().collect::<Vec<_>>().join(", ");
-        // A case that passed was judged: its note is no reason.
+        // A case that passed was judged: its note is not a reason.
         let of = match (number, verdict) {
             (1, Verdict::Pass) => "note".to_owned(),
             _ => format!("{number} {verdict}"),
@@ -237,7 +239,8 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// The beginnings of the notes of cases whose action a client, or whose stream a testee does not have.
+/// The beginnings of notes about an action that a client does not have, or a stream that a testee
+/// does not have.
 const LACKS: [&str; 2] = ["the client has no ", NOT_CLAIMED];
 
 fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
@@ -291,7 +294,7 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
 /// Maximum number of waivers that are printed.
 const WAIVABLE_MAX: usize = 20;
 
-/// A waiver to paste for each failure; if nothing fails, for what is inconclusive.
+/// Prints a waiver for each failure, or for each inconclusive verdict if nothing fails.
 fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let sorted = report.sorted();
     let with = |wanted: &[Verdict]| -> Vec<(&str, &RequirementReport)> {
@@ -323,12 +326,12 @@ fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// The same day of the next year, as a report has its time.
+/// The same day of the next year; `time` is in the format of a report.
 fn next_year(time: &str) -> String {
     let day = time.split('T').next().unwrap_or_default();
     let (year, rest) = day.split_once('-').unwrap_or((day, "01-01"));
     let year = year.parse::<u32>().unwrap_or_default().saturating_add(1);
-    // Not every year has the 29th.
+    // Not every year has 29 February.
     let rest = if rest == "02-29" { "02-28" } else { rest };
     format!("{year}-{rest}")
 }
@@ -341,7 +344,7 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
     let written = list(report.written.iter().map(String::as_str), NAMES_MAX);
     if !written.is_empty() {
         let is_left = !report.left_changed.is_empty();
-        let end = if is_left { "restored, unless LEFT CHANGED names it" } else { "restored" };
+        let end = if is_left { "restored, except those LEFT CHANGED" } else { "restored" };
         writeln!(out, "wrote     {written} ({end})")?;
     }
     let (cases, code) = (plural(cases, "case"), report.exit_code);
@@ -349,7 +352,7 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
     last_line(report, display, out)
 }
 
-/// The last line, below the reasons of an exit code that no verdict explains.
+/// The last line, after the reasons for an exit code that no verdict explains.
 fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
     for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
         let WaiverReport { test, requirement, state, .. } = waiver;
@@ -376,7 +379,7 @@ fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
     writeln!(out, "{}  {totals}", display.paint(color, verdict))
 }
 
-/// Requirements that follow from one that this run does not judge.
+/// The requirements that follow from one that this run does not judge.
 fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.only.is_empty() {
         return Ok(());
@@ -401,7 +404,9 @@ fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     match all.count() {
         0 => Ok(()),
-        more => writeln!(out, "and {more} more follow from what this run does not judge"),
+        more => {
+            writeln!(out, "and {more} more follow from requirements that this run does not judge")
+        }
     }
 }
 
@@ -415,11 +420,11 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         (Verdict::Differs, "undocumented, and not as this project assumes; not a failure"),
         (
             Verdict::Vacuous,
-            "rejected as it must be, but so is the vector that must be accepted: a failure",
+            "correctly rejected, but the matching valid vector is rejected too; a failure",
         ),
-        (Verdict::Inconclusive, "the replies do not decide it, or it follows from another failure"),
-        (Verdict::NotObserved, "no case in this run exercises it"),
-        (Verdict::Interrupted, "the run was ended before it was done"),
+        (Verdict::Inconclusive, "not decided by the replies, or follows from another failure"),
+        (Verdict::NotObserved, "no case in this run tests it"),
+        (Verdict::Interrupted, "the run ended before the case was complete"),
     ] {
         if known(verdict) {
             writeln!(out, "{verdict}: {meaning}")?;
@@ -433,7 +438,7 @@ pub(super) fn counts(totals: &Totals, waived: usize) -> String {
     named_counts(totals, waived, |_| String::new())
 }
 
-/// Like [`counts`], with names after those that have some.
+/// Like [`counts`], with the names of each verdict after its count.
 fn named_counts(totals: &Totals, waived: usize, names: impl Fn(Verdict) -> String) -> String {
     let named = totals.iter().map(|(verdict, number)| match names(*verdict) {
         names if names.is_empty() => format!("{number} {verdict}"),

@@ -12,7 +12,7 @@ use crate::text::escape;
 #[serde(deny_unknown_fields)]
 pub struct DeviceReport {
     pub name: String,
-    /// Version, three numbers with dots.
+    /// The version: three numbers separated by dots.
     pub version: String,
     /// ADS state: `RUN`, `STOP`, `CONFIG` or a number; `None` if the device does not return it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -20,7 +20,7 @@ pub struct DeviceReport {
 }
 
 impl DeviceReport {
-    /// From the replies.
+    /// Creates the report from the replies.
     pub fn new(info: &DeviceInfoReply, state: Option<AdsState>) -> Self {
         let DeviceInfoReply { major, minor, build, .. } = info;
         let version = format!("{major}.{minor}.{build}");

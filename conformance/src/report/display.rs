@@ -1,13 +1,13 @@
-//! How a report is shown on the console.
+//! Options for showing a report on the console.
 
 use anstyle::{AnsiColor, Style};
 
 use crate::judge::Verdict;
 
-/// How much of a report is shown.
+/// The parts of a report that are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detail {
-    /// The last line.
+    /// Only the last line.
     Quiet,
     /// A line for each part, and each failure once.
     #[default]
@@ -16,12 +16,12 @@ pub enum Detail {
     Verbose,
 }
 
-/// How a report is shown on the console.
+/// Options for showing a report on the console.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Display {
     pub detail: Detail,
     pub color: bool,
-    /// Whether the terminal shows already what was found before the cases.
+    /// Whether the terminal already shows the result of the queries before the cases.
     pub found_shown: bool,
 }
 

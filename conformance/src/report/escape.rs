@@ -1,4 +1,4 @@
-//! Escapes the texts of a report: a target may send control characters or line ends, which must not
+//! Escapes the texts of a report, because control characters or line ends from a target must not
 //! reach a terminal.
 
 use serde_json::Value;
@@ -14,7 +14,7 @@ use crate::text::{escape, escape_lines, is_escaped};
 impl Report {
     /// The report with all texts escaped.
     pub(super) fn escaped(mut self) -> Self {
-        // Destructured completely, so that a new field is not forgotten here.
+        // List all fields, so that a new field cannot be forgotten.
         let Self {
             format: _,
             suite,
@@ -172,7 +172,7 @@ fn escape_evidence(evidence: &mut EvidenceReport) {
         frame_received,
     } = evidence;
     all(subject);
-    // In a capture, the lines below are packets.
+    // For a capture, the following lines locate the packets.
     *call = escape_lines(call);
     all([result, frame_sent, frame_received]);
     for BytesReport { stream, length: _, fields, faults } in

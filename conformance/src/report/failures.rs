@@ -1,4 +1,4 @@
-//! Checks that did not pass, on the console: each failed clause once.
+//! Shows the checks that did not pass on the console, each failed clause once.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -17,21 +17,21 @@ use crate::text::{plural, shorten, wrap};
 
 /// Maximum number of failed clauses in normal detail.
 const GROUPS_MAX: usize = 6;
-/// Maximum number of other checks that are named beside failures.
+/// Maximum number of warnings and differences shown in addition to failures.
 const NOTES_MAX: usize = 3;
-/// Maximum number of lines of bytes in normal detail, and of those before a wrong byte.
+/// Maximum number of lines of bytes in normal detail, and of lines before a wrong byte.
 const BYTES_MAX: usize = 9;
 const BEFORE_MARK: usize = 2;
 /// Maximum number of lines of a clause in normal detail.
 const CLAUSE_MAX: usize = 3;
 
-/// The checks that did not pass: warnings and differences on a line each, then failures.
+/// Prints the checks that did not pass: each warning and difference on a line, then the failures.
 pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
     let all = groups(report);
     let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
         all.iter().partition(|group| group.is_failure());
     let verbose = display.detail == Detail::Verbose;
-    // Beside failures, what is none of them has little room.
+    // If there are failures, show fewer of the others.
     let shown = if verbose || failed.is_empty() { usize::MAX } else { NOTES_MAX };
     for group in others.iter().take(shown) {
         brief(group, display, out)?;
@@ -52,7 +52,7 @@ pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> 
         failed.into_iter().partition(|group| group.is_of_protocol());
     failed.sort_by_key(|group| Reverse(group.followers.len()));
     let more = failed.split_off(failed.len().min(most.saturating_sub(protocol.len())));
-    // That from which most follows is nearest to the prompt.
+    // Print the cause of most other failures last, near the prompt.
     failed.sort_by_key(|group| group.followers.len());
     if !more.is_empty() {
         let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
@@ -75,13 +75,13 @@ fn brief(group: &Group<'_>, display: Display, out: &mut dyn Write) -> io::Result
     writeln!(out, "{verdict}  {clauses}  {}{}: {sentence}", case.id, alike(group))
 }
 
-/// Where in a capture the example of a group was seen: the last line of its call.
+/// The location of the example of a group in a capture: the last line of its call.
 fn location<'r>(group: &Group<'r>) -> Option<&'r str> {
     let (_, failure) = group.example()?;
     failure.evidence.as_ref()?.call.lines().last().map(str::trim_start)
 }
 
-/// The number of the other checks of a group.
+/// Text for the number of other checks of a group.
 pub(super) fn alike(group: &Group<'_>) -> String {
     match group.checks().saturating_sub(1) {
         0 => String::new(),
@@ -89,12 +89,12 @@ pub(super) fn alike(group: &Group<'_>) -> String {
     }
 }
 
-/// What was expected and found, of which subject.
+/// A sentence with the variable or object, the expected and the found result.
 pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     let [expected, found] = [&failure.expected, &failure.found].map(|text| shorten(text, most));
     let subject = failure.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref());
     let subject = subject.map_or_else(String::new, |subject| format!("{subject}: "));
-    // A field that differs names what is expected in it.
+    // The text of a differing field already contains the expected value.
     if found.ends_with(" is expected") {
         return format!("{subject}{found}");
     }
@@ -105,8 +105,7 @@ pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     format!("{subject}expected {expected}; found {found}")
 }
 
-/// The first field with a value that differs from the expected one, if all of them are of the same
-/// fields.
+/// The first field whose value differs from the expected one, if both have the same fields.
 fn differing(evidence: &EvidenceReport) -> Option<String> {
     let (received, expected) = evidence.received.as_ref().zip(evidence.expected.as_ref())?;
     if !received.faults.is_empty() || received.fields.len() != expected.fields.len() {
@@ -119,7 +118,7 @@ fn differing(evidence: &EvidenceReport) -> Option<String> {
         .then(|| format!("{}: {} where {} is expected", is.field, is.value, instead.value))
 }
 
-/// A group in full: clause, example with its bytes, the number of others, and what follows from it.
+/// Prints a whole group: clause, example with its bytes, number of other checks, and its results.
 pub(super) fn block(
     report: &Report,
     group: &Group<'_>,
@@ -173,7 +172,7 @@ pub(super) fn block(
     Ok(())
 }
 
-/// The first names of a list, and the number of the others.
+/// The first `most` names of a list, and the number of others.
 pub(super) fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) -> String {
     let mut names: Vec<&str> = names.into_iter().collect();
     let more = names.len().saturating_sub(most);
@@ -194,7 +193,7 @@ pub(super) fn finding(
     }
     writeln!(out, "  expected  {}", failure.expected)?;
     writeln!(out, "  found     {}", failure.found)?;
-    // The clause that it follows from has the bytes.
+    // The clause that is the cause shows the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
         let display = Display { detail: Detail::Verbose, ..Display::default() };
         bytes(evidence, frames_shown(failure, subject), display, out)?;
@@ -214,7 +213,7 @@ fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "            {}", sources(failure))
 }
 
-/// The sources of a clause. Without any it is assumed, or one of the rulings that bind all the same.
+/// The sources of a clause. A clause without sources is assumed, or a binding ruling.
 fn sources(failure: &FailureReport) -> String {
     match (failure.sources.is_empty(), failure.level) {
         (false, _) => failure.sources.join("; "),
@@ -223,7 +222,7 @@ fn sources(failure: &FailureReport) -> String {
     }
 }
 
-/// Which frames are shown by their headers in place of their data: request, reply.
+/// Whether the request and the reply are shown by their headers instead of their data.
 fn frames_shown(failure: &FailureReport, subject: CaseSubject) -> [bool; 2] {
     let is_of_frames = failure.is_of_frames();
     // A client is judged by its requests.
@@ -246,9 +245,9 @@ fn bytes(
         })
     };
     let most = if display.detail == Detail::Verbose { usize::MAX } else { RESULT_MAX };
-    // The bytes of a capture that are no exchange may come from either side.
+    // In a capture, bytes that are not an exchange may come from either side.
     let who = if result.is_empty() && frame_sent.is_empty() { "captured" } else { "sent" };
-    // A location, which follows on a line of its own, is of use only as a whole.
+    // Do not shorten a location, which is on the following line.
     let (call, location) = call.split_at(call.find('\n').unwrap_or(call.len()));
     let (call, location) = match location {
         "" if who == "captured" => (call.to_owned(), ""),
@@ -281,7 +280,7 @@ fn bytes(
     Ok(())
 }
 
-/// In normal detail some of the lines: from a little before the first wrong byte.
+/// In normal detail, only some lines, beginning shortly before the first wrong byte.
 fn cut(mut lines: Vec<String>, detail: Detail) -> Vec<String> {
     if detail == Detail::Verbose || lines.len() <= BYTES_MAX {
         return lines;

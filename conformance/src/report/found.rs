@@ -1,19 +1,18 @@
-//! What the queries before the cases found.
+//! The result of the queries before the cases.
 
 use serde::{Deserialize, Serialize};
 
 use crate::text::plural;
 
-/// What the queries before the cases found.
+/// The result of the queries before the cases.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FoundReport {
-    /// Number of requests that this took.
+    /// Number of these queries.
     pub requests: usize,
-    /// Number of requests that the cases are expected to send, about, without those of
-    /// `--allow-write`.
+    /// Approximate number of requests that the cases will send, without those of `--allow-write`.
     pub expected: u64,
-    /// The AMS ports that answer; none with `--profile`, which names them.
+    /// The AMS ports that reply; empty with `--profile`, which claims the ports.
     pub ports: Vec<u16>,
     /// The channels that are judged.
     pub channels: Vec<FoundChannel>,
@@ -21,18 +20,18 @@ pub struct FoundReport {
     pub platform_axes: u32,
     /// Number of spindles.
     pub spindles: u32,
-    /// Number of axes of the platform that the file of `--profile` claims, if it does.
+    /// Number of axes of the platform that the file of `--profile` claims, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claimed_axes: Option<u32>,
-    /// Number of spindles that it claims, if it does.
+    /// Number of spindles that the profile claims, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claimed_spindles: Option<u32>,
-    /// Channels that it claims, and where nothing answers.
+    /// Channels that the profile claims, but that do not reply.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub silent_channels: Vec<u32>,
-    /// The lists that have a number of items.
+    /// The lists with a known number of items.
     pub lists: Vec<FoundList>,
-    /// Why the queries ended early.
+    /// The reason why the queries ended early.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
 }
@@ -41,7 +40,7 @@ pub struct FoundReport {
 #[serde(deny_unknown_fields)]
 pub struct FoundChannel {
     pub number: u32,
-    /// Number of its places for axes, with an axis or without.
+    /// Number of axis indices of the channel, with or without an axis.
     pub axes: u32,
 }
 
@@ -49,26 +48,26 @@ pub struct FoundChannel {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FoundList {
-    /// Its name, as `browse` has it.
+    /// The name of the list, as shown by `browse`.
     pub name: String,
-    /// Number of its items.
+    /// Number of items.
     pub items: u32,
-    /// Number of items that the cases read: fewer than `items` in a sample by the seed.
+    /// Number of items that the cases read; less than `items` for a sample, which the seed selects.
     pub read: u32,
 }
 
-/// Maximum number of sampled lists that a text names.
+/// Maximum number of sampled lists named in a text.
 const NAMED_MAX: usize = 6;
 
 fn joined(texts: impl Iterator<Item = String>) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-/// A number that was found, with the claimed one if it is another.
+/// The found number, with the claimed number if it differs.
 fn claimed(found: u32, claimed: Option<u32>, one: &str, several: &str) -> Option<String> {
     let noun = |number: u32| if number == 1 { one } else { several };
     Some(match claimed.filter(|claimed| *claimed != found) {
-        // Nothing found may be nothing asked.
+        // 0 may mean that this was not queried.
         Some(claimed) if found == 0 => format!("claimed {claimed} {}", noun(claimed)),
         Some(claimed) => format!("claimed {claimed} {}, found {found}", noun(claimed)),
         None => format!("{found} {}", noun(found)),
@@ -80,12 +79,12 @@ fn to_usize(number: u32) -> usize {
 }
 
 impl FoundReport {
-    /// Whether the answers made the claims, without a file for `--profile`.
+    /// Whether the claims come from queries instead of a file for `--profile`.
     pub fn is_by_queries(&self) -> bool {
         !self.ports.is_empty()
     }
 
-    /// What was found, in one line.
+    /// The result on one line.
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
         if !self.ports.is_empty() {
@@ -99,7 +98,7 @@ impl FoundReport {
             parts.push(format!("channel {}", joined(channels)));
         }
         let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis", "platform axes");
-        // 0 may be a number that is not known.
+        // 0 may mean unknown.
         let axes = axes.filter(|_| self.platform_axes > 0 || self.claimed_axes.is_some());
         let spindles = claimed(self.spindles, self.claimed_spindles, "spindle", "spindles");
         parts.extend(axes.into_iter().chain(spindles));
@@ -111,7 +110,7 @@ impl FoundReport {
         format!("{}, by {} requests{stopped}", parts.join("; "), self.requests)
     }
 
-    /// The lists that are not read whole, in one line; `None` if all are.
+    /// The lists that are only sampled, on one line; `None` if all lists are read completely.
     pub fn sampled(&self) -> Option<String> {
         let sampled: Vec<String> = self
             .lists

@@ -1,4 +1,4 @@
-//! Groups of checks that did not pass: each clause once, with what follows from it.
+//! Groups the checks that did not pass by their causes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use ads_cnc_vectors::{sequence, vector};
 use super::model::{CaseReport, FailureReport, Report};
 use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict};
 
-/// Checks that did not pass for the same clause, or in the same field of vectors of one stream.
+/// Checks that failed for the same clause, or in the same field of vectors of one stream.
 #[derive(Debug)]
 pub(super) struct Group<'r> {
     pub(super) verdict: Verdict,
@@ -55,14 +55,14 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 followers.extend(finding.iter().map(|one| (cause.as_str(), *one, case)));
                 continue;
             }
-            // A rejection proves nothing because the sibling, which lacks the fault, fails.
+            // The rejection is vacuous because the valid sibling fails, too.
             if first.verdict == Verdict::Vacuous
                 && let Some(cause) = sibling(case).filter(|id| failed.contains(id.as_str()))
             {
                 vacuous.extend(finding.iter().map(|one| (cause.clone(), *one, case)));
                 continue;
             }
-            // A testee that ends, or does not answer, does so for one reason in all streams.
+            // A testee that ends or does not answer has one cause for all streams.
             let stream = case.stream.as_deref();
             let lost =
                 stream.and_then(|_| LOST.into_iter().find(|kind| first.found.starts_with(kind)));
@@ -135,10 +135,10 @@ fn sibling(case: &CaseReport) -> Option<String> {
     sibling.map(|sibling| format!("{kind}-{sibling}"))
 }
 
-/// How a testee is found that ended, or was silent.
+/// The beginnings of `found` for a testee that ended or did not answer.
 const LOST: [&str; 2] = ["a crash", "no answer within"];
 
-/// What the checks of a group have in common, in the order of the groups.
+/// The common properties of the checks in a group; groups are sorted by them.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct GroupKey<'r> {
     gravity: u8,
@@ -149,7 +149,7 @@ struct GroupKey<'r> {
     field: Option<&'r str>,
 }
 
-/// The field that differs first, or the kind of the difference.
+/// The first field that differs, or else the kind of the difference.
 fn field(failure: &FailureReport) -> &str {
     let received = failure.evidence.as_ref().and_then(|evidence| evidence.received.as_ref());
     let differs = received.and_then(|bytes| {
@@ -161,14 +161,14 @@ fn field(failure: &FailureReport) -> &str {
 }
 
 impl<'r> Group<'r> {
-    /// Whether the run fails because of it.
+    /// Whether the group makes the run fail.
     pub(super) const fn is_failure(&self) -> bool {
         let fails = matches!(self.verdict, Verdict::Fail | Verdict::Vacuous);
         (fails || matches!(self.verdict, Verdict::HarnessError)) && !self.waived
     }
 
-    /// Whether it is about the protocol with a testee or client: until that works, the others tell
-    /// little.
+    /// Whether the group is about the protocol with a testee or client; until the protocol works,
+    /// other groups mean little.
     pub(super) fn is_of_protocol(&self) -> bool {
         self.requirements.iter().any(|id| [TESTEE, CLIENT].contains(id))
     }
@@ -195,7 +195,7 @@ impl<'r> Group<'r> {
         cases
     }
 
-    /// The simplest check: that with the shortest texts and the fewest bytes.
+    /// The simplest check: the one with the shortest texts and the fewest bytes.
     pub(super) fn example(&self) -> Option<(&'r CaseReport, &'r FailureReport)> {
         let size = |failure: &FailureReport| {
             let evidence = failure.evidence.as_ref();
@@ -207,9 +207,9 @@ impl<'r> Group<'r> {
         let of_clause = |failure: &FailureReport| failure.requirement == self.requirement();
         let simplest = self.checks.iter().min_by_key(|(case, failure)| {
             let is_vector = case.stream.is_some();
-            // The cases of all replies need the requests of the others, and take longer again.
+            // The cases about all replies repeat the requests of others, so they take longer.
             let is_of_replies = case.id.starts_with("replies-");
-            // The first check of a case is the nearest to the cause.
+            // The first check of a case is the closest to the cause.
             (!of_clause(failure), is_of_replies, if is_vector { size(failure) } else { 0 })
         });
         simplest.copied()

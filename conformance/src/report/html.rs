@@ -27,7 +27,7 @@ const SCRIPT: &str = include_str!("report.js");
 /// filter.
 ///
 /// # Errors
-/// Those of `out`, and those of the template.
+/// An error of `out` or of the template.
 pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
     let mut environment = Environment::new();
@@ -39,7 +39,7 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// What the verdict of the run means; of a failure the requirements.
+/// The meaning of the result of the run, and the failed requirements.
 fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
     let failed: Vec<FailedView> = report
         .subjects
@@ -54,16 +54,18 @@ fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
         })
         .collect();
     let words = match report.exit() {
-        Exit::Success => "Everything judged is in order.",
-        Exit::Failure => "Something required is not met.",
-        Exit::Usage => "The command line was wrong.",
+        Exit::Success => "All judged requirements are met.",
+        Exit::Failure => "A requirement is not met.",
+        Exit::Usage => "The command line was invalid.",
         Exit::Nothing => {
-            "Nothing was judged, the replies do not decide it, or the run was interrupted."
+            "Nothing was judged, a result is inconclusive, or the run was interrupted."
         }
         Exit::LeftChanged => "A value was changed and could not be restored.",
-        Exit::Refused => "Something was rejected for safety, so the target was not judged whole.",
-        Exit::Stale => "Nothing fails, but a waiver no longer holds.",
-        Exit::Internal => "The suite itself failed.",
+        Exit::Refused => {
+            "Requests were rejected for safety, so the target was not judged completely."
+        }
+        Exit::Stale => "Nothing fails, but a waiver is no longer valid.",
+        Exit::Internal => "An internal error of the suite occurred.",
     };
     (words, failed)
 }
@@ -77,7 +79,7 @@ struct FailedView {
 
 pub(super) fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
     let word = |value: &serde_json::Value| match value {
-        serde_json::Value::Null => "not given".to_owned(),
+        serde_json::Value::Null => "not specified".to_owned(),
         serde_json::Value::String(text) => text.clone(),
         serde_json::Value::Array(items) => {
             let items: Vec<String> = items
@@ -97,14 +99,14 @@ pub(super) fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
 struct ReportView<'r> {
     style: &'static str,
     script: &'static str,
-    /// Without the cases, which are in the subjects.
+    /// The report without the cases, which are in the subjects.
     report: Report,
     cases: usize,
     passed: bool,
     meaning: &'static str,
     failed: Vec<FailedView>,
     causes: Vec<CauseView>,
-    /// Whether the seed has ordered the cases: a capture has no order.
+    /// Whether the seed determined the order of the cases; not for a capture.
     is_ordered: bool,
     target: String,
     device: Option<String>,

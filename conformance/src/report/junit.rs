@@ -15,12 +15,11 @@ use crate::judge::{Verdict, WaiverReport};
 
 /// Writes the report as JUnit XML.
 ///
-/// A fail or a vacuous verdict is a failure; an inconclusive one, an interrupted case or a harness
-/// error is an error. A value that was not restored is a failure in a suite `left-changed`, what
-/// was rejected for safety one in a suite `rejected`. A case
-/// that was not run, not judged or is waived is skipped. Warnings and differences pass, with their
-/// text in `system-out`. A stale waiver is a failure in a suite `waivers`. Times are in seconds, as far
-/// as they were measured.
+/// A fail or a vacuous verdict is a failure. An inconclusive verdict, an interrupted case and a
+/// harness error are errors. A case that was not run, not judged or is waived is skipped. Warnings
+/// and differences pass, with their text in `system-out`. Further failures are in their own suites:
+/// values that were not restored in `left-changed`, entries rejected for safety in `rejected`, and
+/// stale waivers in `waivers`. Measured times are in seconds.
 pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut xml: Xml<'_> = Writer::new_with_indent(&mut *out, b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -127,7 +126,7 @@ impl Tests {
     }
 }
 
-/// Puts a time in seconds, if it is known.
+/// Adds a time in seconds, if it is known.
 fn put_time(element: &mut BytesStart<'_>, milliseconds: Option<u64>) {
     if let Some(time) = milliseconds.map(Duration::from_millis) {
         put(element, "time", &format!("{:.3}", time.as_secs_f64()));
@@ -259,7 +258,7 @@ fn put(element: &mut BytesStart<'_>, name: &str, value: &str) {
     element.push_attribute((name, clean(value).as_str()));
 }
 
-/// Removes the characters that XML does not permit, even escaped.
+/// Removes the characters that XML does not allow, even escaped.
 fn clean(text: &str) -> String {
     let allowed = |c: char| {
         matches!(c, '\t' | '\n' | '\r') || c >= ' ' && !matches!(c, '\u{fffe}' | '\u{ffff}')

@@ -1,17 +1,17 @@
-//! Bytes as lines: one for each field.
+//! Formats bytes as lines, one for each field.
 
 use super::bytes::ShownField;
 use super::{BytesReport, FieldReport};
 use crate::explain::ValueFormat;
 use crate::text::hex;
 
-/// All lines of bytes without comparison.
+/// All lines of bytes, without a comparison.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
     all_lines(&BytesReport::new(stream, bytes, None, &ValueFormat::default()), false)
 }
 
-/// One line for each field up to the fault: offset, bytes, characters, name. A line with a byte
-/// that differs from the expected one begins with an exclamation mark.
+/// One line for each field up to an error: offset, bytes, characters, name. A line with a byte that
+/// differs from the expected one begins with an exclamation mark.
 pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
     all_lines(bytes, true)
 }
@@ -32,12 +32,12 @@ fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
 
 const FAULT: &str = "      ! ";
 
-/// Whether a line tells a fault of the bytes above it.
+/// Whether a line describes an error in the preceding bytes.
 pub(super) fn is_fault(line: &str) -> bool {
     line.starts_with(FAULT)
 }
 
-/// Like [`lines`], but only those with a byte that differs.
+/// Like [`lines`], but only the lines with a byte that differs.
 pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
     lines(bytes).into_iter().filter(|line| line.starts_with('!')).collect()
 }
@@ -48,7 +48,7 @@ fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
     for (begin, chunk) in (0_usize..).step_by(hex::LINE).zip(bytes.chunks(hex::LINE)) {
         let end = begin + hex::LINE;
         let differs = field.differs.iter().any(|place| (begin..end).contains(place));
-        // Padding would hide the fields after it.
+        // Long padding would hide the fields after it.
         if fold && begin > 0 && !differs && chunk.iter().all(|&byte| byte == 0) {
             zeros += chunk.len();
             continue;
@@ -75,9 +75,9 @@ fn fill(lines: &mut Vec<String>, zeros: &mut usize) {
 mod tests {
     use super::*;
 
-    /// A broken stream is shown up to its fault, with the name of the field.
+    /// An invalid stream is shown up to the error, which names the field.
     #[test]
-    fn a_fault_is_shown_where_it_is() {
+    fn an_error_names_its_field() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
         let stream = Some("variable-handle-read");
         let report = BytesReport::new(stream, &bytes, None, &ValueFormat::default());
@@ -92,7 +92,6 @@ mod tests {
         );
     }
 
-    /// Differences are marked on their line.
     #[test]
     fn differing_lines_are_marked() {
         let (bytes, mut other) = ([0x41; 20], [0x41; 20]);

@@ -10,9 +10,9 @@ use super::groups::groups;
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
 
-/// Maximum number of characters of failures: a comment on GitHub has at most 65 536.
+/// Maximum number of characters of all failures: a comment on GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;
-/// Maximum number of characters of what is expected and found in a title.
+/// Maximum number of characters of the expected and of the found result in a title.
 const TITLE_MAX: usize = 60;
 
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
@@ -87,7 +87,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(out, "\n### Not passed\n")?;
     let (mut length, mut shown) = (0_usize, 0_usize);
-    // The gravest first: there may be no room for all.
+    // The gravest first, because not all may fit.
     for group in groups.iter().rev() {
         let mut text = Vec::new();
         block(report, group, Display::default(), &mut text)?;
@@ -109,7 +109,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     match groups.len().saturating_sub(shown) {
         0 => Ok(()),
-        more => writeln!(out, "And {more} more; the report as HTML or JSON has them all."),
+        more => writeln!(out, "And {more} more; the HTML and JSON reports contain all."),
     }
 }
 

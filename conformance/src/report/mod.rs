@@ -1,4 +1,4 @@
-//! The report of a run: one data structure, written as JSON, from which all other formats are made.
+//! The report of a run: one data structure, written as JSON and converted to all other formats.
 
 mod badge;
 mod build;

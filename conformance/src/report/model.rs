@@ -1,4 +1,5 @@
-//! The report's data, which survives a round trip through JSON. All formats are made from it alone.
+//! The data of a report, which can be written to JSON and read back. It is the only input of all
+//! other formats.
 
 use std::collections::BTreeMap;
 
@@ -11,60 +12,60 @@ use super::{BytesReport, DeviceReport, FoundReport};
 use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
 use crate::text::hex::compact;
 
-/// Version of this structure.
+/// Version of the format.
 pub const FORMAT: u32 = 1;
 
-/// Number of each verdict that occurs.
+/// The number of occurrences of each verdict.
 pub type Totals = BTreeMap<Verdict, usize>;
 
 /// The report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
-    /// Version of this structure: [`FORMAT`].
+    /// Version of the format: [`FORMAT`].
     pub format: u32,
     /// Values that were changed and not restored.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_changed: Vec<LeftChanged>,
-    /// What was asked for and rejected for safety, each with the reason.
+    /// Requests and entries that were rejected for safety, with the reasons.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rejected: Vec<String>,
-    /// Names of the values that were changed, and restored unless `left_changed` has them.
+    /// Names of the values that were changed; all were restored, except those in `left_changed`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub written: Vec<String>,
     pub suite: String,
     pub vectors: String,
-    /// When the run began, in UTC.
+    /// The time at which the run began, in UTC.
     pub time: String,
-    /// Editions of the manual that were judged by.
+    /// Editions of the manual by which the run judged.
     pub editions: Vec<String>,
     /// The seed of the order of cases.
     pub seed: u32,
     /// The selection; empty for all.
     pub only: Vec<String>,
     pub target: TargetReport,
-    /// Of a capture: what it has, and which part of it was not judged.
+    /// For a capture: its content, and the parts that were not judged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub traffic: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileReport>,
-    /// What the queries before the cases found.
+    /// The result of the queries before the cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub found: Option<FoundReport>,
     /// Waivers and their states.
     pub waivers: Vec<WaiverReport>,
-    /// The command that runs the same again, without a selection and without reports.
+    /// The command that repeats the run, without a selection and without reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub again: Option<String>,
-    /// The exit code this run ends with.
+    /// The exit code of the run.
     pub exit_code: u8,
     pub checks: usize,
     pub frames: usize,
     /// Number of cases that were not selected; they are not in `cases`.
     pub left_out: usize,
-    /// Codec, target, testee or client, each by itself.
+    /// The judged subjects: codec, target, testee or client.
     pub subjects: Vec<SubjectReport>,
-    /// All cases in the order they were run.
+    /// All cases in the order in which they were run.
     pub cases: Vec<CaseReport>,
 }
 
@@ -72,25 +73,25 @@ pub struct Report {
 #[serde(deny_unknown_fields)]
 pub struct TargetReport {
     pub name: String,
-    /// Its version, as reported by itself.
+    /// The version that the target reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
-    /// Its programming language, as reported by itself.
+    /// The programming language that the target reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<String>,
-    /// The command that started it.
+    /// The command that started the target.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Its TCP address.
+    /// The TCP address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub address: Option<String>,
-    /// Its AMS NetId.
+    /// The AMS NetId.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub net_id: Option<String>,
-    /// The device information of its COM task, if available.
+    /// The device information of the COM task, if available.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<DeviceReport>,
-    /// The end of its stderr; not judged.
+    /// The end of stderr; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stderr: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -113,12 +114,12 @@ pub struct SubjectReport {
     pub subject: CaseSubject,
     /// Number of requirements by gravest verdict.
     pub totals: Totals,
-    /// How many of them are waived.
+    /// Number of waived requirements.
     pub waived: usize,
-    /// How long its cases took.
+    /// Duration of the cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub milliseconds: Option<u64>,
-    /// By area.
+    /// The requirements by area.
     pub areas: Vec<AreaReport>,
 }
 
@@ -126,7 +127,7 @@ pub struct SubjectReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AreaReport {
-    /// The letters of the area; for a protocol `TESTEE` or `CLIENT`.
+    /// The letters of the area; `TESTEE` or `CLIENT` for a protocol.
     pub area: String,
     /// Number of requirements by gravest verdict.
     pub totals: Totals,
@@ -138,9 +139,9 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The gravest verdict on it.
+    /// The gravest verdict on the requirement.
     pub verdict: Verdict,
-    /// Whether it is waived.
+    /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
 }
@@ -148,25 +149,25 @@ pub struct RequirementReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseReport {
-    /// The case's slug.
+    /// The ID of the case.
     pub id: String,
     pub title: String,
     pub subject: CaseSubject,
     /// The stream, if the case is a vector.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
-    /// The gravest of its verdicts.
+    /// The gravest verdict of the case.
     pub verdict: Verdict,
-    /// Whether that is waived.
+    /// Whether that verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
-    /// The verdict on each of its requirements.
+    /// The verdict on each requirement of the case.
     pub requirements: Vec<RequirementReport>,
     pub checks: usize,
-    /// How long it took, if it was measured.
+    /// Duration of the case, if measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub milliseconds: Option<u64>,
-    /// Why it did not run, or not completely.
+    /// The reason why the case was not run, or not completely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// Checks that did not pass.
@@ -179,35 +180,35 @@ pub struct CaseReport {
 #[serde(deny_unknown_fields)]
 pub struct FailureReport {
     pub requirement: String,
-    /// The level it was judged at; lower than the requirement's for an assumed part.
+    /// The level of the check; lower than that of the requirement for an assumed part.
     pub level: Option<Level>,
-    /// The text of the requirement, or of its parts of that level.
+    /// The text of the requirement, or of its parts of this level.
     pub clause: String,
-    /// Its sources: document, edition, section.
+    /// The sources of the clause: document, edition, section.
     pub sources: Vec<String>,
     pub verdict: Verdict,
-    /// Whether it is waived.
+    /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
     pub expected: String,
     pub found: String,
-    /// Number of further checks with the same verdict, which are not shown.
+    /// Number of other checks with the same verdict, which are not shown.
     pub more: usize,
-    /// The clause whose failure explains it, if it is inconclusive for that.
+    /// The clause whose failure makes this check inconclusive, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub follows: Option<String>,
-    /// The bytes it is based on.
+    /// The bytes on which the check is based.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceReport>,
 }
 
-/// The bytes that a check is based on.
+/// The bytes on which a check is based.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvidenceReport {
     /// Address and service of the request.
     pub call: String,
-    /// The variable or object that it is about.
+    /// The variable or object of the request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// The result in a few words.
@@ -221,7 +222,7 @@ pub struct EvidenceReport {
     /// Expected data of the reply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<BytesReport>,
-    /// The whole frame sent, in hex.
+    /// The whole sent frame, in hex.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub frame_sent: String,
     /// The received frame, or the part of it that arrived, in hex.
@@ -247,7 +248,7 @@ impl Report {
         let FormatNumber { format } =
             serde_json::from_str(text).map_err(|error| error.to_string())?;
         if format != FORMAT {
-            return Err(format!("a report of format {format}; this version reads {FORMAT}"));
+            return Err(format!("report format {format} instead of {FORMAT}"));
         }
         let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
         Ok(report.escaped())
@@ -255,7 +256,7 @@ impl Report {
 }
 
 impl FailureReport {
-    /// Whether it is about the frames: their headers, or a reply that is no frame.
+    /// Whether the check is about the frames: their headers, or a reply that is not a frame.
     pub(super) fn is_of_frames(&self) -> bool {
         let has_faults = |one: &EvidenceReport| {
             let [_, received] = one.frames();
@@ -268,7 +269,7 @@ impl FailureReport {
 }
 
 impl EvidenceReport {
-    /// The frames of the request and of the reply, each by its headers and the fields of its service.
+    /// The frames of the request and the reply: headers and fields of the service.
     pub(super) fn frames(&self) -> [Vec<BytesReport>; 2] {
         let bytes = |hex: &str| compact::parse(hex).unwrap_or_default();
         let (sent, received) = (bytes(&self.frame_sent), bytes(&self.frame_received));
@@ -277,7 +278,7 @@ impl EvidenceReport {
 }
 
 impl CaseReport {
-    /// The failures, grouped by evidence: one check may count for several requirements.
+    /// The failures, grouped by evidence, because one check may judge several requirements.
     pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
         fn check(one: &FailureReport) -> impl PartialEq + '_ {
             let seen = (&one.expected, &one.found, &one.evidence);

@@ -47,7 +47,7 @@
     }
     output.textContent = active ? `${shown} of ${all} cases` : `${all} cases`;
   };
-  // The filter is in the address, so that a view can be sent around.
+  // The filter is in the URL, so that a view can be shared.
   const remember = () => {
     const wanted = new URLSearchParams();
     for (const [name, value] of new FormData(form)) {
@@ -85,7 +85,7 @@
     }
     target.scrollIntoView();
   };
-  // On paper nobody can open the profile.
+  // Open the profile for printing.
   window.addEventListener("beforeprint", () => {
     for (const details of document.querySelectorAll("header .facts details")) {
       details.open = true;

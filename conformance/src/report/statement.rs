@@ -44,7 +44,7 @@ struct ClauseStatement {
     level: String,
     claimed: &'static str,
     result: String,
-    /// The verdict, for the style.
+    /// The verdict, which selects the style.
     verdict: Verdict,
 }
 
@@ -63,7 +63,7 @@ impl Statement {
             ("Selection", Some(report.only.join(", ")).filter(|only| !only.is_empty())),
         ];
         facts.extend(more.into_iter().filter_map(|(name, fact)| Some((name.to_owned(), fact?))));
-        // Without a profile nobody has claimed anything.
+        // Without a profile, there are no claims.
         let word = if is_found(report) { "Judged" } else { "Claims" };
         for (name, claim) in report.profile.iter().flat_map(claims) {
             if !claim.is_empty() {
@@ -75,18 +75,18 @@ impl Statement {
     }
 }
 
-/// Whether the answers of the device say what is judged, and no profile.
+/// Whether queries of the device, instead of a profile, determined what was judged.
 fn is_found(report: &Report) -> bool {
     report.found.as_ref().is_some_and(FoundReport::is_by_queries)
 }
 
-/// The result in one line: what is not met, and what nobody has verified.
+/// The result on one line: the requirements that are not met, and those that were not verified.
 fn result(report: &Report) -> String {
     let all = report.subjects.iter().flat_map(|subject| &subject.areas);
     let all: Vec<&RequirementReport> = all.flat_map(|area| &area.requirements).collect();
     let named = |wanted: &[Verdict], waived: bool, most: usize| {
         let mut ids: Vec<&str> = Vec::new();
-        // Of several subjects the same clause.
+        // Several subjects may have the same clause.
         for one in all.iter().filter(|one| wanted.contains(&one.verdict) && one.waived == waived) {
             if !ids.contains(&one.requirement.as_str()) {
                 ids.push(&one.requirement);
@@ -95,7 +95,7 @@ fn result(report: &Report) -> String {
         list(ids, most)
     };
     let mut open = vec![Verdict::Inconclusive, Verdict::Interrupted, Verdict::HarnessError];
-    // The selection says what was not to be run.
+    // With a selection, requirements that were not run are no finding.
     if report.only.is_empty() {
         open.push(Verdict::NotRun);
     }
@@ -113,7 +113,7 @@ fn result(report: &Report) -> String {
     if parts.is_empty() { passed.to_owned() } else { format!("{passed}; {}", parts.join("; ")) }
 }
 
-/// Maximum number of clauses that were not verified in the line of the result; the tables have all.
+/// Maximum number of unverified clauses on the line of the result; the tables contain all.
 const NOT_VERIFIED_MAX: usize = 12;
 
 fn subject(report: &Report, subject: &SubjectReport) -> SubjectStatement {
@@ -145,13 +145,13 @@ fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> 
         Verdict::Differs => (yes, "undocumented, and not as assumed".to_owned()),
         Verdict::NotApplicable => ("no", format!("not claimed{}", note(*verdict))),
         Verdict::NotObserved if !has_case => ("-", "not verifiable from outside".to_owned()),
-        Verdict::NotObserved => (yes, "not verified: nothing exercised it".to_owned()),
+        Verdict::NotObserved => (yes, "not verified: no case of this run tested it".to_owned()),
         Verdict::NotRun => (yes, format!("not verified{}", note(*verdict))),
         verdict => (yes, format!("not verified, {verdict}{}", note(*verdict))),
     };
     ClauseStatement {
         id: id.clone(),
-        title: known.map_or("The protocol with the suite", |known| known.title.as_str()).to_owned(),
+        title: known.map_or("Protocol with the suite", |known| known.title.as_str()).to_owned(),
         level: known.map_or_else(String::new, |known| format!("{:?}", known.level).to_lowercase()),
         claimed,
         result,
@@ -184,7 +184,7 @@ pub fn to_statement(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 /// Writes the conformance statement as HTML.
 ///
 /// # Errors
-/// Those of `out`, and those of the template.
+/// An error of `out` or of the template.
 pub fn to_statement_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);

@@ -1,4 +1,4 @@
-//! Clients with a defect, and valid variants.
+//! Tests the suite with clients with a defect, and with valid variants.
 
 use std::net::SocketAddr;
 
@@ -21,6 +21,6 @@ pub(super) fn candidates() -> Vec<Candidate> {
 
 fn run(defect: &ClientDefect) -> Result<Vec<CaseOutcome>, ToolError> {
     let server = TestServer::new(SocketAddr::from(([127, 0, 0, 1], 0)))
-        .map_err(|error| ToolError::Internal(format!("the test server does not start: {error}")))?;
+        .map_err(|error| ToolError::Internal(format!("cannot start the test server: {error}")))?;
     Ok(trial(defect, &server))
 }

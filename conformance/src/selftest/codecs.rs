@@ -1,4 +1,4 @@
-//! Codecs with a defect, and testees that misbehave in general.
+//! Tests the suite with codecs with a defect, and with testees that misbehave in every case.
 
 use std::time::Duration;
 
@@ -11,10 +11,10 @@ use crate::session::ToolError;
 use crate::suite;
 use crate::testee::{CodecTestee, Miniature, Terms, TesteeProcess, judge};
 
-/// Time limit of a miniature's answer. A silent one takes this long per case.
+/// Time limit for an answer of a miniature; a miniature that hangs takes this long per case.
 const TIMEOUT: Duration = Duration::from_millis(1000);
 
-/// Every n-th case is run with a miniature, which behaves in the same way in every case.
+/// A miniature behaves in the same way in every case, so only every n-th case is run.
 const SHARE: usize = 25;
 
 const TERMS: Terms<'static> =
@@ -32,7 +32,7 @@ fn of_seed(seed: &'static Seed) -> Candidate {
         what: seed.what.clone(),
         targets: seed.requirements.clone(),
         run: Box::new(move || {
-            // A defect of a field affects its stream only: the other cases need not run.
+            // A defect of a field only affects its stream, so other cases need not run.
             let field = seed.field();
             let touched = |case: &Case| match (&case.body, field) {
                 (Body::Vector(vector), Some(field)) => {
@@ -58,7 +58,7 @@ fn of_miniature(miniature: Miniature) -> Candidate {
     }
 }
 
-/// What a miniature breaks: the protocol, or every requirement.
+/// The requirements that a miniature breaks: the protocol, or all.
 fn targets(miniature: Miniature) -> Vec<&'static str> {
     match miniature {
         Miniature::KnowsAll
@@ -77,7 +77,7 @@ fn targets(miniature: Miniature) -> Vec<&'static str> {
 
 fn over_pipes(miniature: Miniature) -> Result<Vec<CaseOutcome>, ToolError> {
     let program = std::env::current_exe()
-        .map_err(|error| ToolError::Internal(format!("this program is not found: {error}")))?;
+        .map_err(|error| ToolError::Internal(format!("cannot find this program: {error}")))?;
     let command = format!("\"{}\" testee --miniature {}", program.display(), miniature.name());
     let mut process = TesteeProcess::new(command, TIMEOUT);
     Ok(judge(&mut process, some().collect(), TERMS).outcomes)

@@ -1,8 +1,9 @@
-//! Tests the suite: a codec, CNC or client with a seeded defect must fail by a requirement that it
-//! breaks, and a valid variant must not fail.
+//! Tests the suite: a codec, CNC or client with a seeded defect must fail a requirement that the
+//! defect breaks, and a valid variant must not fail.
 //!
-//! A defect is caught if a requirement that it breaks fails or, if it breaks at most a should, has
-//! a warning. A defect that survives needs a written reason, otherwise the self-test fails.
+//! A defect is caught if a requirement that it breaks fails or, for a defect of requirements of the
+//! level should, has a warning. A defect that survives needs a written reason, otherwise the
+//! self-test fails.
 
 mod clients;
 mod codecs;
@@ -33,17 +34,17 @@ pub use unseen::UNSEEN;
 pub struct SelfTest {
     /// All trials, in the order of groups and IDs.
     pub tried: Vec<Trial>,
-    /// Reasons that no survivor needs.
+    /// Reasons that no surviving defect needs.
     pub stale: Vec<String>,
     /// The table of detection, and the rows that were measured again.
     pub detection: CheckedTable,
-    /// Pairs of defects; only tried with all defects.
+    /// Pairs of defects; tried only together with all defects.
     pub pairs: PairFigures,
 }
 
 impl SelfTest {
-    /// Number of trials of a group with the desired result, and of all; without those in which the
-    /// defect changed nothing.
+    /// Number of trials of a group with the desired result, and of all trials; trials in which the
+    /// defect changed nothing do not count.
     pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
         let differs = |one: &&Trial| one.group == group && one.result != TrialResult::Same;
         let mine = || self.tried.iter().filter(differs);
@@ -53,7 +54,8 @@ impl SelfTest {
         (mine().filter(right).count(), mine().count())
     }
 
-    /// The exit code: a survivor without a reason, a false alarm and a stale reason are failures.
+    /// The exit code: a surviving defect without a reason, a false alarm and a stale reason are
+    /// failures.
     pub fn exit(&self) -> Exit {
         let differs = !self.detection.differences.is_empty();
         let hides = !self.pairs.hidden.is_empty();
@@ -71,9 +73,9 @@ impl SelfTest {
     }
 }
 
-/// Runs all trials whose ID, group or requirement begins with one of these words; all if there are
-/// none. `scope` is the part of the table of detection to measure again. `tell` is called after
-/// each.
+/// Runs all trials whose ID, group or requirement begins with one of the words in `only`; all trials
+/// if it is empty. `scope` is the part of the detection table to measure again. Calls `tell` after
+/// each trial.
 pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync) -> SelfTest {
     let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()
@@ -87,7 +89,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync
     candidates.extend(targets::candidates());
     candidates.extend(clients::candidates());
     candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
-    // Most of the time they wait for a connection.
+    // Use more threads than processors, because trials mostly wait for a connection.
     let tried = parallel(("defects tried once", &candidates), 3, attempt, Trial::is_failure, &tell);
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
@@ -129,7 +131,7 @@ fn attempt(candidate: &Candidate) -> Trial {
     }
 }
 
-/// The result of a codec: warnings and differences count at the level of their requirements.
+/// The result for a codec: warnings and differences count at the level of their requirements.
 fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();

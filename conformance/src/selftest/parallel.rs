@@ -1,22 +1,22 @@
-//! Work in several threads.
+//! Processes items in several threads.
 
 use std::sync::Mutex;
 use std::thread;
 
-/// How far a part of the self-test is.
+/// The progress of a part of the self-test.
 #[derive(Clone, Copy, Debug)]
 pub struct SelfTestProgress {
-    /// The words after the number of items, such as "defects tried once".
+    /// The text after the number of items, such as "defects tried once".
     pub part: &'static str,
     pub all: usize,
     pub done: usize,
     pub failed: usize,
 }
 
-/// Is called after each item.
+/// The function that is called after each item.
 pub(super) type Tell<'a> = &'a (dyn Fn(SelfTestProgress) + Sync);
 
-/// Processes each item, in this many threads per processor; the results have the order of the
+/// Processes each item in several threads per processor; returns the results in the order of the
 /// items.
 pub(super) fn parallel<T: Sync, R: Send>(
     (part, items): (&'static str, &[T]),

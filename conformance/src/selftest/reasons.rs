@@ -1,20 +1,20 @@
-//! Why some defects may survive.
+//! The reasons why some defects may survive.
 
 use super::tried::{SelfTestGroup, Trial, TrialResult};
 use super::unseen::UNSEEN;
 
-/// Group, prefix of the ID, and why the defect is not detectable.
+/// Group, prefix of the ID, and the reason why the defect is not detectable.
 #[rustfmt::skip]
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (
         SelfTestGroup::Cnc,
         "object-descriptor.write_access.swap",
-        "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
+        "Any value except 0 is TRUE: 0x0100 has the same meaning as 0x0001.",
     ),
     (
         SelfTestGroup::Cnc,
         "cnc.gen.boolean-4-bytes",
-        "The size in the description fails first, from which the size of the type follows.",
+        "The size in the description fails first, and the size of the type follows from it.",
     ),
     (SelfTestGroup::Cnc, "axis-write-by-name.unknown-axis-is-first", NOT_WRITTEN),
     (SelfTestGroup::Cnc, "read-element-name.first-axis", ANY_TEXT),
@@ -32,17 +32,17 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (SelfTestGroup::Cnc, "write-object.unknown-axis-is-first", NOT_WRITTEN),
 ];
 
-/// Reasons of several generated defects.
+/// Reasons shared by several generated defects.
 const NOT_WRITTEN: &str = "No case writes to a channel or an axis that is not configured.";
 const ANY_TEXT: &str = "An element may have any name, unit and write flag.";
 const CONTENT: &str =
     "Other clauses fail: the content is compared with attributes and written values.";
-const UNCHANGED: &str = "A success that changes nothing differs from an error by the number alone.";
+const UNCHANGED: &str = "A success without a change differs from an error only by the number.";
 
-/// The reason of [`UNSEEN`].
-const INSIDE: &str = "No case shows it: a test of the simulated CNC finds it.";
+/// The reason for the defects in [`UNSEEN`].
+const INSIDE: &str = "No case can detect it; a test of the simulated CNC does.";
 
-/// Prefix of the ID of a defect, and why a run against a device misses it.
+/// Prefix of the ID of a defect, and the reason why a run against a device misses it.
 #[rustfmt::skip]
 const MISSED: &[(&str, &str)] = &[
     ("cnc.var.cycle-", "V.CYC is in no list: a profile names it."),
@@ -79,7 +79,7 @@ const MISSED: &[(&str, &str)] = &[
     ("cnc.svc.request-state-stays", "Only the service of an NC program shows it."),
 ];
 
-/// Reasons of several missed defects.
+/// Reasons shared by several missed defects.
 const SPINDLE: &str = "A spindle that no query finds is known by a profile only.";
 const MALFORMED: &str = "Only malformed queries ask for an axis that is not configured.";
 const ANY_CONTENT: &str = "An element may have any content.";
@@ -89,12 +89,12 @@ const OTHERS: &str =
     "Only cases that write every variable show it: these are for the simulated CNC.";
 const PROFILE: &str = "Without a profile the run finds fewer values that it may write.";
 
-/// Why a run against a device misses a defect, if there is a reason.
+/// The reason why a run against a device misses a defect, if there is one.
 pub(super) fn of_missed(id: &str) -> Option<&'static str> {
     MISSED.iter().find(|(start, _)| id.starts_with(start)).map(|(_, reason)| *reason)
 }
 
-/// The reason for a survivor, if there is one.
+/// The reason why a defect may survive, if there is one.
 pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
     if group == SelfTestGroup::Cnc && UNSEEN.contains(&id) {
         return Some(INSIDE);
@@ -103,7 +103,7 @@ pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
     mine.map(|(_, _, reason)| *reason)
 }
 
-/// Group and prefix of all reasons.
+/// Group and prefix of each reason.
 #[cfg(test)]
 pub(super) fn names() -> impl Iterator<Item = (SelfTestGroup, &'static str)> {
     let unseen = UNSEEN.iter().map(|id| (SelfTestGroup::Cnc, *id));
@@ -116,7 +116,7 @@ pub(super) fn missed() -> impl Iterator<Item = &'static str> {
     MISSED.iter().map(|(start, _)| *start)
 }
 
-/// Reasons that no survivor needs.
+/// Reasons that no surviving defect needs.
 pub(super) fn stale(tried: &[Trial]) -> Vec<String> {
     let needed = |(group, start, _): &&(SelfTestGroup, &str, &str)| {
         tried.iter().any(|one| {

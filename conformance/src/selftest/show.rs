@@ -1,4 +1,4 @@
-//! Prints a self-test.
+//! Prints the result of a self-test.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use crate::judge::Exit;
 /// Maximum number of requirements on a line.
 const TARGETS_SHOWN: usize = 6;
 
-/// Prints a self-test; with `verbose` each trial.
+/// Prints the result of a self-test; with `verbose`, also each trial.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
         let fine = matches!(
@@ -21,10 +21,10 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
         }
     }
     for id in &test.stale {
-        writeln!(out, "stale reason: no survivor is called {id}")?;
+        writeln!(out, "stale reason: no surviving defect has the ID {id}")?;
     }
     if test.tried.is_empty() {
-        return writeln!(out, "Nothing was tried.");
+        return writeln!(out, "Nothing was tested.");
     }
     for group in SelfTestGroup::ALL {
         let (right, all) = test.rate(group);
@@ -48,7 +48,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
                     _ => format!(", {noticed} of them by a warning or a difference"),
                 };
                 if same > 0 {
-                    beside += &format!(", beside {same} that change nothing here");
+                    beside += &format!(", not counting {same} without an effect here");
                 }
                 writeln!(
                     out,
@@ -63,7 +63,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     writeln!(out, "{verdict}  exit code {}", test.exit().code())
 }
 
-/// The detection of defects of a CNC: from outside, and by all cases for the simulated CNC.
+/// Prints the detection of defects of a CNC: from outside, and by all cases for the simulated CNC.
 fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     let CheckedTable { table, measured, differences } = &test.detection;
     for difference in differences {

@@ -1,4 +1,4 @@
-//! CNCs with a defect, and valid variants.
+//! Tests the suite with CNCs with a defect, and with valid variants.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, TargetState};
 
-/// A version with 0x4C and all kinds.
+/// A version with the function 0x4C and all kinds of parameters.
 const NEWEST: &str = "V4.29.0";
 
 pub(super) fn candidates() -> Vec<Candidate> {
@@ -32,8 +32,8 @@ fn of_seed(seed: &'static Seed) -> Candidate {
 /// Runs the cases of a target against a simulated CNC with the seed: with the default model, and
 /// with a version that has all features.
 ///
-/// First only the cases with a requirement that the defect breaks: if one fails, the defect is
-/// caught.
+/// The cases with a requirement that the defect breaks come first: if one fails, the defect is
+/// caught, and the others are not run.
 fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, ToolError> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
@@ -55,7 +55,7 @@ fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, ToolError> {
     Ok(has_shown.then_some(outcomes))
 }
 
-/// The outcomes, and whether the defect has changed any byte.
+/// The outcomes, and whether the defect changed any byte.
 fn run(
     seed: &Seed,
     settings: Settings,

@@ -1,4 +1,4 @@
-//! Which results count as caught, and how they are printed.
+//! Tests which results count as caught, and how they are printed.
 
 use super::detection::{DetectionResult, DetectionTable, Mode};
 use super::*;
@@ -28,7 +28,7 @@ fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> TrialResult
 }
 
 #[test]
-fn caught_is_what_fails_by_its_own_requirement() {
+fn a_defect_is_caught_if_its_own_requirement_fails() {
     use Verdict::{Differs, Fail, NotObserved, Pass, Vacuous, Warning};
 
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Fail), ("VAR-8", Pass)]), TrialResult::Caught);
@@ -37,14 +37,14 @@ fn caught_is_what_fails_by_its_own_requirement() {
     assert_eq!(judged(&["VAR-4"], &[("VAR-8", Fail)]), TrialResult::Elsewhere);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Pass)]), TrialResult::Survived);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", NotObserved)]), TrialResult::Survived);
-    // A warning about a must is not caught; about a should it is.
+    // A warning counts as caught for a should, but not for a must.
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Warning)]), TrialResult::Survived);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Differs)]), TrialResult::Survived);
     assert_eq!(judged(&["ADS-8"], &[("ADS-8", Warning)]), TrialResult::Caught);
 }
 
 #[test]
-fn who_is_right_may_differ_and_not_fail() {
+fn a_valid_variant_may_differ_but_not_fail() {
     use Verdict::{Differs, Fail, HarnessError, Pass, Warning};
 
     assert_eq!(judged(&[], &[("VAR-4", Pass), ("VAR-8", Differs)]), TrialResult::Quiet);
@@ -75,7 +75,7 @@ fn test(tried: Vec<Trial>) -> SelfTest {
 }
 
 #[test]
-fn only_a_reason_lets_a_defect_survive() {
+fn a_surviving_defect_needs_a_reason() {
     use TrialResult::{Broken, Caught, Elsewhere, FalseAlarm, Noticed, Quiet, Same, Survived};
 
     assert_eq!(test(Vec::new()).exit(), Exit::Nothing);
@@ -86,7 +86,7 @@ fn only_a_reason_lets_a_defect_survive() {
         assert_eq!(test(vec![tried(open, None)]).exit(), Exit::Failure, "{open:?}");
         assert_eq!(test(vec![tried(open, Some("why"))]).exit(), Exit::Success, "{open:?}");
     }
-    // A reason does not excuse these.
+    // A reason does not excuse a false alarm or a broken trial.
     for wrong in [FalseAlarm, Broken] {
         assert_eq!(test(vec![tried(wrong, Some("why"))]).exit(), Exit::Failure, "{wrong:?}");
     }
@@ -99,7 +99,7 @@ fn only_a_reason_lets_a_defect_survive() {
 }
 
 #[test]
-fn what_changes_nothing_counts_neither_way() {
+fn a_defect_without_effect_does_not_count() {
     let all = [TrialResult::Caught, TrialResult::Same, TrialResult::Survived, TrialResult::Same];
     let test = test(all.map(|result| tried(result, None)).into());
     assert_eq!(test.rate(SelfTestGroup::Cnc), (1, 2));
@@ -112,7 +112,7 @@ fn what_changes_nothing_counts_neither_way() {
 }
 
 #[test]
-fn every_reason_is_of_something_that_is_tried() {
+fn every_reason_belongs_to_a_trial() {
     let mut candidates = codecs::candidates();
     candidates.extend(targets::candidates());
     candidates.extend(clients::candidates());
@@ -122,11 +122,11 @@ fn every_reason_is_of_something_that_is_tried() {
     }
     let ids: std::collections::BTreeSet<_> =
         candidates.iter().map(|one| (one.group, one.id.clone())).collect();
-    assert_eq!(ids.len(), candidates.len(), "an ID is there twice");
+    assert_eq!(ids.len(), candidates.len(), "an ID occurs twice");
 }
 
 #[test]
-fn every_reason_is_of_a_defect_that_can_be_missed() {
+fn every_reason_belongs_to_a_missed_defect() {
     for start in reasons::missed() {
         assert!(faults::all().iter().any(|seed| seed.id.starts_with(start)), "{start}");
     }
@@ -134,7 +134,7 @@ fn every_reason_is_of_a_defect_that_can_be_missed() {
 
 /// The committed files were written together, and every defect has a row.
 #[test]
-fn the_table_is_whole() {
+fn the_table_is_complete() {
     let table = DetectionTable::published().unwrap();
     let renew = "run `ads-cnc selftest --renew conformance/doc`";
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());

@@ -1,4 +1,4 @@
-//! One that can be tried, and what came of one that was.
+//! A candidate for a trial, and the result of a trial.
 
 use serde::Serialize;
 
@@ -9,13 +9,13 @@ use crate::text::named;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SelfTestGroup {
-    /// Codecs with a defect, by the vectors.
+    /// Codecs with a defect, judged by the vectors.
     Codec,
-    /// CNCs with a defect, by the cases over the wire.
+    /// CNCs with a defect, judged by the cases over the wire.
     Cnc,
-    /// Clients with a defect, by the scenarios.
+    /// Clients with a defect, judged by the scenarios.
     Client,
-    /// Testees that misbehave in general.
+    /// Testees that misbehave in every case.
     Miniature,
     /// Valid variants.
     Different,
@@ -30,20 +30,21 @@ named! { SelfTestGroup:
 pub struct Trial {
     /// The ID of the defect, miniature or variant.
     pub id: String,
-    /// Its group.
+    /// The group of the candidate.
     pub group: SelfTestGroup,
     pub what: String,
-    /// The requirements it breaks; empty for a valid variant.
+    /// The requirements that the defect breaks; empty for a valid variant.
     pub targets: Vec<String>,
     pub failed: Vec<String>,
     pub result: TrialResult,
-    /// The reason why it may survive.
+    /// The reason why the defect may survive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
 impl Trial {
-    /// A survivor without a reason, a false alarm, or a trial that could not be made.
+    /// Whether this is a surviving defect without a reason, a false alarm, or a trial that could not be
+    /// run.
     pub(super) fn is_failure(&self) -> bool {
         match self.result {
             TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same => {
@@ -59,12 +60,12 @@ impl Trial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TrialResult {
-    /// A requirement that it breaks has failed.
+    /// A requirement that the defect breaks has failed.
     Caught,
-    /// Codec only: a vector of a requirement that it breaks has a warning or a difference, because
-    /// the manuals do not state everything that the vector expects.
+    /// For codecs only: a vector of a requirement that the defect breaks has a warning or a difference,
+    /// because the manuals do not state everything that the vector expects.
     Noticed,
-    /// Other requirements have failed, and none that it breaks.
+    /// Only other requirements have failed.
     Elsewhere,
     /// No requirement has failed.
     Survived,
@@ -74,7 +75,7 @@ pub enum TrialResult {
     FalseAlarm,
     /// The defect changed no byte in any exchange, so it is not detectable.
     Same,
-    /// It could not be run.
+    /// The trial could not be run.
     Broken,
 }
 
@@ -88,12 +89,12 @@ pub(super) struct Candidate {
     pub(super) run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, ToolError> + Send + Sync>,
 }
 
-/// The requirement that this is, or is a part of.
+/// The requirement to which a requirement or a part of one belongs.
 pub(super) fn whole(id: &str) -> &str {
     id.split_once('.').map_or(id, |(of, _)| of)
 }
 
-/// Which requirements have failed, and the result.
+/// The failed requirements, and the result.
 pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
@@ -106,7 +107,7 @@ pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>,
         found
     };
     let failed = with(&[Verdict::Fail, Verdict::Vacuous]);
-    // A should gives a warning, and an assumed part a difference: at their levels these are caught.
+    // A broken should causes a warning, and a broken assumption a difference.
     let noticed = with(&[Verdict::Warning, Verdict::Differs]);
     let hit = |id: &&str| match ads_cnc_vectors::clause(id) {
         Some(clause) => {

@@ -1,7 +1,7 @@
-//! Defects of a CNC that no case shows.
+//! Defects of a CNC that no case can detect.
 
-/// Their IDs. `tests/simulator/defects.rs` finds each by a test of the simulated CNC. No reply shows, for
-/// example, what a program executes.
+/// The IDs of these defects. `tests/simulator/defects.rs` detects each with a test of the simulated
+/// CNC. For example, no reply contains the executed lines of a program.
 #[rustfmt::skip]
 pub const UNSEEN: &[&str] = &[
     "ams-header.error.swap", "axis-handle-by-name.first-channel", "cnc.adr.place-keeps-axis",

@@ -1,4 +1,4 @@
-//! The errors of tools, with advice.
+//! The errors of commands, with advice.
 
 use std::fmt;
 use std::io;
@@ -12,7 +12,7 @@ use crate::exchange::{ExchangeError, meaning};
 use crate::gate::Refusal;
 use crate::judge::Exit;
 
-/// Why a tool fails. The text includes advice.
+/// The error that ends a command. The text includes advice.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ToolError {
@@ -22,15 +22,15 @@ pub enum ToolError {
     Unable(String),
     /// No list of the CNC has an object or element of this name.
     Absent(String),
-    /// An error of the system that is not to be expected.
+    /// An unexpected error of the system.
     Internal(String),
     /// The gate rejected the request.
     Refused(Box<Refusal>),
     /// The gate allows requests that must not be sent to this target.
     Unsafe(String),
-    /// A dry run that would need a reply to continue.
+    /// A dry run cannot continue without a reply.
     NotSent,
-    /// A limit of this tool, or its deadline, was reached.
+    /// A limit of the command, or its deadline, was reached.
     Enough(String),
     /// The request cannot be encoded.
     Unsendable(Error),
@@ -48,7 +48,7 @@ pub enum ToolError {
         function: Function,
         error: AdsError,
     },
-    /// The device does not answer an inquiry.
+    /// The device rejects an inquiry.
     Device {
         /// The name of the command: ReadDeviceInfo or ReadState.
         command: &'static str,
@@ -56,7 +56,7 @@ pub enum ToolError {
     },
     /// The reply cannot be decoded.
     Reply(Error),
-    /// The frame of the reply breaks a rule of AMS/TCP.
+    /// The frame of the reply violates a rule of AMS/TCP.
     Frame(String),
 }
 
@@ -88,26 +88,27 @@ impl ToolError {
 
     /// The error for signals that cannot be caught.
     pub(crate) fn uncaught(error: &io::Error) -> Self {
-        Self::Internal(format!("signals cannot be caught: {error}"))
+        Self::Internal(format!("cannot catch signals: {error}"))
     }
 
     pub(super) fn unreachable(target: &Target, error: &io::Error) -> Self {
         let addr = target.addr;
         Self::NoAnswer(match error.kind() {
             io::ErrorKind::ConnectionRefused => format!(
-                "{addr} refuses the connection: nothing listens there. Does the ADS router of the \
-                 device run, is this its TCP port (48898 as a rule), and does its firewall let it \
-                 through?"
+                "{addr} refuses the connection: no program is listening. Check that the ADS router \
+                 of the device is running, that the TCP port is right (usually 48898), and that the \
+                 firewall allows it"
             ),
             io::ErrorKind::TimedOut | io::ErrorKind::WouldBlock => format!(
-                "{addr} does not answer within {} ms. Is the device on, is this its address, and \
-                 does no firewall drop TCP port {}?",
+                "no reply from {addr} within {} ms. Check that the device is on, that the address \
+                 is right, and that no firewall drops TCP port {}",
                 target.timeout.as_millis(),
                 addr.port()
             ),
             io::ErrorKind::PermissionDenied => return Self::Unsafe(error.to_string()),
             _ => format!(
-                "no connection to {addr}: {error}. Is it reachable, and does it listen for AMS/TCP?"
+                "no connection to {addr}: {error}. Check that the device is reachable and listens \
+                 for AMS/TCP"
             ),
         })
     }
@@ -125,30 +126,30 @@ impl ToolError {
             ExchangeError::Unsendable(error) => return Self::Unsendable(error),
             ExchangeError::Malformed(error) if answered => return Self::Reply(error),
             ExchangeError::Malformed(error) => {
-                format!("{addr} does not speak AMS/TCP: {error}. Is this the port of ADS?")
+                format!("{addr} does not use AMS/TCP: {error}. Check that this is the ADS port")
             }
             ExchangeError::Closed | ExchangeError::Io(_) if answered => format!(
-                "{addr} ended the connection: {fault}. Was the device restarted, or does another \
-                 client use the AMS NetId {source}? Whether the last request was carried out is \
-                 not known."
+                "{addr} ended the connection: {fault}. Check whether the device was restarted, or \
+                 another client uses the AMS NetId {source}. It is unknown whether the last request \
+                 was executed."
             ),
             ExchangeError::Closed | ExchangeError::Io(_) => format!(
-                "{addr} closed the connection without an answer. A device does so with who has no \
-                 route: add {route}. If there is one, end other ADS connections of this machine to \
-                 it: some devices keep one for an address."
+                "{addr} closed the connection without a reply, as a device does if a client has no \
+                 route: add {route}. If the route exists, end other ADS connections of this machine \
+                 to the device: some devices allow only one per address."
             ),
             ExchangeError::Silence(timeout) if answered => format!(
-                "{addr} has stopped answering: nothing within {} ms. If it is busy, give it more \
-                 with --timeout.",
+                "{addr} has stopped replying: nothing within {} ms. If the device is busy, increase \
+                 --timeout.",
                 timeout.as_millis()
             ),
             ExchangeError::Silence(timeout) => format!(
-                "{addr} takes the connection and does not answer within {} ms. Is {net_id} its AMS \
-                 NetId, and is there {route}?",
+                "{addr} accepts the connection but does not reply within {} ms. Check that {net_id} \
+                 is its AMS NetId, and that there is {route}",
                 timeout.as_millis()
             ),
             ExchangeError::Disconnected(error) => {
-                format!("no connection to {addr} any more: {error}.")
+                format!("lost the connection to {addr}: {error}.")
             }
         })
     }
@@ -157,13 +158,13 @@ impl ToolError {
         let Target { addr, net_id, .. } = target;
         let hint = match error {
             AdsError::TARGET_PORT_NOT_FOUND => format!(
-                "Nothing runs at the AMS port {port} of {net_id}: is a CNC configured there, and in \
-                 RUN?"
+                "The AMS port {port} of {net_id} does not exist: check that a CNC is configured and \
+                 in the state RUN."
             ),
             AdsError::TARGET_MACHINE_NOT_FOUND => {
-                format!("{addr} knows no AMS NetId {net_id}: is it the device's (--net-id)?")
+                format!("{addr} does not know the AMS NetId {net_id}: check --net-id.")
             }
-            _ => format!("{addr} did not hand the request on to the AMS port {port} of {net_id}."),
+            _ => format!("{addr} did not forward the request to the AMS port {port} of {net_id}."),
         };
         Self::Ams { error, hint }
     }
@@ -186,18 +187,18 @@ impl fmt::Display for ToolError {
                     advice => write!(f, "\n{advice}"),
                 }
             }
-            Self::NotSent => f.write_str("a dry run: what follows would depend on the answer"),
+            Self::NotSent => f.write_str("dry run: the next requests depend on this reply"),
             Self::Unsendable(error) => write!(f, "cannot be sent: {error}"),
             Self::Ams { error, hint } => write!(f, "AMS error {error:#x}. {hint}"),
             Self::Ads { function, error } => {
-                write!(f, "the CNC refuses \"{}\" with {error:#x}", function.spec().name)?;
+                write!(f, "the CNC rejects \"{}\" with {error:#x}", function.spec().name)?;
                 match meaning(*error) {
                     Some(meaning) => write!(f, ": {meaning}"),
                     None => Ok(()),
                 }
             }
             Self::Device { command, error } => {
-                write!(f, "the device refuses {command} with {error:#x}")
+                write!(f, "the device rejects {command} with {error:#x}")
             }
             Self::Reply(error) => does_not_match(f, error),
             Self::Frame(what) => does_not_match(f, what),
@@ -206,7 +207,7 @@ impl fmt::Display for ToolError {
 }
 
 fn does_not_match(f: &mut fmt::Formatter<'_>, what: &dyn fmt::Display) -> fmt::Result {
-    write!(f, "the reply does not match the manuals: {what}. ads-cnc run judges the device")
+    write!(f, "the reply does not match the manuals: {what}. Use ads-cnc run to judge the device")
 }
 
 impl std::error::Error for ToolError {}

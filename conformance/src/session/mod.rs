@@ -1,4 +1,4 @@
-//! The typed connection of a tool to a CNC, through the gate.
+//! The typed connection of a command to a CNC, through the gate.
 
 mod error;
 
@@ -58,7 +58,7 @@ impl Session {
     /// Connects to a target.
     ///
     /// # Errors
-    /// Why the connection failed, with advice.
+    /// If the connection fails; the error contains advice.
     pub fn connect(target: Target, gate: Gate) -> Result<Self, ToolError> {
         match Client::connect(target, gate) {
             Ok(client) => Ok(Self::over(client, None)),
@@ -66,37 +66,37 @@ impl Session {
         }
     }
 
-    /// Prints requests to stdout and sends none. Writes seem to succeed; calls that need a reply
-    /// fail with [`ToolError::NotSent`].
+    /// A session that prints requests to stdout instead of sending them. Writes seem to succeed;
+    /// calls that need a reply fail with [`ToolError::NotSent`].
     ///
     /// # Errors
-    /// If the gate allows malformed requests to another machine.
+    /// If the gate allows malformed requests and the target is another machine.
     pub fn dry(target: Target, gate: Gate) -> Result<Self, ToolError> {
         let client = Client::dry(target, gate);
         Ok(Self::over(client.map_err(|error| ToolError::Usage(error.to_string()))?, None))
     }
 
-    /// Starts a CNC in this process, on loopback, and connects to it.
+    /// Starts a simulated CNC in this process, on loopback, and connects to it.
     ///
     /// # Errors
-    /// If the system has no socket or no thread left.
+    /// If the system cannot provide a socket or a thread.
     pub fn simulated(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, ToolError> {
         let failed = |error: io::Error| {
             ToolError::Internal(format!("the simulated CNC could not be started: {error}"))
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
-        // Without a network a late reply can only be due to a busy machine.
+        // Without a network, only a busy machine can delay a reply.
         let target =
             Target { timeout: SIMULATED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
         Ok(Self::over(client, Some(server)))
     }
 
-    /// Connects to a CNC of this process without a socket. Its clock must be stopped.
+    /// Connects to a simulated CNC of this process without a socket. Its clock must be stopped.
     ///
     /// # Errors
-    /// If the gate allows malformed requests to another machine.
+    /// If the gate allows malformed requests and the target is another machine.
     pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, ToolError> {
         let target = Target::local(IN_PROCESS, NET_ID);
         let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID));
@@ -104,17 +104,17 @@ impl Session {
         Ok(Self::over(client, None))
     }
 
-    /// Connects to a CNC of this process without a socket, with a gate that allows every request except
-    /// those that are never sent. The clock of the CNC must be stopped.
+    /// Connects to a simulated CNC of this process without a socket, with a gate that allows every
+    /// request except those that are never sent. The clock of the CNC must be stopped.
     ///
     /// # Errors
-    /// None: the gate is for this address.
+    /// Never: the gate is made for this address.
     pub fn in_process_to_try(cnc: Arc<dyn Responder>) -> Result<Self, ToolError> {
         Self::in_process(cnc, Gate::of_address(IN_PROCESS))
     }
 
-    /// Starts a CNC in this process, whose gate allows every request except those that are never
-    /// sent.
+    /// Starts a simulated CNC in this process, with a gate that allows every request except those
+    /// that are never sent.
     ///
     /// # Errors
     /// Those of [`simulated`](Self::simulated).
@@ -126,7 +126,7 @@ impl Session {
         }
     }
 
-    /// Like [`dry`](Self::dry), with the address of the simulated CNC.
+    /// Like [`dry`](Self::dry), but for a simulated CNC of this process.
     ///
     /// # Errors
     /// Those of [`dry`](Self::dry).
@@ -134,8 +134,8 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
     }
 
-    /// The same simulated CNC with another gate, over a new connection. The gate of a device can be
-    /// widened only by the file of `--allow-write`.
+    /// Connects to the same simulated CNC with another gate. For a device, only the file of
+    /// `--allow-write` can allow more.
     ///
     /// # Errors
     /// [`ToolError::Usage`] for a device.
@@ -160,7 +160,7 @@ impl Session {
         Self { client, simulated, reply: Vec::new(), answered: false, deadline: None }
     }
 
-    /// Captures everything sent and received from now on.
+    /// Captures all frames sent and received from now on.
     #[must_use]
     pub fn with_capture(self, capture: impl Into<Box<dyn Tap>>) -> Self {
         Self { client: self.client.with_capture(capture), ..self }
@@ -280,7 +280,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If there is no valid reply: the command is optional.
+    /// If there is no valid reply; the command is optional.
     pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, ToolError> {
         self.inquire(task)
     }
@@ -300,7 +300,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If there is no valid reply: the command is optional.
+    /// If there is no valid reply; the command is optional.
     pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, ToolError> {
         self.inquire(task)
     }
@@ -390,23 +390,23 @@ impl fmt::Display for Shown<'_> {
         let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
         let verdict = match &self.0.outcome {
             Err(ExchangeError::Refused(refusal)) => format!("would be rejected: {refusal}"),
-            Err(ExchangeError::Unsendable(error)) => format!("has no form on the wire: {error}"),
+            Err(ExchangeError::Unsendable(error)) => format!("cannot be encoded: {error}"),
             _ => "would be sent".to_owned(),
         };
         writeln!(f, "{verdict}\n  {name} ({clause}): {}", self.0)?;
         if call.read_length > 0 {
-            writeln!(f, "  at most {} bytes back", call.read_length)?;
+            writeln!(f, "  reply of at most {} bytes", call.read_length)?;
         }
         let stream = spec.and_then(|spec| spec.request).map(|stream: Stream| stream.layout().name);
         lines::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
     }
 }
 
-/// The address of a CNC without a socket.
+/// The address of a simulated CNC without a socket.
 const IN_PROCESS: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
 
-/// How long to wait for a reply of the simulated CNC.
+/// Timeout for a reply of the simulated CNC.
 const SIMULATED_TIMEOUT: Duration = Duration::from_secs(6);
 
-/// The default time to wait for a reply.
+/// Default timeout for a reply.
 pub const TIMEOUT: Duration = Duration::from_secs(2);

@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Time since the CNC was started: the system's clock, unless stopped, plus the time that was
-/// added.
+/// The time since the start of the CNC: that of the system's clock, unless stopped, plus the added
+/// time.
 #[derive(Debug)]
 pub(super) struct Clock {
     /// Start of the system's clock; `None` if stopped.

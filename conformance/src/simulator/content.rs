@@ -1,4 +1,4 @@
-//! Contents of objects and elements.
+//! Reads and writes the contents of objects and elements.
 
 use std::borrow::Cow;
 
@@ -27,7 +27,7 @@ pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
     items.map(Vec::as_slice).unwrap_or_default()
 }
 
-/// The content; zeros for an axis place without an axis (SDA-11).
+/// The content; zeros for a place without an axis (SDA-11).
 pub(super) fn read<'s>(
     model: &Model,
     state: &'s CncState,
@@ -49,7 +49,7 @@ pub(super) fn read<'s>(
     }
 }
 
-/// Writes a content after a check of size and access.
+/// Writes a content after checking its size and access.
 pub(super) fn write(
     model: &Model,
     state: &mut CncState,
@@ -76,15 +76,15 @@ pub(super) fn write(
         (Meaning::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
         (Meaning::Value, _) => {
             let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
-            // An axis place without an axis cannot be written.
+            // A place without an axis is not writable.
             copy_padded(content.ok_or(AdsError::INVALID_DATA)?, bytes);
             Ok(())
         }
     }
 }
 
-/// A text may be shorter than its content if it has a NUL; any other value must have the exact
-/// size.
+/// Checks the size of a value: a text with a NUL may be shorter than the content, any other value must
+/// have the exact size.
 pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(), AdsError> {
     let ends = bytes.contains(&0) || bytes.len() < size;
     let fits = if is_text { bytes.len() <= size && ends } else { bytes.len() == size };

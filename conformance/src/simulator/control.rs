@@ -1,4 +1,4 @@
-//! Changes of a CNC from outside ADS: by an operator or an NC program.
+//! Changes a CNC without ADS, as an operator or an NC program does.
 
 use ads_cnc::CncString;
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
@@ -9,7 +9,7 @@ use super::program::service::ServiceInterface;
 use super::program::{ProgramConfig, Script, StreamingProgram};
 use super::state::ChannelState;
 
-/// Why a change of the CNC is not possible.
+/// The reason why a change of the CNC is not possible.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ControlError {
@@ -18,7 +18,7 @@ pub enum ControlError {
     Channel(u8),
     /// The channel does not have the place, the axis does not exist, or another axis of the channel
     /// has the same name.
-    #[error("the axis {axis} cannot be put at place {place} of channel {channel}")]
+    #[error("cannot assign axis {axis} to place {place} of channel {channel}")]
     Exchange {
         /// Logical number of the channel.
         channel: u8,
@@ -28,19 +28,19 @@ pub enum ControlError {
         axis: u32,
     },
     /// The name is too long, not CP1252, of another kind, or a duplicate.
-    #[error("{0:?} cannot be the name of a parameter")]
+    #[error("invalid name of a parameter: {0:?}")]
     Name(String),
 }
 
 impl Cnc {
     /// Assigns the axis with a logical number to a place (from 1) of a channel (ADR-13). The axis
-    /// leaves its previous place, and the axis previously at this place has no place any more. 0
-    /// leaves the place without an axis.
+    /// leaves its previous place, and the previous axis of this place no longer has one. With the
+    /// number 0, the place has no axis.
     ///
-    /// Over ADS a write to an object or element with the meaning axis-number does the same.
+    /// Over ADS, a write to an object or element with the meaning axis-number does the same.
     ///
     /// # Errors
-    /// [`ControlError::Channel`], [`ControlError::Exchange`]; nothing is changed.
+    /// [`ControlError::Channel`] or [`ControlError::Exchange`]; then nothing is changed.
     pub fn exchange_axis(&self, channel: u8, place: u8, axis: u32) -> Result<(), ControlError> {
         let at = self.place_of(channel)?;
         let before = usize::from(place).checked_sub(1);
@@ -75,8 +75,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.active = active)
     }
 
-    /// Replaces the dynamic parameters of a kind, like an NC program that creates and deletes them:
-    /// names and values in the order of their indices (DYN-4).
+    /// Replaces the dynamic parameters of a kind, as an NC program does by creating and deleting them.
+    /// The names and values have the order of their indices (DYN-4).
     ///
     /// ```
     /// use ads_cnc::dynamic::DynamicKind;
@@ -88,7 +88,7 @@ impl Cnc {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::Channel`], [`ControlError::Name`]; nothing is changed.
+    /// [`ControlError::Channel`] or [`ControlError::Name`]; then nothing is changed.
     pub fn set_parameters(
         &self,
         channel: u8,
@@ -108,8 +108,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.parameters.replace(kind, new))
     }
 
-    /// Calls a function with the Service Interface of a channel. The CNC is locked meanwhile and
-    /// answers no request.
+    /// Calls a function with the Service Interface of a channel. The CNC is locked during the call and
+    /// answers no requests.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -121,8 +121,8 @@ impl Cnc {
         self.of_channel(channel, |channel| then(&mut channel.service))
     }
 
-    /// Configures the streaming of a channel anew, as at power-on: the buffer and the record of
-    /// executed lines are empty.
+    /// Configures the streaming of a channel again, as at power-on. This empties the buffer and the
+    /// record of executed lines.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -134,8 +134,8 @@ impl Cnc {
         })
     }
 
-    /// Calls a function with the streaming program of a channel. The CNC is locked meanwhile and
-    /// answers no request.
+    /// Calls a function with the streaming program of a channel. The CNC is locked during the call and
+    /// answers no requests.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -169,7 +169,7 @@ impl Cnc {
         self.of_channel(channel, |channel| then(channel.script.as_mut()))
     }
 
-    /// The script as this CNC runs it.
+    /// The script with the policy of this CNC.
     #[must_use]
     pub fn as_run(&self, script: Script) -> Script {
         script.with_policy(self.policy())
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn ranks_follow_activation() {
+    fn activation_changes_ranks() {
         let cnc = cnc();
         let of_rank = |rank: u32| ask(&cnc, 0x02_2300 + rank, 0x48, b"V.E.channel\0");
         assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![1, 0, 0, 0]), Ok(vec![2, 0, 0, 0])));
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_is_at_one_place() {
+    fn an_axis_has_only_one_place() {
         let cnc = cnc();
         let wcs = |place: u32| ask(&cnc, 0x12_2301, place * 0x1_0000 + 5, b"V.A.WCS\0").unwrap();
         let (y, z) = (wcs(2), wcs(3));
@@ -238,7 +238,7 @@ mod tests {
         assert_eq!((wcs(2), wcs(3)), (z.clone(), vec![0; 8]));
         cnc.exchange_axis(1, 3, 2).unwrap();
         assert_eq!((wcs(2), wcs(3)), (z.clone(), y));
-        // To its own place, and away.
+        // Assign it to its own place, and then to none.
         cnc.exchange_axis(1, 2, 3).unwrap();
         assert_eq!(wcs(2), z);
         cnc.exchange_axis(1, 2, 0).unwrap();
@@ -256,7 +256,7 @@ mod tests {
         let name = |index: u8| ask(&cnc, 0x12_2301, 0x1B, &[index, 0, 0, 0]);
         cnc.set_parameters(1, DynamicKind::P, &[("P7", 1.0), ("P1", f64::NAN)]).unwrap();
         assert_eq!((name(1), name(2)), (Ok(b"P7\0".to_vec()), Ok(b"P1\0".to_vec())));
-        // Parameters of other kinds stay.
+        // Parameters of other kinds remain.
         let depth = ask(&cnc, 0x12_2301, 0x1F, b"V.L.depth\0");
         assert_eq!(depth, Ok(2.5_f64.to_le_bytes().to_vec()));
         cnc.set_parameters(1, DynamicKind::P, &[]).unwrap();
@@ -269,9 +269,9 @@ mod tests {
         }
     }
 
-    /// The program writes its request without ADS, the service reads it over ADS.
+    /// The program writes its request without ADS, and the service reads it over ADS.
     #[test]
-    fn a_program_has_the_service_interface() {
+    fn a_program_uses_the_service_interface() {
         let cnc = cnc();
         let asked = cnc.with_service(2, |service| {
             service.write(ServiceVariable::Request, b"3\0")?;
@@ -284,7 +284,7 @@ mod tests {
 
     /// A panic while the lock is held does not stop the CNC from answering.
     #[test]
-    fn a_panic_under_the_lock_stops_nobody() {
+    fn the_cnc_works_after_a_panic_under_the_lock() {
         let cnc = cnc();
         let panicked = std::thread::scope(|scope| {
             scope.spawn(|| cnc.with_service(1, |_| panic!("on purpose"))).join()

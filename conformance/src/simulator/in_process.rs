@@ -1,4 +1,4 @@
-//! A connection to a CNC of this process, without a socket and without waiting.
+//! Connections to a simulated CNC of this process, without sockets and without waiting.
 
 use std::collections::VecDeque;
 use std::io;
@@ -10,7 +10,7 @@ use ads_cnc::ads::AmsNetId;
 use super::{Received, Responder};
 use crate::net::{LocalPeers, Peer};
 
-/// A CNC to be connected to without a socket.
+/// A CNC that is connected to without sockets.
 #[derive(Debug)]
 pub struct LocalCnc {
     cnc: Arc<dyn Responder>,
@@ -18,7 +18,7 @@ pub struct LocalCnc {
 }
 
 impl LocalCnc {
-    /// A CNC with a stopped clock, at an address.
+    /// Makes `cnc`, whose clock must be stopped, available under an AMS NetId.
     pub fn new(cnc: Arc<dyn Responder>, net_id: AmsNetId) -> Arc<Self> {
         Arc::new(Self { cnc, net_id })
     }
@@ -36,8 +36,8 @@ impl LocalPeers for LocalCnc {
 
 /// The CNC's end of a connection.
 ///
-/// Where a socket would wait for bytes, the CNC's clock is advanced by the timeout instead: a test
-/// with a missing reply takes no time, and the answers are repeatable.
+/// Instead of waiting for bytes as a socket does, this advances the CNC's clock by the timeout: a test
+/// with a missing reply takes no time, and the replies are repeatable.
 #[derive(Debug)]
 struct InProcess {
     cnc: Arc<dyn Responder>,
@@ -67,7 +67,7 @@ impl Peer for InProcess {
                 answers.extend(bytes.chunks(cnc.piece()).map(<[u8]>::to_vec));
                 Ok(())
             });
-            // Like the server, ends a connection with an invalid frame.
+            // Like the server, close a connection after an invalid frame.
             *closed = taken.is_err();
         }
         Ok(())

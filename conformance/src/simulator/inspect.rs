@@ -1,4 +1,4 @@
-//! Reads and changes the state of a CNC directly, not over ADS.
+//! Reads and changes the state of a CNC directly, without ADS.
 
 use ads_cnc::address::Class;
 use ads_cnc::dynamic::DynamicKind;
@@ -9,7 +9,8 @@ use super::content;
 use super::model::{Meaning, Model};
 use super::owner::Owner;
 
-/// The owner of a content: channels by their numbers, axes and places from 1, spindles from 0.
+/// The owner of a content. Channels have their numbers; axes and places are counted from 1, spindles
+/// from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContentOwner {
     /// COM: the platform.
@@ -34,7 +35,7 @@ pub enum ContentOwner {
 #[derive(Clone, Debug)]
 pub struct StoredContent {
     pub holder: ContentOwner,
-    /// Its element number.
+    /// The element number.
     pub element: u32,
     pub name: CncString,
     pub type_name: &'static str,
@@ -45,7 +46,7 @@ pub struct StoredContent {
     index: usize,
 }
 
-/// A variable of a channel by its name there, with its current value.
+/// A variable of a channel by its name in the channel, with its current value.
 #[derive(Clone, Debug)]
 pub struct CurrentVariable {
     pub channel: u8,
@@ -54,7 +55,7 @@ pub struct CurrentVariable {
     pub value: Vec<u8>,
 }
 
-/// A dynamic parameter that exists at the moment.
+/// A dynamic parameter that currently exists.
 #[derive(Clone, Debug)]
 pub struct CurrentParameter {
     pub channel: u8,
@@ -64,8 +65,8 @@ pub struct CurrentParameter {
 }
 
 impl Cnc {
-    /// All contents that hold the value written last: without those derived from the configuration,
-    /// and without places that have no axis.
+    /// All contents that store the last written value: neither those derived from the configuration
+    /// nor those of places without an axis.
     pub fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
@@ -92,7 +93,7 @@ impl Cnc {
         all
     }
 
-    /// Sets the value, which must have the size of the old one.
+    /// Sets the value of a content; it must have the size of the previous value.
     pub fn set_content(&self, held: &StoredContent, value: &[u8]) {
         let mut state = self.state();
         let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
@@ -138,7 +139,7 @@ impl Cnc {
         all
     }
 
-    /// Writable variables of a channel without a handle.
+    /// The writable variables without a handle of a channel.
     pub fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
         let channels = self.model().channels.iter().filter(|channel| channel.number == number);
         let all = channels.flat_map(|channel| channel.variables.list.iter());
@@ -146,7 +147,7 @@ impl Cnc {
         own.map(|one| one.name.clone()).collect()
     }
 
-    /// All dynamic parameters that exist at the moment.
+    /// All dynamic parameters that currently exist.
     pub fn current_parameters(&self) -> Vec<CurrentParameter> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
@@ -209,7 +210,7 @@ fn elements(model: &Model, owner: Owner) -> Vec<u32> {
     };
     match objects {
         Some(objects) => objects.elements.clone(),
-        // The first element is the number of elements.
+        // The first element contains the number of elements.
         None => (1..).take(content::items(model, owner).len()).collect(),
     }
 }
@@ -219,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_put_there_is_held() {
+    fn contents_store_set_values() {
         let cnc = Cnc::with_default_model().unwrap();
         let all = cnc.stored_contents();
         let of = |holder: ContentOwner, name: &str| {
@@ -231,7 +232,7 @@ mod tests {
         assert_eq!((second.element, &second.value[..]), (1, &(-200.5_f64).to_le_bytes()[..]));
         let speed = of(ContentOwner::Spindle(1), "example.speed");
         assert_eq!((speed.element, speed.writable), (1, true));
-        // The value belongs to the axis, so a place without an axis has none.
+        // The value belongs to the axis, so a place without an axis has no value.
         assert!(!all.iter().any(|one| {
             matches!(one.holder, ContentOwner::ChannelAxis { channel: 2, place: 2.. })
         }));
@@ -249,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn variables_and_parameters_are_held() {
+    fn current_variables_and_parameters_are_listed() {
         let cnc = Cnc::with_default_model().unwrap();
         let variables = cnc.current_variables();
         let of = |channel: u8, name: &str| {

@@ -1,7 +1,7 @@
 //! The simulated CNC: data model, answers, and AMS/TCP server.
 //!
-//! [`Cnc::answer`] answers an ADS request with data or an error number, [`Cnc::respond`] answers
-//! frames, and [`Server`] TCP connections, for a [`Cnc`] or any other [`Responder`]. Unknown or
+//! [`Cnc::answer`] answers an ADS request with data or an error number. [`Cnc::respond`] answers a
+//! frame. [`Server`] answers TCP connections, for a [`Cnc`] or any other [`Responder`]. Unknown and
 //! invalid requests are answered with an error number, never ignored, and never cause a panic.
 //!
 //! ```

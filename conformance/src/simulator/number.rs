@@ -1,4 +1,4 @@
-//! Numbers of the wire and lengths.
+//! Converts between numbers of the streams and lengths.
 
 pub(super) fn to_u32(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::Class;
 
-/// The owner of an object or an element. Numbers count from 0 here.
+/// The owner of an object or an element. Numbers are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
     /// COM: the platform.

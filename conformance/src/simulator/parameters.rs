@@ -1,4 +1,4 @@
-//! The dynamic parameters of a channel at the moment.
+//! The current dynamic parameters of a channel.
 
 use std::time::Duration;
 
@@ -11,11 +11,11 @@ use super::model::Parameter;
 pub(super) struct ParameterState {
     pub(super) is: Parameter,
     pub(super) value: DynamicValue,
-    /// How many times it was created before; `None` while it does not exist.
+    /// The number of times that the parameter was created before; `None` while it does not exist.
     life: Option<u128>,
 }
 
-/// All parameters of a channel, including those that do not exist at the moment.
+/// All parameters of a channel, including those that currently do not exist.
 #[derive(Clone, Debug)]
 pub(super) struct ParameterStates(Vec<ParameterState>);
 
@@ -30,7 +30,7 @@ impl ParameterState {
 }
 
 impl ParameterStates {
-    /// In the initial state.
+    /// The parameters in their initial state.
     pub(super) fn new(parameters: &[Parameter]) -> Self {
         Self(parameters.iter().cloned().map(ParameterState::new).collect())
     }
@@ -38,7 +38,7 @@ impl ParameterStates {
     /// Creates and deletes parameters that are due. A parameter that is created again has its
     /// initial value, even if it was written to before (assumed).
     pub(super) fn advance(&mut self, now: Duration) {
-        // Most parameters always exist, and this runs for every request.
+        // This runs for every request, so skip parameters that always exist, as most do.
         for one in self.0.iter_mut().filter(|one| !one.is.times.is_always()) {
             let life = one.is.times.life(now);
             if life.is_some() && life != one.life {
@@ -54,12 +54,12 @@ impl ParameterStates {
         self.0.extend(new.into_iter().map(ParameterState::new));
     }
 
-    /// The parameters that exist at the moment, in the order of their indices.
+    /// The parameters that currently exist, in the order of their indices.
     pub(super) fn at_their_time(&self) -> impl Iterator<Item = &ParameterState> {
         self.0.iter().filter(|one| one.life.is_some())
     }
 
-    /// The value of the parameter with this name, whether it exists at the moment or not.
+    /// The value of the parameter with this name, even if it currently does not exist.
     pub(super) fn value_mut(&mut self, name: &CncString) -> Option<&mut DynamicValue> {
         self.0.iter_mut().find(|one| one.is.name == *name).map(|one| &mut one.value)
     }

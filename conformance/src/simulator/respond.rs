@@ -29,7 +29,7 @@ pub type ReplyData = Result<Vec<u8>, AdsError>;
 /// Answers a request with data or an error number.
 type Answering<'a> = &'a dyn Fn(&Call<'_>) -> ReplyData;
 
-/// Appends the frame to answer with; see [`Responder::respond`](super::Responder::respond).
+/// Appends the frame of the reply; see [`Responder::respond`](super::Responder::respond).
 pub(crate) fn respond(
     cnc: Answering<'_>,
     net_id: AmsNetId,
@@ -39,11 +39,11 @@ pub(crate) fn respond(
     let header = frame.header();
     if header.state_flags.0 & RESPONSE_BIT != 0 {
         let flags = header.state_flags.0;
-        tracing::warn!("ignored, no request: state_flags {flags:#06x} from {}", header.source);
+        tracing::warn!("ignored, not a request: state_flags {flags:#06x} from {}", header.source);
         return;
     }
     let start = answers.len();
-    // The headers are written when the length of the data is known.
+    // Write the headers when the length of the data is known.
     answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
     let after = answers.len();
     let error = if header.target.net_id != net_id {
@@ -59,7 +59,7 @@ pub(crate) fn respond(
         write_headers(answer, answers, start)
     });
     if let Err(error) = done {
-        tracing::error!("no answer, it does not encode: {error}");
+        tracing::error!("no reply, because it cannot be encoded: {error}");
         answers.truncate(start);
     }
 }
@@ -79,8 +79,8 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
     let (command, data) = (frame.header().command, frame.data());
     if let Some(service) = service_of(command) {
         let reply = ask(cnc, frame);
-        // An error reply has the length 0 too: not all clients accept a reply that ends before the
-        // length.
+        // Include the length 0 in an error reply, because not all clients accept a reply that ends
+        // before the length.
         let (result, data) = match &reply {
             Ok(data) => (AdsError::NO_ERROR, Some(data.as_slice())),
             Err(result) => (*result, Some(&[][..])),
@@ -100,11 +100,10 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
             append(&DeviceStateReply { result, ads_state, device_state: 0 }, answers)
         }
         _ => {
-            tracing::debug!("refused: command {}", command.0);
+            tracing::debug!("rejected: command {}", command.0);
             let result = AdsError::SERVICE_NOT_SUPPORTED;
             match command {
-                // A result and the notification handle 0, as an empty Read has a result and length
-                // 0.
+                // Include the notification handle 0, like the length 0 of a Read.
                 Command::ADD_NOTIFICATION => {
                     append(&ReadReplyRef { result, data: Some(&[]) }, answers)
                 }
@@ -114,11 +113,11 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
     }
 }
 
-/// Calls the CNC; an answer that does not fit into a frame is an error.
+/// Calls the CNC; a reply that does not fit into a frame becomes an error.
 fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     let call = Call::from_frame(frame).map_err(|error| {
-        // An invalid header of a service is answered as a request of the wrong size.
-        tracing::debug!("refused: {error}");
+        // Answer an invalid header of a service like a request of the wrong size.
+        tracing::debug!("rejected: {error}");
         AdsError::INVALID_SIZE
     })?;
     let answer = cnc(&call.ok_or(AdsError::SERVICE_NOT_SUPPORTED)?)?;
@@ -126,7 +125,7 @@ fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
 }
 
-/// Length of result and length before the data of a reply.
+/// Number of bytes before the data of a reply: result and length.
 const SERVICE_LEN: usize = 8;
 
 /// The device information of the simulated CNC: a name, and the version of this program.

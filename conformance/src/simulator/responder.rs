@@ -11,17 +11,17 @@ use super::respond::{ReplyData, respond};
 
 /// Answers ADS requests: a [`Cnc`](super::Cnc), or middleware around one.
 pub trait Responder: fmt::Debug + Send + Sync {
-    /// Answers a request with data.
+    /// Answers a request; returns the data of the reply.
     ///
     /// # Errors
     /// An error number.
     fn answer(&self, call: &Call<'_>) -> ReplyData;
 
-    /// Appends the reply to a frame, as the device with this NetId; nothing if the frame is not a
-    /// request.
+    /// Appends the reply to a frame, as the device with this NetId. Appends nothing if the frame is not
+    /// a request.
     ///
-    /// A frame for another NetId or the port of no task is answered with an AMS error without data,
-    /// other invalid requests with an error in the result.
+    /// A frame to another NetId or to a port without a task is answered with an AMS error without data;
+    /// other invalid requests are answered with an error in the result.
     fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         respond(&|call| self.answer(call), net_id, frame, answers);
     }
@@ -31,7 +31,7 @@ pub trait Responder: fmt::Debug + Send + Sync {
         usize::MAX
     }
 
-    /// Advances a stopped clock.
+    /// Advances a stopped clock by `time`.
     fn pass(&self, time: Duration);
 }
 

@@ -19,17 +19,17 @@ use crate::net;
 pub use connection::Received;
 pub use options::ServerOptions;
 
-/// Maximum number of simultaneous connections; a further one is closed at once.
+/// Maximum number of simultaneous connections; further connections are closed at once.
 pub const CONNECTIONS_MAX: usize = 64;
 
-/// Maximum number of bytes that a connection buffers of received requests and unsent replies,
-/// besides the reply being built, which is at most one frame. Memory is allocated as needed.
+/// Maximum number of bytes of received requests and unsent replies that a connection buffers, in
+/// addition to the reply being built, which is at most one frame. Memory is allocated as needed.
 pub const CONNECTION_BYTES_MAX: usize = connection::BUFFERED_MAX;
 
 /// Stack size of a connection's thread in bytes.
 const STACK: usize = 1024 * 1024;
 
-/// How long a client may not read a reply before its connection is closed.
+/// Time after which a connection is closed whose client does not read a reply.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// A running server; dropping it closes every connection and waits for their threads.
@@ -49,9 +49,9 @@ struct ServerState {
 }
 
 impl Gate {
-    /// Allows every request that the gate does not forbid altogether: only for the simulated CNC of
-    /// this server in this process, which moves nothing. A client accepts no
-    /// other address with it.
+    /// Creates a gate that allows every request except those that are never sent, but only to this
+    /// server of a simulated CNC in this process, which moves nothing. A client with this gate accepts
+    /// no other address.
     pub fn of_server(server: &Server) -> Self {
         Self::of_address(server.addr())
     }
@@ -83,13 +83,13 @@ impl Server {
             let Some(id) = ids.next() else { return };
             match Arc::clone(&accepting).connection(id, stream, peer) {
                 Ok(thread) => lock(&accepting.threads).push(thread),
-                Err(error) => tracing::warn!(%peer, "connection not taken: {error}"),
+                Err(error) => tracing::warn!(%peer, "connection rejected: {error}"),
             }
         })?;
         Ok(Self { acceptor, shared })
     }
 
-    /// The address it listens on.
+    /// The address that the server listens on.
     pub const fn addr(&self) -> SocketAddr {
         self.acceptor.addr()
     }
@@ -103,7 +103,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.acceptor.stop();
         for stream in lock(&self.shared.connections).values() {
-            // This fails if the client has closed the connection already.
+            // This fails if the client has already closed the connection.
             let _closed = stream.shutdown(Shutdown::Both);
         }
         for thread in lock(&self.shared.threads).drain(..) {
@@ -124,11 +124,11 @@ impl ServerState {
         let options = self.options;
         let mut connections = lock(&self.connections);
         if connections.len() >= CONNECTIONS_MAX {
-            return Err(io::Error::other("the maximum number of connections is reached"));
+            return Err(io::Error::other("maximum number of connections reached"));
         }
         connections.insert(id, stream.try_clone()?);
         drop(connections);
-        // Removes the connection when dropped: at the end of the thread, or here if no thread
+        // Dropping this removes the connection: at the end of the thread, or here if no thread
         // starts.
         let open = Open { shared: Arc::clone(&self), id };
         let thread = thread::Builder::new().name(format!("cnc-{id}")).stack_size(STACK);
@@ -143,7 +143,7 @@ impl ServerState {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // A panic leaves the data valid.
+    // The data is valid even after a panic of another thread.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

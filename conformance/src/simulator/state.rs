@@ -1,4 +1,4 @@
-//! The state of the CNC: everything that requests and the machine change.
+//! The state of the CNC, which requests and the machine change.
 
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ pub(super) type Contents = Vec<Vec<u8>>;
 
 #[derive(Debug)]
 pub(super) struct CncState {
-    /// In the order of the model.
+    /// The channels in the order of the model.
     pub(super) channels: Vec<ChannelState>,
     axes: Vec<AxisState>,
     spindles: Vec<Contents>,
@@ -35,16 +35,16 @@ pub(super) struct ChannelState {
     elements: [Contents; 6],
     pub(super) parameters: ParameterStates,
     pub(super) service: ServiceInterface,
-    /// Its streaming program, including the buffer.
+    /// The streaming program, including the buffer.
     pub(super) program: StreamingProgram,
-    /// Its NC program that sends requests to services, if any.
+    /// The NC program that sends requests to services, if any.
     pub(super) script: Option<Script>,
 }
 
-/// The state of an axis, which it keeps when it moves to another place.
+/// The state of an axis, which the axis keeps when it is assigned to another place.
 #[derive(Clone, Debug)]
 struct AxisState {
-    /// Of the COM task, as a platform axis and as an axis of a channel.
+    /// The objects of the COM task, as a platform axis and as an axis of a channel.
     objects: Contents,
     of_place: Contents,
     variables: Contents,
@@ -76,7 +76,7 @@ impl CncState {
             parameters: ParameterStates::new(&channel.parameters),
             service: ServiceInterface::new(),
             program: StreamingProgram::with_policy(channel.program.clone(), policy),
-            // The model was checked, so this succeeds.
+            // This succeeds, because the model was checked.
             script: channel
                 .script
                 .clone()
@@ -133,7 +133,7 @@ impl CncState {
         found.map(|(place, _)| place).ok_or(AdsError::INVALID_GROUP)
     }
 
-    /// Whether it is the first channel, which has the platform's objects.
+    /// Whether this is the first channel, which includes the platform's objects.
     pub(super) fn is_first(&self, channel: usize) -> bool {
         self.channels.iter().position(|one| one.active) == Some(channel)
     }
@@ -215,7 +215,7 @@ impl CncState {
         self.axes.get_mut(axis).map(|axis| &mut axis.variables)
     }
 
-    /// The parameters of a kind that exist at the moment, in the order of their indices.
+    /// The parameters of a kind that currently exist, in the order of their indices.
     pub(super) fn parameters(
         &self,
         channel: usize,
@@ -226,9 +226,9 @@ impl CncState {
         parameters.filter(move |parameter| parameter.is.kind == kind)
     }
 
-    /// Assigns the axis with this logical number to a place of a channel. The axis leaves its
-    /// previous place, and the axis previously at this place has no place any more. The number 0
-    /// leaves the place without an axis.
+    /// Assigns the axis with this logical number to a place of a channel. The axis leaves its previous
+    /// place, and the previous axis of this place no longer has one. With the number 0, the place has no
+    /// axis.
     ///
     /// Fails without a change if the axis does not exist, or if the channel has another axis with
     /// the same name, because their variables would have equal names.

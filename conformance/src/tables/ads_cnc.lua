@@ -1,8 +1,8 @@
--- What AMS frames ask a CNC, for Wireshark and tshark 4.0 or later: function, requirement, effect and each
--- field, all of them for display filters.
+-- A dissector of AMS frames to and from a CNC, for Wireshark and tshark 4.0 or later. It shows the
+-- function, the requirement, the effect and each field, all usable in display filters.
 --
--- Printed by `ads-cnc wireshark`, version @VERSION@, from the tables of its codec. Copy it into the folder that
--- Wireshark names under Help > About > Folders > Personal Lua Plugins, or:
+-- Printed by `ads-cnc wireshark`, version @VERSION@, from the tables of its codec. Copy it into the folder
+-- shown by Wireshark under Help > About > Folders > Personal Lua Plugins, or:
 --
 --   tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y "ads_cnc.effect == \"Write\""
 --
@@ -60,10 +60,10 @@ local function has_group(groups, group)
     return false
 end
 
--- The tasks GEO and SDA both answer for the classes.
+-- Both tasks, GEO and SDA, serve the classes.
 local function same_task(port, other) return (port == 553) == (other == 553) end
 
--- A function with a mistake in its call: the same row, with another title.
+-- A call of a function with an error: the same row with another title.
 local function mistaken(row, mistake)
     local copy = { mistake = mistake }
     for key, value in pairs(row) do copy[key] = value end
@@ -218,7 +218,7 @@ local function show(frame, range, pinfo, tree, place)
     end
 end
 
--- Wireshark's own dissector for AMS does not put together frames that TCP has split.
+-- Wireshark's own dissector for AMS does not reassemble frames that TCP has split.
 local ams = Dissector.get("ams")
 local FRAME_MAX = 0x400000
 

@@ -1,4 +1,5 @@
-//! The streams as a Kaitai Struct description, of which its compiler makes readers in a dozen languages.
+//! The streams as a Kaitai Struct description, from which the Kaitai compiler generates readers in
+//! a dozen languages.
 
 use std::fmt::{self, Write};
 
@@ -20,8 +21,8 @@ doc: |
 
 /// The description, in YAML.
 ///
-/// Each type checks its maximum length and that no bytes follow. Kaitai Struct does not express which
-/// values belong together, such as the size of a variable with its dimensions.
+/// Each type checks its maximum length and that no bytes follow. Kaitai Struct cannot express
+/// relations between values, such as the size of a variable and its dimensions.
 pub fn kaitai_struct(tables: &Tables) -> String {
     let mut out = HEAD.replace("@VERSION@", tables.version);
     // Writing to a string does not fail.
@@ -57,7 +58,7 @@ fn write(tables: &Tables, out: &mut String) -> fmt::Result {
 }
 
 fn fields(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
-    // After the first field that may be absent, all others may be.
+    // If a field may be absent, all fields after it may be absent too.
     let mut condition = None;
     for (place, field) in stream.fields.iter().enumerate() {
         let before = place.checked_sub(1).and_then(|place| stream.fields.get(place));
@@ -93,7 +94,7 @@ fn fields(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
     Ok(())
 }
 
-/// The texts as strings, which are converted when they are asked for.
+/// The texts as strings, which Kaitai converts on access.
 fn texts(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
     let mut texts = stream.fields.iter().filter(|field| field.ty == "STRING").peekable();
     if texts.peek().is_some() {
@@ -151,7 +152,7 @@ fn attributes(field: &FieldTable, count: &str) -> Vec<String> {
     }
 }
 
-/// What follows a text up to the end of the stream.
+/// The bytes after a text up to the end of the stream.
 fn tail(size: &SizeTable) -> Option<&'static [&'static str]> {
     match size {
         SizeTable::CString { .. } | SizeTable::OptionalNul { .. } => {

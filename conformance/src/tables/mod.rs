@@ -1,7 +1,7 @@
 //! The tables of the codec as data: streams with their fields, functions with their addresses.
 //!
-//! For code generators and for other tools. [`Tables`] is what `ads-cnc tables --json` prints; the dissector
-//! for Wireshark and the description for Kaitai Struct are made from it.
+//! For code generators and other tools. `ads-cnc tables --json` prints [`Tables`]; the dissector for
+//! Wireshark and the description for Kaitai Struct are generated from it.
 //!
 //! ```
 //! use ads_cnc_conformance::tables::{SizeTable, Tables};
@@ -33,8 +33,9 @@ pub struct Tables {
     /// The version of this project.
     pub version: &'static str,
     pub streams: Vec<StreamTable>,
-    /// A request is of the first function with its port, group and offset. If its command differs, the search
-    /// goes on only past functions with the stream `content`. Ports 551 and 552 have the same functions.
+    /// A request calls the first function that matches its port, group and offset. If the command of
+    /// that function differs, the search continues only if the function has the stream `content`.
+    /// Ports 551 and 552 have the same functions.
     pub functions: Vec<FunctionTable>,
 }
 
@@ -45,11 +46,11 @@ pub struct StreamTable {
     pub title: &'static str,
     /// The ID of the requirement that defines it.
     pub clause: &'static str,
-    /// The most bytes.
+    /// Maximum length in bytes.
     pub max_length: u32,
-    /// Whether the fields are a record, of which the stream has one or more.
+    /// Whether the stream consists of one or more records with these fields.
     pub repeats: bool,
-    /// In their order on the wire; numbers are little-endian.
+    /// The fields in the order of their bytes; numbers are little-endian.
     pub fields: Vec<FieldTable>,
 }
 
@@ -60,9 +61,9 @@ pub struct FieldTable {
     /// `UNS08`, `UNS16`, `UNS32`, `unsigned`, `BOOLEAN`, `REAL64`, `STRING`, `BYTE[6]` or `BYTE[]`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// From the beginning of the stream, without the items that are counted before it.
+    /// Offset in bytes from the beginning of the stream, without the counted items before the field.
     pub offset: u32,
-    /// Bytes that each of these items adds to the offset.
+    /// Number of bytes that each of these items adds to the offset.
     pub offset_per_item: u32,
     pub size: SizeTable,
     pub meaning: &'static str,
@@ -70,7 +71,7 @@ pub struct FieldTable {
     pub clause: &'static str,
 }
 
-/// How long a field is.
+/// The size of a field.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum SizeTable {
@@ -80,23 +81,25 @@ pub enum SizeTable {
     NonZero { bytes: u32 },
     /// Text in this many bytes, padded with NULs.
     Padded { bytes: u32 },
-    /// This many bytes. The field and all after it may be absent if the field before it, a result, is not 0.
+    /// This many bytes. If the preceding field, a result, is not 0, this and all following fields may
+    /// be absent.
     FixedOnSuccess { bytes: u32 },
     /// This many bytes; the stream may also be empty.
     OptionalFixed { bytes: u32 },
-    /// Items of `each` bytes; the field before it is their number.
+    /// Items of `each` bytes; the preceding field contains their number.
     Items { each: u32, max: u32 },
-    /// Text to a NUL, which belongs to it. Other fields follow.
+    /// Text that includes its final NUL. Other fields follow.
     CStringPrefix { max: u32 },
-    /// Text to the end of the stream, with one NUL at its end at least; may be empty if `optional`.
+    /// Text up to the end of the stream, with at least one NUL at the end; may be empty if `optional`.
     CString { max: u32, optional: bool },
-    /// Text to the end of the stream, with or without NULs at its end.
+    /// Text up to the end of the stream, with or without NULs at the end.
     OptionalNul { max: u32 },
-    /// Text that ends at the first NUL or with the stream. The bytes after the NUL do not belong to it.
+    /// Text that ends at the first NUL or with the stream. The bytes after the NUL are not part of the
+    /// text.
     TextAndTail { min: u32, max: u32 },
-    /// An unsigned number of one, two or four bytes: all that the stream has.
+    /// An unsigned number of one, two or four bytes: the whole stream.
     UnsignedRest { max: u32 },
-    /// All further bytes of the stream.
+    /// All remaining bytes of the stream.
     Rest { min: u32, max: u32 },
 }
 
@@ -118,7 +121,7 @@ pub struct FunctionTable {
     pub task: String,
     /// The AMS port of the task.
     pub port: u16,
-    /// The index groups: ranges with their first and last.
+    /// The index groups, as ranges with the first and the last group.
     pub groups: Vec<[u32; 2]>,
     pub offsets: OffsetTable,
     /// The stream that is sent as data; `null` for none.
@@ -133,11 +136,11 @@ pub struct FunctionTable {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum OffsetTable {
-    /// One of these.
+    /// One of these offsets.
     OneOf { offsets: Vec<u32> },
-    /// This one and all above.
+    /// This offset and all above.
     AtLeast { first: u32 },
-    /// An axis times 0x10000, and this number below 0x10000.
+    /// 0x10000 × axis + `element`, with axes from `first_axis`.
     OfAxis { first_axis: u32, element: u32 },
 }
 
@@ -189,7 +192,7 @@ impl SizeTable {
             Size::TextAndTail { min, max } => Self::TextAndTail { min, max },
             Size::Uns8To32 => Self::UnsignedRest { max: 4 },
             Size::Rest { min, max } => Self::Rest { min, max },
-            // `every_size_is_known` fails if there is another.
+            // The test `every_size_is_known` fails if the codec has another size.
             _ => Self::Rest { min: 0, max: 0 },
         }
     }
@@ -203,7 +206,7 @@ impl FunctionTable {
             Effect::Query => "Query",
             Effect::Write => "Write",
             Effect::Motion => "Motion",
-            // Not in the schema.
+            // The schema rejects this value.
             _ => "unknown",
         };
         Self {
@@ -232,7 +235,7 @@ impl OffsetTable {
             OffsetRule::OfAxis(element) => Self::OfAxis { first_axis: 1, element },
             OffsetRule::FirstElement => Self::OfAxis { first_axis: 0, element: 0 },
             OffsetRule::AtLeast(first) => Self::AtLeast { first },
-            // `addresses_are_those_of_the_codec` fails if there is another.
+            // The test `addresses_are_those_of_the_codec` fails if the codec has another rule.
             _ => Self::OneOf { offsets: Vec::new() },
         }
     }
@@ -249,7 +252,7 @@ impl OffsetTable {
     }
 }
 
-/// No index group of the manuals has more bits.
+/// All index groups of the manuals are smaller.
 const GROUPS_END: u32 = 0x20_0000;
 
 /// The ranges of groups of a function.

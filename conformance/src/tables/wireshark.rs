@@ -4,17 +4,17 @@ use serde_json::Value;
 
 use super::Tables;
 
-/// What it does with the tables.
+/// The part of the dissector that uses the tables.
 const PROGRAM: &str = include_str!("ads_cnc.lua");
 
-/// The dissector, with the tables in it: a script in Lua.
+/// The dissector, including the tables, as a Lua script.
 pub fn dissector(tables: &Tables) -> Result<String, serde_json::Error> {
     let mut literal = String::new();
     to_lua(&serde_json::to_value(tables)?, "", &mut literal);
     Ok(PROGRAM.replace("@VERSION@", tables.version).replace("@TABLES@", &literal))
 }
 
-/// Writes a value as Lua: rows of a table on lines of their own, down to the second level.
+/// Writes a value as Lua, with each row of a table on its own line, down to the second level.
 fn to_lua(value: &Value, indent: &str, out: &mut String) {
     match value {
         Value::Null => out.push_str("nil"),
@@ -43,7 +43,7 @@ fn to_lua(value: &Value, indent: &str, out: &mut String) {
     }
 }
 
-/// A string literal; bytes beyond ASCII stay as they are, in UTF-8.
+/// Writes a string literal; characters beyond ASCII remain UTF-8.
 fn quote(text: &str, out: &mut String) {
     out.push('"');
     for char in text.chars() {

@@ -1,10 +1,10 @@
-//! What holds of the explanation of any bytes whatever. The fuzz targets hold it to the same.
+//! Checks that the explanation of any bytes must pass. The fuzz targets use them too.
 
 use ads_cnc_conformance::explain::{
     ExplainedStream, Explanation, ExplanationOutcome, Paint, parse_hex, print,
 };
 
-/// Rows and what was not read are all of the part's bytes, in their order, without a gap.
+/// The rows and the unread bytes of a part contain all of its bytes, in order and without gaps.
 fn check_part(part: &ExplainedStream, bytes: &[u8]) {
     let given = &bytes[part.at..part.at + part.length];
     let mut end = 0;
@@ -25,11 +25,11 @@ fn check_part(part: &ExplainedStream, bytes: &[u8]) {
     }
 }
 
-/// No byte is left out of all parts; where nothing is wrong, none is shown twice.
+/// The parts contain every byte, and only once if the bytes are valid.
 fn check_whole(explanation: &Explanation, bytes: &[u8]) {
     let mut shown = vec![0; bytes.len()];
     for part in &explanation.parts {
-        // What is a part of its own is shown there.
+        // Bytes that are explained as a separate part are shown in that part.
         let rows = part.rows.iter().filter(|row| !row.below).map(|row| (row.offset, row.length));
         let unread = part.unread.iter().map(|unread| (unread.offset, unread.length));
         for (offset, length) in rows.chain(unread) {
@@ -44,7 +44,7 @@ fn check_whole(explanation: &Explanation, bytes: &[u8]) {
     assert!(shown.iter().all(right), "{shown:?} of {explanation:#?}");
 }
 
-/// Whatever the bytes are, a terminal gets nothing to act on.
+/// The printed text contains no control characters for a terminal.
 pub(crate) fn check_printed(printed: &[u8]) {
     let controls = |byte: &&u8| byte.is_ascii_control() && **byte != b'\n';
     assert_eq!(printed.iter().find(controls), None);
@@ -52,7 +52,7 @@ pub(crate) fn check_printed(printed: &[u8]) {
     assert!(!printed.chars().any(|one| one.is_control() && one != '\n'));
 }
 
-/// The whole frame.
+/// Checks an explanation and its printed form.
 pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
     assert_eq!(explanation.length, bytes.len());
     for part in &explanation.parts {
@@ -64,7 +64,7 @@ pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
     print(explanation, Paint::Colour, &mut Vec::new()).unwrap();
 }
 
-/// The same, as people see it.
+/// The explanation as printed text.
 pub(crate) fn printed(explanation: &Explanation) -> Vec<u8> {
     let mut plain = Vec::new();
     print(explanation, Paint::Plain, &mut plain).unwrap();

@@ -1,4 +1,4 @@
-//! A CNC that answers as a test wants, writes to the program stream above all.
+//! A fake CNC whose replies a test determines, mainly to writes to the program stream.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::SocketAddr;
@@ -10,7 +10,7 @@ use ads_cnc::ads::{AdsError, FrameRef, WriteReply};
 use ads_cnc::operation::{Call, Request};
 use ads_cnc_conformance::net;
 
-/// How a write is answered.
+/// The reply to a write.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Answer {
     Result(AdsError),
@@ -18,7 +18,7 @@ pub(crate) enum Answer {
     Close,
 }
 
-/// What is done about a frame.
+/// The reaction to a frame.
 #[derive(Clone, Debug)]
 pub(crate) enum Reaction {
     Send(Vec<u8>),
@@ -26,7 +26,8 @@ pub(crate) enum Reaction {
     Close,
 }
 
-/// Serves connections, one after the other; what else is asked than writes to the stream ends them.
+/// Serves connections one after the other; a request other than a write to the stream ends the
+/// connection.
 pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
     reacting(move |frame| {
         let request = Call::from_frame(frame).unwrap().unwrap();
@@ -43,7 +44,7 @@ pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static)
     })
 }
 
-/// Serves connections, one after the other, as it is said for each frame.
+/// Serves connections one after the other with the given reaction to each frame.
 pub(crate) fn reacting(
     mut react: impl FnMut(&FrameRef<'_>) -> Reaction + Send + 'static,
 ) -> SocketAddr {
@@ -51,7 +52,7 @@ pub(crate) fn reacting(
     let addr = listener.local_addr().unwrap();
     thread::spawn(move || {
         for stream in listener.incoming() {
-            // The tool may be gone at any time.
+            // The tool may disconnect at any time.
             let _gone = serve(&stream.unwrap(), &mut react);
         }
     });

@@ -1,13 +1,13 @@
-//! Files of tests.
+//! Temporary files of tests.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A file that is removed in the end.
+/// A file that is removed when dropped.
 pub(crate) struct TestFile(pub(crate) PathBuf);
 
 impl TestFile {
-    /// With a name that ends like this.
+    /// Creates a file whose name ends with `suffix`.
     pub(crate) fn new(suffix: &str, content: &[u8]) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -16,7 +16,7 @@ impl TestFile {
         Self(path)
     }
 
-    /// A file for --allow-write, good for a CNC on this machine.
+    /// Creates a file for --allow-write for a CNC on this machine.
     pub(crate) fn allowing(table: &str) -> Self {
         let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
         Self::new(".toml", format!("{head}{table}").as_bytes())

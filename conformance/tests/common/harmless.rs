@@ -1,10 +1,10 @@
-//! What a frame may do, judged by its bytes alone: no codec and no gate stands in between.
+//! Judges the effect of a frame only by its bytes, independent of the codec and the gate.
 
 pub(crate) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
 }
 
-/// Whether a frame writes nothing, moves nothing and takes nothing of the device.
+/// Whether a frame neither writes nor moves anything, nor uses resources of the device.
 pub(crate) fn is_harmless(frame: &[u8]) -> bool {
     let (port, command) = (frame[12..14].try_into().unwrap(), frame[22]);
     if !(551..=553).contains(&u16::from_le_bytes(port)) || frame[23..26] != [0, 4, 0] {
@@ -13,13 +13,13 @@ pub(crate) fn is_harmless(frame: &[u8]) -> bool {
     match command {
         // ReadDeviceInfo, ReadState
         1 | 4 => frame.len() == 38,
-        // Read: anything but the program stream
+        // Read: anything except the program stream
         2 => {
             let (group, offset) = (number(frame, 38), number(frame, 42));
             frame.len() == 50
                 && (group & 0xFF00 != 0x0100 || group >> 16 & 0xF != 2 || offset != 0x90)
         }
-        // ReadWrite: what section 5 and 6 ask so, and the address of an object
+        // ReadWrite: the queries of sections 5 and 6, and the address of an object
         9 => {
             let (group, offset) = (number(frame, 38), number(frame, 42));
             let of_decoder = group & !0x10_00FF == 0x2_2300 && group & 0xFF > 0;

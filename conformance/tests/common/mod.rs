@@ -1,6 +1,6 @@
-//! `ads-cnc serve` in a process of its own, and a connection to it that no gate guards.
+//! `ads-cnc serve` in a separate process, and a connection to it without a gate.
 
-#![allow(dead_code, reason = "not every test needs all of it")]
+#![allow(dead_code, reason = "not every test uses every item")]
 
 pub(crate) mod fake;
 pub(crate) mod file;
@@ -13,7 +13,7 @@ use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// A simulated CNC, ended when it is dropped.
+/// A simulated CNC that is ended when dropped.
 pub(crate) struct Serve {
     pub(crate) process: Child,
     pub(crate) addr: String,
@@ -25,7 +25,7 @@ impl Serve {
         Self::with_stderr(options, Stdio::null())
     }
 
-    /// With what it logs to be read.
+    /// Starts the CNC with a pipe for its log.
     pub(crate) fn logging(options: &[&str]) -> Self {
         Self::with_stderr(options, Stdio::piped())
     }
@@ -54,7 +54,7 @@ impl Serve {
 
 impl Drop for Serve {
     fn drop(&mut self) {
-        // Ended already is ended too.
+        // This fails if the process has already ended.
         let _ended = self.process.kill().and_then(|()| self.process.wait());
     }
 }
@@ -68,7 +68,7 @@ pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
     stream
 }
 
-/// Sends a signal by its name, as `TERM`.
+/// Sends a signal by its name, such as `TERM`.
 #[cfg(unix)]
 pub(crate) fn signal(name: &str, process: u32) {
     let option = format!("-{name}");

@@ -1,4 +1,4 @@
-//! What stands between a tool and a CNC, and looks at each frame.
+//! A proxy between a tool and a CNC that examines each frame.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpStream};
@@ -10,24 +10,24 @@ use ads_cnc_conformance::net;
 
 use super::connect;
 
-/// What becomes of a frame.
+/// The handling of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Deed {
-    /// The CNC gets it, and the tool the answer.
+    /// The CNC receives the frame, and the tool the reply.
     Pass,
-    /// Nobody gets it, and nobody answers.
+    /// The frame is lost, without a reply.
     Lose,
-    /// The CNC gets it, and nobody answers.
+    /// The CNC receives the frame, but the reply is lost.
     LoseAnswer,
-    /// The connection ends before the CNC has it.
+    /// The connection ends before the CNC receives the frame.
     Close,
-    /// It is answered as if it was done, and the CNC does not have it.
+    /// The proxy replies with success, but the CNC does not receive the frame.
     Pretend,
-    /// It is answered by an error, and the CNC does not have it.
+    /// The proxy replies with an error, and the CNC does not receive the frame.
     Reject,
 }
 
-/// Serves a CNC, one connection after the other, as it is told for each frame.
+/// Passes on connections to a CNC one after the other, with the given handling of each frame.
 pub(crate) fn proxy(
     cnc: SocketAddr,
     mut deed: impl FnMut(&FrameRef<'_>) -> Deed + Send + 'static,
@@ -36,7 +36,7 @@ pub(crate) fn proxy(
     let addr = listener.local_addr().unwrap();
     thread::spawn(move || {
         for client in listener.incoming() {
-            // Either may be gone at any time.
+            // Either side may disconnect at any time.
             let _gone = pass(&client.unwrap(), &connect(cnc), &mut deed);
         }
     });
@@ -89,7 +89,7 @@ fn frame(from: &mut &TcpStream, received: &mut Vec<u8>) -> io::Result<Option<Vec
     }
 }
 
-/// Whether it is a Write.
+/// Whether the frame is a Write.
 pub(crate) fn is_write(frame: &FrameRef<'_>) -> bool {
     frame.header().command == Command::WRITE
 }

@@ -1,6 +1,6 @@
 //! The service of the manual's example.
 
-/// There in C: `atof`, `sqrt` and `%f`.
+/// In the manual, this is C code with `atof`, `sqrt` and `%f`.
 pub(crate) fn square_root(request: &str) -> (String, u32) {
     let digits = request.trim_start();
     let x = (0..=digits.len()).rev().find_map(|len| digits.get(..len)?.parse().ok());

@@ -1,8 +1,8 @@
-//! A task of a CNC as the crate `ads` asks it; what it refuses is an error number.
+//! Requests to a task of a CNC with the crate `ads`; a rejected request returns its error number.
 
 use ads::{Device, Error};
 
-/// ReadWrite with room for the longest reply.
+/// ReadWrite with a read length for the longest reply.
 pub(crate) fn ask(
     device: Device<'_>,
     group: u32,
@@ -37,7 +37,7 @@ pub(crate) fn read(
     Ok(reply)
 }
 
-/// The ADS error number; anything else that goes wrong fails the test.
+/// The ADS error number; any other error fails the test.
 pub(crate) fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
     result.map_err(|error| match error {
         Error::Ads(_, _, number) => number,

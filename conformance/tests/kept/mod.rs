@@ -1,13 +1,14 @@
-//! Random cases that failed once are kept, and run before new ones: see proptest-regressions/README.md.
+//! Random cases that have failed are stored, and run before new ones: see
+//! proptest-regressions/README.md.
 
 use std::path::Path;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
-/// So many new cases; `source` is the `file!()` of the test.
+/// A configuration with `cases` new cases; `source` is the `file!()` of the test.
 pub(crate) fn cases(cases: u32, source: &str) -> Config {
     let default = Config::default();
-    // PROPTEST_DISABLE_FAILURE_PERSISTENCE says no here, and Miri has no files.
+    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables this, and Miri has no files.
     if default.failure_persistence.is_none() || cfg!(miri) {
         return Config { cases, failure_persistence: None, ..default };
     }
@@ -19,6 +20,6 @@ pub(crate) fn cases(cases: u32, source: &str) -> Config {
 pub(crate) fn beside(folder: impl AsRef<Path>, source: &str) -> FileFailurePersistence {
     let name = Path::new(source).with_extension("txt");
     let file = folder.as_ref().join(name.file_name().expect("the file of a test"));
-    // proptest takes no other path; there is one in a test.
+    // proptest needs a path with a static lifetime, so leak one per test.
     FileFailurePersistence::Direct(file.to_str().expect("a path in UTF-8").to_string().leak())
 }

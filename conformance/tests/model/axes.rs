@@ -1,10 +1,10 @@
-//! Places of channels, and channels themselves: axis exchange and activation.
+//! Axis exchange between places of channels, and activation of channels.
 
 use ads_cnc_conformance::simulator::DEFAULT_MODEL;
 
 use super::{CHANNEL_1, Cnc};
 
-/// V.A.WCS of a place.
+/// The value of V.A.WCS at a place.
 fn wcs(cnc: &Cnc, channel: u32, place: u32) -> Result<Vec<u8>, u32> {
     cnc.sda().ask(0x12_2300 + channel, place * 0x1_0000 + 5, b"V.A.WCS\0")
 }
@@ -13,7 +13,7 @@ fn real(value: f64) -> Result<Vec<u8>, u32> {
     Ok(value.to_le_bytes().to_vec())
 }
 
-/// Places 2 and 3 of channel 2 have no axis: zeros, and nothing is written.
+/// Places 2 and 3 of channel 2 have no axis: reads return zeros, and writes are rejected.
 #[test]
 fn an_empty_place_is_blank() {
     let cnc = Cnc::start(&[]);
@@ -26,7 +26,7 @@ fn an_empty_place_is_blank() {
     assert_eq!(sda.read(0x12_1302, 0x2_0002, 8), Ok(vec![0; 8]));
     assert_eq!(sda.write(0x12_1302, 0x2_0002, &[1; 8]), Err(0x706));
     assert_eq!(sda.read(0x12_1402, 0x2_0002, 256), Ok(b"example.distance_to_go\0".to_vec()));
-    // Variables by the place read blank, by an axis's name there is none.
+    // Variables by the place are zero; no name with an axis exists.
     assert_eq!(wcs(&cnc, 2, 2), Ok(vec![0; 8]));
     assert_eq!(sda.ask(0x12_2302, 0x2_0004, b"V.A.WCS\0"), Ok(vec![0x1B, 1, 2, 1]));
     assert_eq!(sda.ask(0x12_2302, 0x47, b"\x1B\x01\x02\x01\0\0\0\0"), Ok(vec![0; 8]));
@@ -36,9 +36,9 @@ fn an_empty_place_is_blank() {
     assert_eq!(sda.ask(0x12_2302, 0x44, b"V.A\0"), Ok(vec![2, 0, 0, 0]));
 }
 
-/// Printed for the second axis; then another axis is at its place.
+/// The printed example is for the second axis; then another axis is assigned to its place.
 #[test]
-fn axis_exchange_changes_what_a_place_means() {
+fn axis_exchange_changes_the_axis_of_a_place() {
     let cnc = Cnc::start(&[]);
     let (sda, com) = (cnc.sda(), cnc.com());
     let y = b"\x1B\0\x02\x01\0\0\0\0";
@@ -47,12 +47,12 @@ fn axis_exchange_changes_what_a_place_means() {
     assert_eq!(sda.read(0x12_2301, 0x2_0001, 8), real(20.5));
     let platform = com.read(0x12_0202, 1, 8);
 
-    // Z comes to place 2: Y is nowhere, place 3 is empty.
+    // Z is assigned to place 2: Y has no place, and place 3 is empty.
     assert_eq!(com.write(0x12_0101, 0x2_0003, &[3, 0]), Ok(()));
     assert_eq!(com.read(0x12_0101, 0x2_0003, 2), Ok(vec![3, 0]));
     assert_eq!(com.read(0x12_0101, 0x3_0003, 2), Ok(vec![0, 0]));
     assert_eq!((wcs(&cnc, 1, 2), wcs(&cnc, 1, 3)), (real(-3.5), real(0.0)));
-    // The handle is the place's (VAR-10), the name the axis's.
+    // The handle belongs to the place (VAR-10), the name to the axis.
     assert_eq!(sda.ask(CHANNEL_1, 0x47, y), real(-3.5));
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.A.WCS.Z\0"), real(-3.5));
     assert_eq!(sda.ask(CHANNEL_1, 0x46, b"V.A.WCS.Z\0"), Ok(vec![0x1B, 0, 2, 1]));
@@ -60,14 +60,15 @@ fn axis_exchange_changes_what_a_place_means() {
     assert_eq!(sda.ask(CHANNEL_1, 0x44, b"V.A\0"), Ok(vec![4, 0, 0, 0]));
     assert_eq!(sda.ask(CHANNEL_1, 0x45, b"\x01\0\0\0V.A\0").unwrap()[20..], *b"V.A.ACT_POS.Z\0");
     assert_eq!(sda.read(0x12_2301, 0x2_0001, 8), real(30.5));
-    // The platform's places stay.
+    // The places of the platform do not change.
     assert_eq!(com.read(0x12_0202, 1, 8), platform);
 
-    // Y comes to channel 2 with what it has; the element does the same as the object.
+    // Y is assigned to channel 2 with its values; a write to the element has the same effect as one to
+    // the object.
     assert_eq!(sda.write(0x12_1302, 0x3_0001, &[2, 0]), Ok(()));
     assert_eq!(wcs(&cnc, 2, 3), real(1234.2));
     assert_eq!(sda.ask(0x12_2302, 0x48, b"V.A.WCS.Y\0"), real(1234.2));
-    // What is written there goes along.
+    // A value that is written at the place moves with the axis.
     assert_eq!(sda.write(0x12_2302, 0x4A, b"V.A.WCS.Y\0\0\0\0\0\0\0\xF0\x3F"), Ok(()));
     assert_eq!(com.write(0x12_0101, 0x3_0003, &[2, 0]), Ok(()));
     assert_eq!(wcs(&cnc, 1, 3), real(1.0));
@@ -76,15 +77,15 @@ fn axis_exchange_changes_what_a_place_means() {
     assert_eq!(com.write(0x12_0101, 0x3_0003, &[0, 0]), Ok(()));
     assert_eq!(wcs(&cnc, 1, 3), real(0.0));
 
-    // No such axis, and a second X, whose variables could not be told apart.
+    // No such axis, and a second X, whose variables would have equal names.
     assert_eq!(com.write(0x12_0101, 0x3_0003, &[9, 0]), Err(0x706));
     assert_eq!(com.write(0x12_0101, 0x3_0003, &[4, 0]), Err(0x706));
     assert_eq!(com.read(0x12_0101, 0x1_0003, 2), Ok(vec![1, 0]));
 }
 
-/// Ranks count active channels, and the first of them drives the platform (ADR-11).
+/// Ranks count active channels, and the first active channel drives the platform (ADR-11).
 #[test]
-fn a_channel_that_is_not_active() {
+fn inactive_channels_have_no_rank() {
     let file = std::env::temp_dir().join(format!("ads-cnc-inactive-{}.toml", std::process::id()));
     std::fs::write(
         &file,
@@ -97,13 +98,13 @@ fn a_channel_that_is_not_active() {
     let channel = |group| sda.ask(group, 0x48, b"V.E.channel\0");
     assert_eq!(channel(0x12_2301), Err(0x702));
     assert_eq!(channel(0x02_2301), Ok(vec![2, 0, 0, 0]));
-    // Printed: channel 6 moves from 0x21302 to 0x21301 when the one before it goes.
+    // As printed, channel 6 moves from 0x21302 to 0x21301 when the preceding channel is deactivated.
     assert_eq!(channel(0x02_2302), Ok(vec![6, 0, 0, 0]));
     assert_eq!(channel(0x12_2306), Ok(vec![6, 0, 0, 0]));
     assert_eq!(channel(0x02_2303), Err(0x702));
     assert_eq!(com.read(0x12_0101, 1, 1), Err(0x702));
     assert_eq!(com.read(0x12_0102, 0x251, 4), Ok(vec![0xE8, 3, 0, 0]));
-    // Three of its own, nine of its places, two of the platform.
+    // Three own objects, nine of the places, two of the platform.
     assert_eq!(com.read(0x13_0102, 0, 4), Ok(vec![14, 0, 0, 0]));
     assert_eq!(com.read(0x13_0106, 0, 4), Ok(vec![12, 0, 0, 0]));
     assert_eq!(sda.ask(0x12_3900, 0, &[1, 0, 0, 0, 0, 0, 0, 0]), Ok(vec![0; 8]));

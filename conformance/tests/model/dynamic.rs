@@ -45,7 +45,7 @@ fn every_kind_has_its_functions() {
             assert_eq!(sda.ask(CHANNEL_1, by_name, name.as_bytes()), real(value), "{name}");
             assert_eq!(sda.ask(CHANNEL_1, by_index, &index), real(value), "{name}");
         }
-        // Indices are 1 to n; names are those of the kind.
+        // Indices are 1 to n; a name must have the kind.
         for index in [0, names.len() as u8 + 1, 255] {
             let wanted = if index == 0 { 0x705 } else { 0x706 };
             assert_eq!(sda.ask(CHANNEL_1, name_at, &[index, 0, 0, 0]), Err(wanted));
@@ -61,10 +61,10 @@ fn every_kind_has_its_functions() {
     assert_eq!(sda.ask(CHANNEL_1, 0x1C, b"V.L.depth\0"), Err(0x710));
 }
 
-/// While a subroutine runs it has a variable in front of the other: the index of that one moves,
-/// its name stays (DYN-4).
+/// While a subroutine runs, its parameter precedes the other one, whose index changes but not its name
+/// (DYN-4).
 #[test]
-fn parameters_come_and_go() {
+fn a_subroutine_shifts_indices() {
     let cnc = Cnc::start(&[]);
     let (sda, com) = (cnc.sda(), cnc.com());
     let first = || sda.ask(CHANNEL_1, 0x1E, &[1, 0, 0, 0]);
@@ -90,7 +90,7 @@ fn with_parameters(parameters: &str) -> Timed {
 }
 
 impl Timed {
-    /// The names of a kind, by their indices; as many as are counted, and no more.
+    /// The names of a kind by their indices, up to the count.
     fn names(&self, kind: [u32; 4]) -> String {
         let count = self.read(kind[0]).unwrap();
         let name = |index: u8| {
@@ -102,9 +102,9 @@ impl Timed {
     }
 }
 
-/// The indices behind one that comes or goes move; without it there is neither value nor name.
+/// The indices after a created or deleted parameter change; a deleted parameter has no value or name.
 #[test]
-fn parameters_come_and_go_in_time() {
+fn parameters_are_created_and_deleted_in_time() {
     let cnc = with_parameters(
         r#"{ name = "V.L.late", value = 1, comes = "2s" },
         { name = "V.L.early", value = 2, goes = "1500ms" },
@@ -134,10 +134,10 @@ fn parameters_come_and_go_in_time() {
     assert_eq!(cnc.names(VL), "V.L.late V.L.always");
 }
 
-/// By its name on the interface of variables it comes and goes as well. What comes again is new,
-/// even if nobody looked while it was away.
+/// On the interface of variables, the parameter is created and deleted, too. A parameter that is created
+/// again has its initial value, even if no request came while it did not exist.
 #[test]
-fn what_comes_again_has_the_value_of_the_start() {
+fn a_recreated_parameter_has_its_initial_value() {
     let cnc = with_parameters(
         r#"{ name = "V.P.often", value = 1.5, comes = "1s", goes = "2s", period = "4s" },
         { name = "V.P.stays", value = 2.5 },"#,
@@ -159,9 +159,9 @@ fn what_comes_again_has_the_value_of_the_start() {
     assert_eq!(read("V.P.often"), Err(0x710));
 }
 
-/// Time and an object: both say that it is there.
+/// A parameter with times and an object needs both to exist.
 #[test]
-fn time_and_object_both_count() {
+fn times_and_object_both_apply() {
     let timed = "while = \"example_subroutine_w\", comes = \"2s\"";
     let model = DEFAULT_MODEL.replace("while = \"example_subroutine_w\"", timed);
     let cnc = Timed::new(&model);
@@ -174,9 +174,9 @@ fn time_and_object_both_count() {
     assert_eq!(cnc.names(VL), "V.L.depth");
 }
 
-/// What the default model says in a comment can be said.
+/// The example in a comment of the default model is valid.
 #[test]
-fn the_commented_parameter_is_one() {
+fn the_commented_parameter_is_valid() {
     let row = DEFAULT_MODEL.lines().find_map(|line| {
         line.strip_prefix("#   ").filter(|row| row.starts_with("{ name = \"V.L.feed\""))
     });

@@ -1,4 +1,4 @@
-//! What an edition of the manual and a version of the CNC have.
+//! The features of editions of the manual and versions of the CNC.
 
 use super::{CHANNEL_1, Cnc};
 
@@ -28,7 +28,7 @@ fn editions_differ() {
     let german = [count, Err(0x706), Err(0x706), cyclic.clone(), described];
     assert_eq!(answers(&["--edition", "de-1.051"]), german);
 
-    // A version before the description by name, and one before V.P on this interface too.
+    // A version without the description by name, and one also without V.P on this interface.
     let old = ["--edition", "de-1.051", "--cnc-version", "V3.1.3115"];
     assert_eq!(answers(&old)[4], Err(0x703));
     assert!(answers(&old)[0].is_ok());
@@ -51,7 +51,7 @@ fn parameters_on_the_interface_of_variables() {
     // REAL64 without a handle: assumed.
     let described = b"\0\0\0\0\x08\0\0\0\x02\0\0\0\x08\0\0\0\0\0\0\0";
     assert_eq!(sda.ask(CHANNEL_1, 0x4C, b"V.L.depth\0"), Ok(described.to_vec()));
-    // P has no name there, and none is counted.
+    // P parameters have no name there, and the count does not include any.
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"P1\0"), Err(0x710));
     assert_eq!(sda.ask(CHANNEL_1, 0x44, b"V.P\0"), Err(0x710));
 }

@@ -2,7 +2,7 @@
 
 use super::Cnc;
 
-/// Channel and axis, asked for at an object address; group and offset.
+/// The group and offset that an object address returns for a channel and an axis.
 fn find(cnc: &Cnc, group: u32, channel: u8, axis: u8) -> (u32, u32) {
     let query = [channel, 0, 0, 0, axis, 0, 0, 0];
     let reply = cnc.sda().ask(group, 0, &query).unwrap();
@@ -30,7 +30,7 @@ fn every_class_has_its_instances() {
     for (channel, axis) in [(0, 0), (0, 6), (1, 0), (1, 1)] {
         assert_eq!(find(&cnc, 0x12_0900, channel, axis), (0, 0), "{channel} {axis}");
     }
-    // Interpolator, decoder, path preparation: channels and their places, empty ones too.
+    // Interpolator, decoder, path preparation: channels and their places, including empty ones.
     for (group, content) in [(0x12_1900, 0x12_1300), (0x12_2900, 0x12_2300), (0x12_4900, 0x12_4300)]
     {
         assert_eq!(find(&cnc, group, 6, 0), (content + 6, 0));
@@ -40,7 +40,7 @@ fn every_class_has_its_instances() {
             assert_eq!(find(&cnc, group, channel, axis), (0, 0), "{channel} {axis}");
         }
     }
-    // HLD: channels, platform axes, and the two together.
+    // HLD: channels, platform axes, and both together.
     assert_eq!(find(&cnc, 0x12_3900, 0, 5), (0x12_3300, 0x5000));
     assert_eq!(find(&cnc, 0x12_3900, 1, 4), (0x12_3301, 0x4_0000));
     assert_eq!(find(&cnc, 0x12_3900, 6, 1), (0x12_3306, 0x1_0000));
@@ -52,14 +52,14 @@ fn every_class_has_its_instances() {
     assert_eq!(find(&cnc, 0x02_5900, 1, 0), (0x02_5301, 0));
     assert_eq!(find(&cnc, 0x02_5900, 2, 0), (0, 0));
     assert_eq!(find(&cnc, 0x02_5900, 0, 1), (0, 0));
-    // By rank, the third active channel.
+    // By rank: the third active channel.
     assert_eq!(find(&cnc, 0x02_1900, 3, 0), (0x02_1303, 0));
     assert_eq!(find(&cnc, 0x02_1900, 4, 0), (0, 0));
-    // A channel of more than eight bits.
+    // A channel with more than eight bits.
     let query = [1, 1, 0, 0, 0, 0, 0, 0];
     assert_eq!(cnc.sda().ask(0x12_3900, 0, &query), Ok(vec![0; 8]));
     assert_eq!(cnc.sda().ask(0x12_3900, 0, &query[..7]), Err(0x705));
-    // Not of an instance.
+    // A group that is not an instance.
     assert_eq!(cnc.sda().ask(0x12_3901, 0, &query), Err(0x702));
 }
 
@@ -78,9 +78,9 @@ fn printed_attributes() {
     }
 }
 
-/// Element 0 counts the others and names the instance, at every stride.
+/// Element 0 contains the number of the others and the name of the instance, with every stride.
 #[test]
-fn the_first_element_is_of_the_instance() {
+fn the_first_element_describes_the_instance() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     for (group, offset, count, name) in [
@@ -98,10 +98,10 @@ fn the_first_element_is_of_the_instance() {
         assert_eq!(sda.read(group + 0x200, offset, 256), Ok(b"UNS32\0".to_vec()));
         assert_eq!(sda.read(group + 0x300, offset, 4), Ok(vec![4, 0, 0, 0]));
         assert_eq!(sda.read(group + 0x500, offset, 1), Ok(vec![0]));
-        // Counting is a function of its own, but where the printed stride has it among contents.
+        // Reading the count is a separate function, except where it is a content with the printed stride.
         let refused = if offset == 0x1000 { 0x704 } else { 0x701 };
         assert_eq!(sda.write(group, offset, &[9, 0, 0, 0]), Err(refused));
-        // Behind the last there is none, whatever the attribute.
+        // No element follows the last one, for any attribute.
         for attribute in [0, 0x100, 0x200, 0x300, 0x400, 0x500] {
             let behind = offset + u32::from(count) + 1;
             assert_eq!(sda.read(group + attribute, behind, 256), Err(0x703), "{name}");
@@ -122,7 +122,7 @@ fn contents_are_read_and_written() {
     assert_eq!(sda.read(0x12_3302, 2, 2), Ok(vec![0x24, 0xFA]));
     assert_eq!(sda.write(0x12_3301, 2, &[7]), Err(0x705));
     assert_eq!(sda.read(0x12_3301, 2, 1), Err(0x705));
-    // feedhold.enable may not be written, a name by nobody.
+    // feedhold.enable is read-only, and names are never writable.
     assert_eq!(sda.write(0x12_3301, 1, &[1]), Err(0x704));
     assert_eq!(sda.write(0x12_3401, 2, b"x\0"), Err(0x701));
     // The platform axis is the same at both addresses: SGN08 -21 °C.
@@ -138,14 +138,14 @@ fn contents_are_read_and_written() {
     assert_eq!(sda.read(0x12_0300, 0x1_0003, 4), Ok(vec![0, 0, 6, 0x42]));
     assert_eq!(sda.write(0x12_1301, 3, b"a.nc"), Ok(()));
     assert_eq!(sda.read(0x12_1301, 3, 32).unwrap()[..8], *b"a.nc\0\0\0\0");
-    // COM has none of this.
+    // COM has no elements.
     assert_eq!(cnc.com().read(0x12_3301, 1, 1), Err(0x702));
 }
 
-/// Functions are among the decoder's elements (SDA-12): their attributes are those of elements,
-/// their content is their own.
+/// Functions share addresses with elements of the decoder (SDA-12): attributes belong to the elements,
+/// contents to the functions.
 #[test]
-fn a_walk_over_the_decoder_meets_functions() {
+fn functions_take_precedence_over_elements() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     assert_eq!(sda.read(0x12_2401, 2, 256), Ok(b"example.p_count\0".to_vec()));

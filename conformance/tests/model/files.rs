@@ -1,4 +1,4 @@
-//! Models in files: the default one comes back as it went out, bad ones are refused.
+//! Models in files: the printed default model is unchanged, and invalid models are rejected.
 
 use std::process::{Command, Stdio};
 
@@ -18,7 +18,7 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
     (run.status.code(), text(run.stdout), text(run.stderr))
 }
 
-/// Where a file is no text is said as everything else is.
+/// An encoding error has a line like any other error.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
@@ -28,7 +28,7 @@ fn a_file_in_another_encoding_has_a_line() {
 }
 
 #[test]
-fn what_is_printed_is_the_same_model() {
+fn the_printed_model_is_the_default_model() {
     let (code, printed, errors) = ads_cnc(&["--print-model"]);
     assert_eq!((code, errors.as_str()), (Some(0), ""));
     let model = Model::from_toml(&printed, "printed").unwrap();
@@ -39,15 +39,15 @@ fn what_is_printed_is_the_same_model() {
     let bare = printed.lines().filter(|line| !line.trim_start().starts_with('#'));
     let bare: Vec<&str> = bare.collect();
     assert_eq!(Model::from_toml(&bare.join("\n"), "bare"), Ok(model));
-    // Served, it answers.
+    // The simulated CNC with this model replies.
     let file = TestFile::new(".toml", printed.as_bytes());
     let cnc = Cnc::start(&["--model", file.path()]);
     assert_eq!(cnc.sda().ask(CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
 }
 
-/// What is not said is 0, empty or not there.
+/// Omitted settings are 0, empty or absent.
 #[test]
-fn a_smallest_model() {
+fn a_minimal_model_is_valid() {
     let file = TestFile::new(".toml", b"[[channel]]\nnumber = 3\n");
     let cnc = Cnc::start(&["--model", file.path()]);
     assert_eq!(cnc.sda().ask(0x12_2303, 0x44, b"V.E\0"), Ok(vec![0; 4]));
@@ -58,7 +58,7 @@ fn a_smallest_model() {
 }
 
 #[test]
-fn bad_models_are_usage_errors() {
+fn invalid_models_are_usage_errors() {
     let file =
         TestFile::new(".toml", b"[[channel]]\nnumber = 1\nvariables = [\n  { name = \"x\" },\n]\n");
     let (code, out, errors) = ads_cnc(&["--model", file.path()]);
@@ -70,9 +70,9 @@ fn bad_models_are_usage_errors() {
     assert!(errors.contains("no such file: "), "{errors}");
 }
 
-/// A change of the default model that makes it bad, and what is said of it, where.
+/// Each change makes the default model invalid; the error contains the reason and the line.
 #[test]
-fn each_fault_is_refused_with_its_line() {
+fn each_error_has_its_line() {
     let mut wrong = Vec::new();
     for (from, to, reason) in FAULTS {
         assert_eq!(DEFAULT_MODEL.matches(from).count(), 1, "{from}");
@@ -105,43 +105,43 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("edition = \"en-1.05\"", "edition = \"fr-1.05\"", "editions: en-1.05 and de-1.051"),
     ("cnc-version = \"V4.29.0\"", "cnc-version = \"V4\"", "cnc-version: minor"),
     // Axes.
-    ("name = \"Y\"", "name = \"Y.1\"", "none of . [ ]"),
-    ("name = \"Y\"", "name = \"\"", "has a character"),
+    ("name = \"Y\"", "name = \"Y.1\"", "without . [ ]"),
+    ("name = \"Y\"", "name = \"\"", "expected a name of an axis"),
     ("name = \"Y\"", "name = \"\u{3A9}\"", "not in CP1252"),
-    ("name = \"Y\"", "number = 0\nname = \"Y\"", "of no axis"),
+    ("name = \"Y\"", "number = 0\nname = \"Y\"", "greater than 0"),
     ("name = \"Y\"", "number = 1 # again\nname = \"Y\"", "two axes have the logical number 1"),
     // Channels and their places.
     ("number = 1\n", "number = 0\n", "1 to 255"),
     ("number = 1\n", "number = 256\n", "1 to 255"),
-    ("number = 6", "number = 2 # again", "channel 2 is there twice"),
+    ("number = 6", "number = 2 # again", "channel 2 is configured twice"),
     ("places = [1, 2, 3]", "places = [1, 2, 7]", "no axis has the logical number 7"),
-    ("places = [1, 2, 3]", "places = [1, 2, 1]", "is at another place"),
-    ("places = [5, 0, 0]", "places = [4, 0, 0] # too", "is at another place"),
+    ("places = [1, 2, 3]", "places = [1, 2, 1]", "already has another place"),
+    ("places = [5, 0, 0]", "places = [4, 0, 0] # too", "already has another place"),
     ("places = [4, 0, 0]", "places = [4, 5, 0]", "two axes of a channel are named X"),
     // Objects.
     ("\"example_byte_r\"", "\"example_name_of_33_characters____r\"", "name"),
     ("type = \"BYTE\"", "type = \"UNS08\"", "types: BOOL BYTE"),
-    ("0x11, value = 0xB5", "0x11, value = 0x100", "256 is not within 0 and 255"),
+    ("0x11, value = 0xB5", "0x11, value = 0x100", "expected a number from 0 to 255, found 256"),
     ("0x11, value = 0xB5", "0x11, value = 1.5", "a float is not a value"),
     ("0x11, value = 0xB5", "0x11, value = [1]", "not a value"),
-    ("0x11, value = 0xB5", "0x10, value = 1", "two objects are at offset 0x10"),
-    ("0x11, value = 0xB5", "0x251, value = 1", "an object of the platform is at offset 0x251"),
-    ("0x11, value = 0xB5", "0x10011, value = 1", "those of axes"),
-    ("0x11, value = 0xB5", "0x11, size = 1", "size is for a STRING"),
-    ("0x11, value = 0xB5", "0x11, values = [1]", "more than one"),
-    ("0x11, value = 0xB5", "0x11, is = \"axis-number\"", "what each axis has"),
+    ("0x11, value = 0xB5", "0x10, value = 1", "two objects have the offset 0x10"),
+    ("0x11, value = 0xB5", "0x251, value = 1", "an object of the platform has the offset 0x251"),
+    ("0x11, value = 0xB5", "0x10011, value = 1", "belong to axes"),
+    ("0x11, value = 0xB5", "0x11, size = 1", "size is only for a STRING"),
+    ("0x11, value = 0xB5", "0x11, values = [1]", "several instances"),
+    ("0x11, value = 0xB5", "0x11, is = \"axis-number\"", "only for objects and elements of axes"),
     ("id = 83", "id = 82, value = 0", "two objects have the ID 82"),
     (
         "size = 128, writable = true },\n  { name = \"example_L",
         "size = 0 },\n  { name = \"example_L",
-        "a NUL at least",
+        "includes a NUL",
     ),
     (
         "size = 128, writable = true },\n  { name = \"example_L",
         "size = 65536 },\n  { name = \"example_L",
-        "at most 65528 fit",
+        "the maximum is 65528",
     ),
-    ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"twenty-one characters\"", "do not fit into 21"),
+    ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"twenty-one characters\"", "are more than 21"),
     ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"\u{3A9}\"", "not in CP1252"),
     ("offset = 3, is = \"axis-number\"", "offset = 3, is = \"axis\"", "axis-number"),
     (
@@ -152,77 +152,73 @@ const FAULTS: &[(&str, &str, &str)] = &[
     (
         "type = \"WORD\", offset = 3, writable",
         "type = \"BYTE\", offset = 3, writable",
-        "two bytes or more",
+        "at least two bytes",
     ),
     (
         "type = \"WORD\", offset = 3, writable",
         "type = \"WORD\", offset = 3, id = 1, writable",
-        "an ID on each",
+        "its own ID",
     ),
     // Variables.
-    ("\"V.E.test\"", "\"V.E.vartest\"", "V.E.vartest is there twice"),
-    ("\"V.E.array_sgn32\"", "\"V.E.Testvar\"", "V.E.Testvar is there twice"),
-    ("\"V.E.vartest\"", "\"V.X.vartest\"", "V.E, V.G and V.CYC"),
-    ("\"V.E.vartest\"", "\"V.E.vartest[1]\"", "is an element's"),
+    ("\"V.E.test\"", "\"V.E.vartest\"", "V.E.vartest is configured twice"),
+    ("\"V.E.array_sgn32\"", "\"V.E.Testvar\"", "V.E.Testvar is configured twice"),
+    ("\"V.E.vartest\"", "\"V.X.vartest\"", "V.E, V.G or V.CYC"),
+    ("\"V.E.vartest\"", "\"V.E.vartest[1]\"", "not of an element"),
     ("\"V.E.vartest\"", "\"V.E.var..test\"", "unexpected '.'"),
-    ("\"V.E.vartest\"", "\"V.A.vartest\"", "what each axis has"),
+    ("\"V.E.vartest\"", "\"V.A.vartest\"", "belong to axes"),
     (
         "\"V.E.channel\", type = \"UNS32\", value = 1",
         "\"V.E.channel\", type = \"DWORD\", value = 1",
         "types: BOOLEAN",
     ),
-    ("handle = 0x2000004", "handle = 0x2000002", "has the handle 0x2000002 of another"),
+    ("handle = 0x2000004", "handle = 0x2000002", "has the same handle 0x2000002 as another"),
     ("name = \"V.CYC.count\"", "handle = 5, name = \"V.CYC.count\"", "by name only"),
-    ("dimensions = [2, 3, 4]", "dimensions = [2, 0, 4]", "every dimension has an element"),
+    ("dimensions = [2, 3, 4]", "dimensions = [2, 0, 4]", "a dimension is 0"),
     (
         "dimensions = [2, 3, 4]",
         "dimensions = [4294967295, 4294967295, 4294967295]",
-        "they can be counted",
+        "too many elements",
     ),
     (
         "value = [[11, 12, 13], [21, 22, 23]]",
         "value = [11, 12, 13, 21, 22]",
-        "6 values expected, 5",
+        "expected 6 values, found 5",
     ),
-    ("dimensions = [512]", "dimensions = [513]", "at most 2048 fit"),
+    ("dimensions = [512]", "dimensions = [513]", "the maximum is 2048"),
     (
         "\"UNS32\", synchronisation = \"NO_SYNC\"",
         "\"UNS32\", synchronisation = \"SYNC\"",
-        "NO_SYNC and SYNCHRONIZED",
+        "NO_SYNC or SYNCHRONIZED",
     ),
-    ("validity = \"CHANNEL\"", "validity = \"LOCAL\"", "CHANNEL and GLOBAL"),
+    ("validity = \"CHANNEL\"", "validity = \"LOCAL\"", "CHANNEL or GLOBAL"),
     (
         "\"V.CYC.count\", type = \"UNS32\"",
         "\"V.CYC.count\", type = \"UNS32\", validity = \"GLOBAL\"",
         "only V.E",
     ),
-    ("\"V.G.NP[1].V\"", "\"V.G.SERVICE.UUID\"", "of itself"),
+    ("\"V.G.NP[1].V\"", "\"V.G.SERVICE.UUID\"", "are built in"),
     ("handle = 0x0100001B", "handle = 0x0101001B", "bits 8 to 23"),
-    ("\"V.A.WCS\"", "\"V.E.WCS\"", "what each axis has is V.A"),
+    ("\"V.A.WCS\"", "\"V.E.WCS\"", "expected a V.A variable"),
     // Parameters.
     ("\"P1\", value = 4711", "\"X1\", value = 4711", "begins with P, V.L., V.P. or V.S."),
     ("\"P1\", value = 4711", "\"P\", value = 4711", "begins with P, V.L., V.P. or V.S."),
-    ("name = \"V.P.offset\"", "name = \"V.P.count\"", "there twice"),
-    ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no object \"nobody\""),
-    (
-        "value = 4711 },\n  # While",
-        "comes = \"2\" },\n  # While",
-        "a number with the unit ms, s or min",
-    ),
+    ("name = \"V.P.offset\"", "name = \"V.P.count\"", "configured twice"),
+    ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no own object \"nobody\""),
+    ("value = 4711 },\n  # While", "comes = \"2\" },\n  # While", "a number and its unit"),
     ("value = 4711 },\n  # While", "goes = 2 },\n  # While", "expected a string"),
-    ("value = 4711 },\n  # While", "goes = \"0s\" },\n  # While", "goes before it comes"),
-    ("value = 4711 },\n  # While", "goes = \"25000min\" },\n  # While", "the maximum is 24 hours"),
-    ("value = 4711 },\n  # While", "period = \"2s\" },\n  # While", "all the period"),
+    ("value = 4711 },\n  # While", "goes = \"0s\" },\n  # While", "goes must be later than comes"),
+    ("value = 4711 },\n  # While", "goes = \"25000min\" },\n  # While", "at most 24 hours"),
+    ("value = 4711 },\n  # While", "period = \"2s\" },\n  # While", "the whole period"),
     (
         "value = 4711 },\n  # While",
         "comes = \"1s\", goes = \"3s\", period = \"2s\" },\n  # While",
-        "within its period",
+        "within the period",
     ),
     // Streaming.
-    ("pace = \"1000 lines/s\"", "pace = 0", "from 1 on"),
-    ("pace = \"1000 lines/s\"", "pace = \"1000 blocks/s\"", "from 1 on"),
-    ("pace = \"1000 lines/s\"", "pace = 1.5", "from 1 on"),
-    ("pace = \"1000 lines/s\"", "start = \"now\"", "again, once and by-hand"),
+    ("pace = \"1000 lines/s\"", "pace = 0", "lines per second from 1"),
+    ("pace = \"1000 lines/s\"", "pace = \"1000 blocks/s\"", "lines per second from 1"),
+    ("pace = \"1000 lines/s\"", "pace = 1.5", "lines per second from 1"),
+    ("pace = \"1000 lines/s\"", "start = \"now\"", "again, once or by-hand"),
     ("pace = \"1000 lines/s\"", "speed = 1000", "unknown field `speed`"),
     // Elements.
     (

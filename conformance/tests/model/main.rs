@@ -1,5 +1,5 @@
-//! The data model over the wire, with the crate `ads` as published: a client that knows nothing of
-//! this project. What it has to get is written here byte for byte.
+//! The data model over the wire, read by the published crate `ads`, a client that is independent of
+//! this project. The expected bytes are literals.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -23,7 +23,7 @@ use common::{Serve, task};
 /// Variables of channel 1.
 const CHANNEL_1: u32 = 0x12_2301;
 
-/// A CNC in a process of its own and a client of it.
+/// A CNC in a separate process, and a client of it.
 struct Cnc {
     client: Client,
     net_id: AmsNetId,
@@ -55,7 +55,7 @@ impl Cnc {
     }
 }
 
-/// A task of the CNC; what it refuses is an error number.
+/// A task of the CNC; a rejected request returns its error number.
 #[derive(Clone, Copy)]
 struct Task<'a>(ads::Device<'a>);
 

@@ -10,10 +10,10 @@ fn contents_are_read_and_written() {
     assert_eq!(com.read(0x12_0101, 3, 1), Ok(vec![0]));
     assert_eq!(com.write(0x12_0101, 1, &[1]), Ok(()));
     assert_eq!(com.read(0x12_0101, 1, 1), Ok(vec![1]));
-    // By rank it is the same object, and that of channel 2 is another.
+    // The rank leads to the same object, and channel 2 has another one.
     assert_eq!(com.read(0x02_0101, 1, 1), Ok(vec![1]));
     assert_eq!(com.read(0x12_0102, 1, 1), Ok(vec![0]));
-    // A longer read gives what there is.
+    // A longer read returns the whole content.
     assert_eq!(com.read(0x12_0101, 1, 100), Ok(vec![1]));
 
     // LREAL 1234.5678, REAL 1.5, LWORD, and a CP1252 text with its NULs.
@@ -26,7 +26,7 @@ fn contents_are_read_and_written() {
     assert_eq!(com.read(0x12_0101, 0x1B, 21), Ok(text.to_vec()));
     assert_eq!(com.write(0x12_0101, 0x1A, &[0; 8]), Ok(()));
     assert_eq!(com.read(0x12_0101, 0x1A, 8), Ok(vec![0; 8]));
-    // A text may be shorter than its place.
+    // A text may be shorter than its content.
     assert_eq!(com.write(0x12_0101, 0x1D, b"short\0"), Ok(()));
     let mut text = b"short\0".to_vec();
     text.resize(128, 0);
@@ -34,13 +34,13 @@ fn contents_are_read_and_written() {
 }
 
 #[test]
-fn refusals() {
+fn invalid_accesses_are_rejected() {
     let cnc = Cnc::start(&[]);
     let com = cnc.com();
     // Read-only; the size does not matter then.
     assert_eq!(com.write(0x12_0101, 3, &[1]), Err(0x704));
     assert_eq!(com.write(0x12_0101, 3, &[1, 2]), Err(0x704));
-    // Wrong size, of what is written and of what is read; an unterminated text.
+    // Wrong size of a write and of a read; a text without a NUL.
     assert_eq!(com.write(0x12_0101, 1, &[]), Err(0x705));
     assert_eq!(com.write(0x12_0101, 1, &[1, 0]), Err(0x705));
     assert_eq!(com.write(0x12_0101, 0x1D, &[b'x'; 128]), Err(0x705));
@@ -61,7 +61,7 @@ fn refusals() {
     assert_eq!(cnc.sda().read(0x12_0101, 3, 1), Err(0x702));
 }
 
-/// The platform's objects are at channel 0 and at the first channel (COM-4).
+/// The objects of the platform have the addresses of channel 0 and of the first channel (COM-4).
 #[test]
 fn the_platform_has_two_addresses() {
     let cnc = Cnc::start(&[]);
@@ -70,11 +70,11 @@ fn the_platform_has_two_addresses() {
         assert_eq!(com.read(group, 0x251, 4), Ok(vec![0xE8, 3, 0, 0]), "{group:#x}");
     }
     assert_eq!(com.read(0x12_0102, 0x251, 4), Err(0x703));
-    // Those of channel 1 are not at channel 0.
+    // The objects of channel 1 do not have addresses of channel 0.
     assert_eq!(com.read(0x12_0100, 3, 1), Err(0x703));
 }
 
-/// Axis in the group or in the offset (E-04); at a place of a channel it has objects of its own.
+/// The axis is in the group or in the offset (E-04); at a place of a channel, it has other objects.
 #[test]
 fn platform_axes() {
     let cnc = Cnc::start(&[]);
@@ -93,9 +93,9 @@ fn platform_axes() {
     assert_eq!(com.read(0x12_0201, 2, 1), Ok(vec![0]));
 }
 
-/// What the lists say is what is there: sizes, and whether writing is refused.
+/// The sizes and write access of objects agree with their descriptors.
 #[test]
-fn descriptors_tell_the_truth() {
+fn objects_agree_with_their_descriptors() {
     let cnc = Cnc::start(&[]);
     let com = cnc.com();
     for group in [0x13_0101, 0x13_0205] {

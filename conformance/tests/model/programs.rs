@@ -1,4 +1,4 @@
-//! What the model says of the NC programs of a channel.
+//! The settings of a model for the NC programs of a channel.
 
 use ads_cnc::streaming::ProgramEnd;
 use ads_cnc_conformance::simulator::program::{ScriptState, ServiceOutcome, State};
@@ -21,7 +21,7 @@ fn with_streaming(keys: &str) -> Timed {
     Timed::new(&format!("{channel}[channel.streaming]\n{keys}\n"))
 }
 
-/// How many lines were run 100 ms after they came, and how many a second later.
+/// The number of executed lines after 100 ms, and a second later.
 fn lines_run(keys: &str) -> [u64; 2] {
     let cnc = with_streaming(keys);
     assert_eq!(cnc.write_object(STREAM, LINES), Ok(()));
@@ -42,9 +42,9 @@ fn streaming_has_a_pace() {
     assert_eq!(lines_run("file = \"\""), [0, 0]);
 }
 
-/// What comes behind a program end is run, or waits in the interface, as `start` says.
+/// Lines after a program end are executed or remain in the interface, depending on `start`.
 #[test]
-fn streaming_starts_as_said() {
+fn streaming_starts_as_configured() {
     for (keys, lines, state) in [
         ("pace = \"fast\"", 12, State::Dry),
         ("pace = \"fast\"\nstart = \"again\"", 12, State::Dry),
@@ -60,7 +60,7 @@ fn streaming_starts_as_said() {
             cnc.0.with_program(1, |program| (program.executed().line_count(), program.state()));
         assert_eq!(stands, Ok((lines, state)), "{keys}");
     }
-    // An error names the file.
+    // An error contains the name of the file.
     let cnc = with_streaming("file = \"part.nc\"");
     assert_eq!(cnc.write_object(STREAM, b"N10 X1"), Ok(()));
     let state = cnc.0.with_program(1, |program| program.state()).unwrap();
@@ -97,9 +97,9 @@ fn answer(cnc: &Timed, response: &[u8], state: u32) {
     assert_eq!(cnc.write("V.G.SERVICE.RESPONSE_STATE", &state.to_le_bytes()), Ok(()));
 }
 
-/// All requests, twice; each wait ends as its step says.
+/// The program sends all requests twice; each wait ends as its step states.
 #[test]
-fn the_program_asks_as_the_model_says() {
+fn the_program_sends_the_requests_of_the_model() {
     let cnc = Timed::new(SERVICE);
     // It begins when it is first looked at: UUID, REQUEST and REQUEST_STATE, a cycle each.
     assert_eq!(number(&cnc, "REQUEST_STATE"), 0);
@@ -147,8 +147,8 @@ fn the_program_asks_as_the_model_says() {
 fn each_fault_is_refused_with_its_line() {
     let long = format!("request = \"{}\"", "3".repeat(128));
     for (from, to, reason) in [
-        ("number = 1", "number = 1 #\n[[channel]]\nnumber = 1", "there twice"),
-        ("times = 2", "times = 0", "once at least"),
+        ("number = 1", "number = 1 #\n[[channel]]\nnumber = 1", "configured twice"),
+        ("times = 2", "times = 0", "expected at least 1"),
         ("times = 2", "time = 2", "unknown field `time`"),
         ("pause = \"2s\"", "pause = \"2\"", "a number with the unit ms, s or min"),
         ("cycle = \"10ms\"", "cycle = \"0s\"", "the minimum is 1ms"),
@@ -172,7 +172,7 @@ fn each_fault_is_refused_with_its_line() {
     }
     let empty = "[[channel]]\nnumber = 1\n[channel.service]\nrequests = []\n";
     let error = Model::from_toml(empty, "m").unwrap_err().to_string();
-    assert_eq!(error, "m:4: no request is configured");
+    assert_eq!(error, "m:4: expected at least one request");
     let old = format!("cnc-version = \"V2.11.2029.0\"\n{SERVICE}");
     let error = Model::from_toml(&old, "m").unwrap_err().to_string();
     assert_eq!(error, "m:5: a CNC of this version has no Service Interface");

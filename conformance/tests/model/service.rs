@@ -12,7 +12,7 @@ const VARIABLES: [(&str, u8, u8); 5] = [
 ];
 
 #[test]
-fn each_channel_has_them() {
+fn each_channel_has_the_variables() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     for (group, first) in [(CHANNEL_1, 5), (0x12_2302, 1), (0x12_2306, 1)] {
@@ -29,9 +29,9 @@ fn each_channel_has_them() {
     }
 }
 
-/// SVC-3 and SVC-4: a request takes the response away, a response the request.
+/// SVC-3 and SVC-4: a request resets the response state, and a response the request state.
 #[test]
-fn states_answer_each_other() {
+fn each_state_resets_the_other() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     let write = |name: &str, value: &[u8]| {
@@ -49,12 +49,12 @@ fn states_answer_each_other() {
     assert_eq!(write(response_state, &[1, 0, 0, 0]), Ok(()));
     assert_eq!((read(request_state), read(response_state)), (vec![0; 4], vec![1, 0, 0, 0]));
     assert_eq!(read(response)[..10], *b"1.732051\0\0");
-    // By handle it is the same.
+    // The handle leads to the same variable.
     let handle = sda.ask(CHANNEL_1, 0x46, b"V.G.SERVICE.REQUEST_STATE\0").unwrap();
     let again = [&handle[..], &[0; 4], &[2, 0, 0, 0]].concat();
     assert_eq!(sda.write(CHANNEL_1, 0x49, &again), Ok(()));
     assert_eq!((read(request_state), read(response_state)), (vec![2, 0, 0, 0], vec![0; 4]));
-    // Another channel has its own.
+    // Another channel has its own variables.
     assert_eq!(sda.ask(0x12_2302, 0x48, b"V.G.SERVICE.REQUEST_STATE\0"), Ok(vec![0; 4]));
     // 127 characters and a NUL.
     assert_eq!(write(request, &[b'x'; 127]), Ok(()));
@@ -62,9 +62,9 @@ fn states_answer_each_other() {
     assert_eq!(write(request_state, &[1]), Err(0x705));
 }
 
-/// A CNC before the interface has none of them.
+/// An older CNC has none of the variables.
 #[test]
-fn they_come_with_a_version() {
+fn the_variables_depend_on_the_version() {
     let cnc = Cnc::start(&["--cnc-version", "V2.11.2020"]);
     let sda = cnc.sda();
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.G.SERVICE.UUID\0"), Err(0x710));

@@ -1,4 +1,4 @@
-//! A CNC whose time passes when a test lets it.
+//! A CNC whose clock only the test advances.
 
 use std::time::Duration;
 
@@ -20,12 +20,12 @@ impl Timed {
         self.0.pass(Duration::from_millis(milliseconds));
     }
 
-    /// Asks at the group of variables of channel 1.
+    /// Sends a ReadWrite to the group of variables of channel 1.
     pub(crate) fn ask(&self, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
         self.call(AmsPort::SDA, Service::ReadWrite, CHANNEL_1, offset, data)
     }
 
-    /// Reads there.
+    /// Sends a Read to this group.
     pub(crate) fn read(&self, offset: u32) -> Result<Vec<u8>, u32> {
         self.call(AmsPort::SDA, Service::Read, CHANNEL_1, offset, &[])
     }

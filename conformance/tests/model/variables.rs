@@ -11,7 +11,7 @@ fn printed_writes() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     let test = || sda.ask(CHANNEL_1, 0x48, b"V.E.test\0").unwrap();
-    // Element 4 becomes 123, by its handle and by its name; then the whole again.
+    // Element 4 becomes 123, by handle and by name; then the whole value is written again.
     for (offset, request) in [
         (0x49, &b"\x34\x12\0\x02\x01\0\0\0\x04\0\0\0\x7B\0\0\0"[..]),
         (0x4A, b"V.E.test[4]\0\x7B\0\0\0"),
@@ -24,7 +24,7 @@ fn printed_writes() {
     }
     assert_eq!(sda.write(CHANNEL_1, 0x4A, &[b"V.E.test\0", COUNTED].concat()), Ok(()));
     assert_eq!(test(), COUNTED);
-    // Of V.E.Testvar nothing has changed.
+    // V.E.Testvar is unchanged.
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.E.Testvar\0"), Ok(PRINTED.to_vec()));
     // V.A.WCS of the second axis becomes 123.456.
     let value = [0x77, 0xBE, 0x9F, 0x1A, 0x2F, 0xDD, 0x5E, 0x40];
@@ -32,7 +32,7 @@ fn printed_writes() {
     assert_eq!(sda.ask(CHANNEL_1, 0x2_0005, b"V.A.WCS\0"), Ok(value.to_vec()));
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.A.WCS.Y\0"), Ok(value.to_vec()));
     assert_eq!(sda.ask(CHANNEL_1, 0x47, b"\x1B\0\x02\x01\0\0\0\0"), Ok(value.to_vec()));
-    // A write on the channel interface is read on the axis's.
+    // The axis interface reads a value that was written on the channel interface.
     assert_eq!(sda.write(CHANNEL_1, 0x4A, b"V.A.WCS.X\0\0\0\0\0\0\0\0\0"), Ok(()));
     assert_eq!(sda.ask(CHANNEL_1, 0x1_0005, b"V.A.WCS\0"), Ok(vec![0; 8]));
 }
@@ -49,7 +49,7 @@ fn every_type_is_written() {
         ("V.E.uns16", &[1, 2]),
         ("V.E.sgn32", &[1, 2, 3, 0x80]),
         ("V.E.uns32", &[1, 2, 3, 4]),
-        // A NaN with bits of its own.
+        // A NaN with a payload.
         ("V.E.real64", &[1, 2, 3, 4, 5, 6, 0xF8, 0x7F]),
         ("V.E.matrix[1][2]", &[0x34, 0x12]),
         ("V.E.cube[1][2][3]", &[0xAA]),
@@ -62,12 +62,12 @@ fn every_type_is_written() {
         assert_eq!(sda.write(CHANNEL_1, 0x4A, &request), Ok(()), "{name}");
         assert_eq!(sda.ask(CHANNEL_1, 0x48, name.as_bytes()), Ok(value.to_vec()), "{name}");
     }
-    // 11 12 13, 21 22 0x1234: only the element has changed.
+    // 11 12 13, 21 22 0x1234: only the element is changed.
     let matrix = vec![11, 0, 12, 0, 13, 0, 21, 0, 22, 0, 0x34, 0x12];
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.E.matrix\0"), Ok(matrix));
 }
 
-/// A text may be shorter than its place, but ends in it; each has the size it is declared with.
+/// A text may be shorter than its declared size, but must contain a NUL.
 #[test]
 fn texts_are_written() {
     let cnc = Cnc::start(&[]);
@@ -81,7 +81,7 @@ fn texts_are_written() {
     assert_eq!(read(b"V.E.text\0"), b"aaaaaaaaaaaaaaaaaaaa\0");
     assert_eq!(write(b"V.E.text\0aaaaaaaaaaaaaaaaaaaaa"), Err(0x705));
     assert_eq!(write(b"V.E.text\0aaaaaaaaaaaaaaaaaaaaa\0"), Err(0x705));
-    // One of an array likewise; the whole array has its size.
+    // The same applies to a text in an array; the whole array has a fixed size.
     assert_eq!(write(b"V.E.texts[2]\0third\0"), Ok(()));
     assert_eq!(read(b"V.E.texts[2]\0")[..7], *b"third\0\0");
     assert_eq!(read(b"V.E.texts[1]\0")[..5], *b"two\0\0");
@@ -91,12 +91,12 @@ fn texts_are_written() {
 }
 
 #[test]
-fn refused_writes() {
+fn invalid_writes_are_rejected() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     let by_name = |request: &[u8]| sda.write(CHANNEL_1, 0x4A, request);
     let by_handle = |request: &[u8]| sda.write(CHANNEL_1, 0x49, request);
-    // Wrong size: of the whole, of an element, of nothing.
+    // Wrong size: of the whole value, of an element, and no bytes.
     assert_eq!(by_name(b"V.E.test\0\x7B\0\0\0"), Err(0x705));
     assert_eq!(by_name(b"V.E.test[4]\0\x7B\0\0"), Err(0x705));
     assert_eq!(by_name(b"V.E.test[4]\0\x7B\0\0\0\0"), Err(0x705));
@@ -110,7 +110,7 @@ fn refused_writes() {
     assert_eq!(by_handle(b"\x02\0\0\x02\0\0\0\0\0\0"), Err(0x704));
     assert_eq!(by_name(b"V.A.ACT_POS.X\0\0\0\0\0\0\0\0\0"), Err(0x704));
     assert_eq!(sda.write(CHANNEL_1, 0x1_0006, b"V.A.ACT_POS\0\0\0\0\0\0\0\0\0"), Err(0x704));
-    // Unknown handles and names, elements that are not there.
+    // Unknown handles and names, elements that do not exist.
     assert_eq!(by_handle(b"\xFF\xFF\xFF\x7F\0\0\0\0\0"), Err(0x706));
     assert_eq!(by_name(b"V.E.nobody\0\0"), Err(0x710));
     assert_eq!(by_name(b"V.A.WCS\0\0\0\0\0\0\0\0\0"), Err(0x710));
@@ -124,9 +124,9 @@ fn refused_writes() {
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.E.Variable_3\0"), Ok(vec![1, 0]));
 }
 
-/// A handle is its channel's.
+/// A handle is only valid for its channel.
 #[test]
-fn handles_of_another_channel_are_refused() {
+fn handles_of_another_channel_are_rejected() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     let with_header = |handle: &[u8]| [handle, &[0; 4]].concat();
@@ -150,7 +150,7 @@ fn handles_of_another_channel_are_refused() {
 }
 
 #[test]
-fn extended_descriptions_are_each_variables_own() {
+fn each_variable_has_its_own_extended_description() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
     // Printed: index 3.

@@ -1,4 +1,4 @@
-//! The decoder of a streaming program: pace, ends, faults.
+//! The decoder of a streaming program: pace, ends and errors.
 
 use std::time::Duration;
 
@@ -34,12 +34,12 @@ fn aborted(program: &StreamingProgram) -> String {
 }
 
 #[test]
-fn default_is_started_and_not_without_end() {
+fn the_default_program_is_started_once() {
     let mut program = StreamingProgram::new(ProgramConfig::default());
     assert_eq!(program.state(), State::Dry);
     let line = [&[b'X'; 990][..], b"\r\n"].concat();
     let taken = (0..10).take_while(|_| program.write(&line, ZERO) == Ack::Accepted).count();
-    // One is being run, four wait.
+    // One line is being executed, four wait.
     assert_eq!((taken, program.refusals(), program.buffered()), (5, 1, 4 * 992));
     program.advance(ms(1));
     assert_eq!(program.write(&line, ms(1)), Ack::Accepted);
@@ -48,7 +48,7 @@ fn default_is_started_and_not_without_end() {
 }
 
 #[test]
-fn writes_of_a_wrong_size_are_refused_in_any_state() {
+fn writes_of_a_wrong_size_are_rejected_in_any_state() {
     for start in [Start::ByHand, Start::Once, Start::Again] {
         let mut program =
             StreamingProgram::new(ProgramConfig { start, ..ProgramConfig::default() });
@@ -58,7 +58,7 @@ fn writes_of_a_wrong_size_are_refused_in_any_state() {
     }
 }
 
-/// Lines are run at their time, and no rounding adds up.
+/// Lines are executed on time, and rounding errors do not accumulate.
 #[test]
 fn pace() {
     let mut program = lines(3);
@@ -70,7 +70,7 @@ fn pace() {
         program.advance(ms(at));
         assert_eq!(program.executed().line_count(), run, "{at} ms");
     }
-    // Time that goes back is no time.
+    // A time that goes backwards has no effect.
     program.advance(ms(5));
     assert_eq!(program.executed().line_count(), 180);
 
@@ -85,7 +85,7 @@ fn pace() {
 }
 
 #[test]
-fn a_dry_stream_stands_still_until_the_next_write() {
+fn a_dry_stream_waits_for_the_next_write() {
     let mut program = lines(10);
     program.write(b"N1\r\n", ZERO);
     assert_eq!(program.state(), State::Running);
@@ -99,9 +99,9 @@ fn a_dry_stream_stands_still_until_the_next_write() {
     assert_eq!((program.state(), program.executed().line_count()), (State::Dry, 2));
 }
 
-/// What was read with the end is discarded; what came after that stays for the next start.
+/// Lines that were read with the end are discarded; later lines remain for the next start.
 #[test]
-fn ends() {
+fn program_ends_discard_read_lines() {
     for (word, end) in [
         ("M2", ProgramEnd::M2),
         ("M30", ProgramEnd::M30),
@@ -131,13 +131,13 @@ fn ends() {
 }
 
 #[test]
-fn a_program_that_is_started_again_and_again() {
+fn a_program_may_be_started_again() {
     let config =
         ProgramConfig { start: Start::Again, pace: Pace::Fast, ..ProgramConfig::default() };
     let mut program = StreamingProgram::new(config);
     program.write(b"N1:\r\nM30\r\nN2\r\n", ZERO);
     assert_eq!(program.state(), State::Dry);
-    // The label was that of the program before.
+    // The label belonged to the previous program.
     program.write(b"$GOTO N1\r\nM30\r\n", ZERO);
     assert!(program.executed().lines().eq([&b"N1:"[..], b"M30", b"$GOTO N1", b"M30"]));
     program.write(b"X1\r\n$FOR\r\n", ZERO);
@@ -147,7 +147,7 @@ fn a_program_that_is_started_again_and_again() {
 }
 
 #[test]
-fn faults_abort_in_place_of_their_line() {
+fn errors_abort_before_their_line() {
     for (text, run, message) in [
         ("N1\r\nN2 X2\r\nN3 $WHILE P1\r\nN4\r\n", 2, "streaming.nc:3:4: $WHILE in a stream"),
         ("N1:\r\n(a)\r\n$GOTO N1\r\n", 2, "streaming.nc:3:1: $GOTO back to line 1"),
@@ -158,7 +158,7 @@ fn faults_abort_in_place_of_their_line() {
         program.advance(ms(1000));
         assert_eq!(program.executed().line_count(), run);
         assert_eq!(aborted(&program), message);
-        // Nothing goes on: writes fill the interface, and a start needs a reset.
+        // Execution has ended: writes fill the interface, and a start needs a reset.
         while program.write(b"N9 X1\r\n", ms(2000)) == Ack::Accepted {}
         assert_eq!((program.buffered(), program.refusals()), (STREAM_MAX / 7 * 7, 1));
         assert_eq!(program.start(ms(2000)), Err(StartError::Aborted));
@@ -171,7 +171,7 @@ fn faults_abort_in_place_of_their_line() {
 }
 
 #[test]
-fn a_missing_line_end_aborts_when_it_is_read() {
+fn a_missing_line_end_aborts_when_read() {
     let mut program = lines(10);
     program.write(b"N1\r\n", ZERO);
     assert_eq!(program.write(b"N2\r\nN3\n", ms(50)), Ack::Accepted);
@@ -186,9 +186,9 @@ fn a_missing_line_end_aborts_when_it_is_read() {
     assert_eq!((program.executed().line_count(), program.buffered()), (1, 0));
 }
 
-/// Borders of writes vanish: a line may come in two if they are read together.
+/// The boundaries of writes are lost: a line may be split into two writes if both are read together.
 #[test]
-fn a_line_in_two_writes() {
+fn a_line_may_be_split_into_two_writes() {
     let mut program = program(Pace::Hold);
     program.write(b"N1 ", ZERO);
     program.write(b"X1\r\n", ZERO);
@@ -197,7 +197,7 @@ fn a_line_in_two_writes() {
 }
 
 #[test]
-fn comments_hide_over_packets_and_calls_return() {
+fn comments_span_packets_and_calls_return() {
     let mut program = program(Pace::Fast);
     for packet in
         ["#COMMENT BEGIN\r\n", "$DO\r\nM30\r\n", "#COMMENT END\r\n", "N9 L M30\r\n", "X1\r\n"]
@@ -209,7 +209,7 @@ fn comments_hide_over_packets_and_calls_return() {
 }
 
 #[test]
-fn without_a_name_there_is_no_streaming() {
+fn streaming_needs_a_name() {
     let config =
         ProgramConfig { name: String::new(), pace: Pace::Fast, ..ProgramConfig::default() };
     let mut program = StreamingProgram::new(config);
@@ -221,7 +221,7 @@ fn without_a_name_there_is_no_streaming() {
 }
 
 #[test]
-fn a_reset_runs_what_was_due_and_no_more() {
+fn a_reset_executes_only_due_lines() {
     let mut program = lines(10);
     program.write(b"N1\r\nN2\r\nN3\r\n", ZERO);
     program.write(b"N4\r\n", ZERO);
@@ -234,7 +234,7 @@ fn a_reset_runs_what_was_due_and_no_more() {
 }
 
 #[test]
-fn what_was_run_is_kept_within_bounds() {
+fn the_record_of_executed_lines_is_limited() {
     for kept in [0, 1, 10, 100, 5000] {
         let config = ProgramConfig { pace: Pace::Fast, kept, ..ProgramConfig::default() };
         let mut program = StreamingProgram::new(config);
@@ -257,7 +257,7 @@ fn what_was_run_is_kept_within_bounds() {
     }
 }
 
-/// Something that is written, well or not.
+/// Valid and invalid writes.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![
         20 => (1..40_usize).prop_map(|count| b"N1 X1\r\n".repeat(count)),
@@ -281,9 +281,9 @@ fn any_pace() -> impl Strategy<Value = Pace> {
 proptest! {
 #![proptest_config(kept::cases(300, file!()))]
 
-/// How often it is advanced does not matter.
+/// The number of calls of `advance` does not matter.
 #[test]
-fn all_goes_as_if_it_ran_all_the_time(
+fn the_result_does_not_depend_on_advances(
     pace in any_pace(),
     again in any::<bool>(),
     writes in prop::collection::vec((piece(), 0..200_u64, 1..30_u64), 1..40),

@@ -1,4 +1,4 @@
-//! The CNC's side of data streaming and of the Service Interface, each on its own.
+//! The CNC's side of data streaming and of the Service Interface, each tested separately.
 
 use std::time::Duration;
 
@@ -49,9 +49,9 @@ fn a_request_state_resets_the_response_state() {
     }
 }
 
-/// SVC-4: whether writing RESPONSE_STATE sets REQUEST_STATE to 0 is the interface's choice.
+/// SVC-4: the interface determines whether a write to RESPONSE_STATE sets REQUEST_STATE to 0.
 #[test]
-fn a_response_state_clears_the_request_state_or_does_not() {
+fn a_response_state_may_clear_the_request_state() {
     for (clears, left) in [(Clears::OnResponseState, 0), (Clears::Never, 3)] {
         let mut interface = ServiceInterface::with(clears);
         interface.write(RequestState, &[3, 0, 0, 0]).unwrap();
@@ -63,9 +63,9 @@ fn a_response_state_clears_the_request_state_or_does_not() {
     }
 }
 
-/// A response that is longer than its field is an error, and read again.
+/// A response that is longer than its variable is an error, and is read again.
 #[test]
-fn a_response_longer_than_its_field_is_refused() {
+fn a_too_long_response_is_rejected() {
     let mut program = program();
     (0..3).for_each(|_| program.written(Duration::ZERO));
     program.read(&[1, 0, 0, 0], Duration::ZERO).unwrap();
@@ -76,10 +76,10 @@ fn a_response_longer_than_its_field_is_refused() {
     assert_eq!(program.step(), CallStep::Done { state: 1, response: CncStr::new("x").unwrap() });
 }
 
-/// The manual's driver (`stream-en` 5) sends what does not fit its buffer without a line end,
-/// and a last line that is open.
+/// The manual's driver (`stream-en` 5) sends lines that do not fit into its buffer without a line end,
+/// and a last line without a line end.
 #[test]
-fn what_the_printed_driver_sends_wrongly_shows_on_read() {
+fn errors_of_the_printed_driver_are_detected_on_read() {
     let mut interface = StreamingInterface::new();
     assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
     assert_eq!(interface.write(b"N20 M30"), Ack::Accepted);
@@ -87,7 +87,7 @@ fn what_the_printed_driver_sends_wrongly_shows_on_read() {
     assert_eq!(error.kind(), LineErrorKind::NoLineEnd);
     assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found (STM-5)");
     assert_eq!((interface.len(), interface.read()), (0, Ok(&b""[..])));
-    // Borders of writes vanish: a line may come in two if both are there when it is read.
+    // The boundaries of writes are lost: a line may be split into two writes if both are read together.
     interface.write(b"N10 \r");
     interface.write(b"\nN20");
     interface.write(b" M30\r\n");
@@ -118,9 +118,9 @@ fn the_interface_holds_4094_bytes() {
     assert_eq!((interface.write(&line), interface.len()), (Ack::Accepted, STREAM_PACKET_MAX));
 }
 
-/// The errors have the words of the codec's.
+/// The error messages have the form of the codec's.
 #[test]
-fn calls_that_cannot_be_made() {
+fn invalid_calls_are_rejected() {
     let wait = SysServiceWait::default();
     let zero = ServiceCall::with_state(id(), CncStr::EMPTY, 0, wait).unwrap_err();
     assert_eq!(
@@ -137,7 +137,7 @@ fn calls_that_cannot_be_made() {
 proptest! {
     #![proptest_config(kept::cases(500, file!()))]
 
-    /// The two ends together: a CNC that reads now and then gets the text.
+    /// Both sides together: a CNC that reads occasionally receives the whole text.
     #[test]
     fn a_cnc_gets_the_text(
         lines in vec("[ -~]{0,90}", 0..60),
@@ -160,7 +160,7 @@ proptest! {
         prop_assert_eq!(got, wire.as_bytes());
     }
 
-    /// The interface against a vector of bytes.
+    /// Compares the interface with a vector of bytes.
     #[test]
     fn an_interface_is_a_bounded_queue(steps in vec((0..12_u8, 0..1100_usize, any::<u8>()), 0..60)) {
         let mut interface = CheckedInterface::new(InterfaceBend::NONE);

@@ -1,5 +1,5 @@
-//! The Service Interface in any order of steps: a program that asks, one host or two, writes and
-//! reads that fail, against a model that counts.
+//! The Service Interface in any order of steps: a program, one or two hosts, and failing writes and
+//! reads, compared with a model that counts requests.
 
 use ads_cnc::service::ServiceId;
 use ads_cnc_conformance::simulator::program::service::Clears;
@@ -23,7 +23,7 @@ fn luck() -> impl Strategy<Value = Luck> {
 }
 
 fn orderly() -> impl Strategy<Value = Vec<Action>> {
-    // Runs of the same, so that either side gets far while the other stands.
+    // Repeat actions, so that one side makes progress while the other waits.
     let one = prop_oneof![
         1 => Just(Action::Program),
         2 => (0..2_usize, luck()).prop_map(|(place, luck)| Action::Host(place, luck)),
@@ -55,8 +55,8 @@ fn service_ids() -> [ServiceId; 2] {
 proptest! {
     #![proptest_config(kept::cases(1500, file!()))]
 
-    /// One host for two services, whatever fails: every request is served once, by the service it
-    /// is for, and gets the answer to itself.
+    /// One host for two services, with any failures: every request is served once by its service, and
+    /// receives its own response.
     #[test]
     fn one_host_answers_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();
@@ -66,7 +66,7 @@ proptest! {
         world.finish(&mut next);
     }
 
-    /// Two hosts that know nothing of each other, one service each: the same.
+    /// The same with two independent hosts with one service each.
     #[test]
     fn two_hosts_answer_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();
@@ -79,8 +79,8 @@ proptest! {
         world.finish(&mut next);
     }
 
-    /// After anything at all, programs that give up and a CNC that is reset among it, hosts come to
-    /// rest, and the next requests are answered as if nothing had been.
+    /// After any actions, including timeouts of programs and resets of the CNC, the hosts become idle
+    /// and answer the next requests correctly.
     #[test]
     fn requests_after_chaos_are_answered(
         before in requests(),

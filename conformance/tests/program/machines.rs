@@ -1,5 +1,6 @@
-//! The CNC's side of data streaming and of the Service Interface, whatever it is told: the queue of
-//! a stream, a program's request and the five variables. The fuzz targets include this file.
+//! The CNC's side of data streaming and of the Service Interface with any input, compared with simple
+//! models: the queue of a stream, a program's request and the five variables. The fuzz targets include
+//! this file.
 
 #![allow(dead_code, reason = "the fuzz targets use more than the tests")]
 
@@ -35,19 +36,19 @@ enum Phase {
     TimedOut,
 }
 
-/// A program's request beside what it should be.
+/// A program's request, compared with its model.
 pub(crate) struct CheckedCall {
     call: ServiceCall,
     values: [(ServiceVariable, Vec<u8>); 3],
     keep_waiting: u32,
-    /// How long it waits, and from when on until when.
+    /// The maximum wait, and the start and end of the wait.
     longest: Option<Duration>,
     until: Option<Duration>,
     phase: Phase,
 }
 
 impl CheckedCall {
-    /// Of @P1, @P2 and @P3.
+    /// Creates a request with @P1, @P2 and @P3.
     pub(crate) fn new(
         id: ServiceId,
         request: &[u8],
@@ -133,7 +134,7 @@ impl CheckedCall {
     }
 }
 
-/// An interface beside five vectors.
+/// A Service Interface, compared with five vectors.
 pub(crate) struct CheckedVariables {
     interface: ServiceInterface,
     clears: Clears,
@@ -188,10 +189,10 @@ impl CheckedVariables {
     }
 }
 
-/// What is wrong in one thing around a streaming interface.
+/// A bug that is injected around a streaming interface.
 #[derive(Clone, Copy)]
 pub(crate) struct InterfaceBend {
-    /// What the interface is given.
+    /// The call of the interface.
     pub(crate) write: fn(&mut StreamingInterface, &[u8]) -> Ack,
     pub(crate) reset: fn(&mut StreamingInterface),
 }
@@ -201,14 +202,14 @@ impl InterfaceBend {
         Self { write: StreamingInterface::write, reset: StreamingInterface::reset };
 }
 
-/// Line, column and kind of what is wrong.
+/// Line, column and kind of an error.
 pub(crate) type TextFault = (usize, usize, LineErrorKind);
 
 fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
-/// An interface beside a vector of bytes.
+/// A streaming interface, compared with a vector of bytes.
 pub(crate) struct CheckedInterface {
     interface: StreamingInterface,
     held: Vec<u8>,
@@ -220,7 +221,7 @@ impl CheckedInterface {
         Self { interface: StreamingInterface::new(), held: Vec::new(), bend }
     }
 
-    /// All or nothing is taken.
+    /// Writes all bytes or none.
     pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
         let wanted = match data.len() {
             0 | 993.. => Ack::Rejected,
@@ -235,7 +236,7 @@ impl CheckedInterface {
         wanted
     }
 
-    /// All that was written comes out, or the first line that is not ended as it has to be.
+    /// Reads all written bytes, or the first line with a wrong line end.
     pub(crate) fn read(&mut self) -> Result<Vec<u8>, TextFault> {
         let held = std::mem::take(&mut self.held);
         let wanted = match missing_end(&held) {
@@ -260,7 +261,7 @@ impl CheckedInterface {
     }
 }
 
-/// The first line that does not end in CR LF, looked for byte by byte.
+/// The first line that does not end in CR LF, searched byte by byte.
 fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 1);
     for (at, &byte) in bytes.iter().enumerate() {

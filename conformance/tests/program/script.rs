@@ -1,4 +1,4 @@
-//! Programs that ask services, in time.
+//! Programs that send requests to services, with their timing.
 
 use std::time::Duration;
 
@@ -29,7 +29,7 @@ fn request(wait: Wait) -> ServiceRequest {
     }
 }
 
-/// `service-en` 3: 5 s at most, timer 1.
+/// The printed example of `service-en` 3: at most 5 s, timer 1.
 const PRINTED: Wait = Wait::Cycle { p1: None, p2: Some(5000), p3: Some(1) };
 
 fn config(wait: Wait, repeat: Repeat, pause: Duration) -> ScriptConfig {
@@ -40,9 +40,9 @@ fn script(wait: Wait, repeat: Repeat, pause: Duration) -> Script {
     Script::new(config(wait, repeat, pause)).unwrap()
 }
 
-/// The built-in script and the manual's service, for a minute.
+/// The built-in script and the manual's service for a minute.
 #[test]
-fn square_roots_over_and_over() {
+fn square_roots_are_requested_repeatedly() {
     let config = ScriptConfig::square_root().unwrap();
     let ids = [config.requests[0].uuid];
     let mut script = Script::new(config).unwrap();
@@ -79,9 +79,9 @@ fn square_roots_over_and_over() {
     }
 }
 
-/// A variable each cycle, in the order of the manual.
+/// The script writes one variable per cycle, in the order of the manual.
 #[test]
-fn steps_are_small() {
+fn each_cycle_executes_one_step() {
     let mut script = script(Wait::Loop, Repeat::Times(1), ZERO);
     let mut interface = ServiceInterface::new();
     let mut seen = Vec::new();
@@ -119,14 +119,14 @@ fn steps_are_small() {
     assert_eq!(script.state(), ScriptState::Asking(0));
 }
 
-/// The cycle gives up, the loop does not.
+/// Without a response, the cycle times out, and the loop does not.
 #[test]
-fn nobody_answers() {
+fn only_the_cycle_times_out() {
     let mut interface = ServiceInterface::new();
     let mut by_cycle = script(PRINTED, Repeat::Times(3), ms(10));
     by_cycle.advance(ZERO, &mut interface);
     by_cycle.advance(ms(3_600_000), &mut interface);
-    // REQUEST_STATE is written in the third cycle; 10 ms behind the end comes the next.
+    // REQUEST_STATE is written in the third cycle; the next request comes 10 ms after the end.
     let ends: Vec<_> = by_cycle.answers().map(|answer| (answer.at, &answer.outcome)).collect();
     let timed_out = &ServiceOutcome::TimedOut;
     assert_eq!(ends, [(ms(5002), timed_out), (ms(10_014), timed_out), (ms(15_026), timed_out)]);
@@ -138,9 +138,9 @@ fn nobody_answers() {
     assert_eq!((by_loop.state(), by_loop.answer_count()), (ScriptState::Waiting(0), 0));
 }
 
-/// Answers that nobody fetches do not pile up, and lost time is let go.
+/// The number of stored outcomes and of overdue steps is limited.
 #[test]
-fn a_long_time_costs_little() {
+fn a_long_time_is_processed_quickly() {
     let mut interface = ServiceInterface::new();
     let at_once = Wait::Cycle { p1: Some(5), p2: None, p3: None };
     let mut script =
@@ -155,7 +155,7 @@ fn a_long_time_costs_little() {
 }
 
 #[test]
-fn nothing_to_ask() {
+fn a_script_may_have_no_requests() {
     let mut interface = ServiceInterface::new();
     for (requests, repeat) in
         [(vec![], Repeat::Endless), (vec![request(Wait::Loop)], Repeat::Times(0))]
@@ -169,7 +169,7 @@ fn nothing_to_ask() {
 }
 
 #[test]
-fn bad_requests_are_refused_by_their_place() {
+fn invalid_requests_are_rejected_with_their_index() {
     let good = request(Wait::Loop);
     let long = "x".repeat(128);
     let refused = |request: ServiceRequest, kind: ErrorKind, text: &str| {
@@ -200,9 +200,9 @@ fn any_wait() -> impl Strategy<Value = Wait> {
 proptest! {
 #![proptest_config(kept::cases(300, file!()))]
 
-/// How often it is advanced does not matter.
+/// The number of calls of `advance` does not matter.
 #[test]
-fn all_goes_as_if_it_ran_all_the_time(
+fn the_result_does_not_depend_on_advances(
     wait in any_wait(),
     pause in 0..50_u64,
     cycle in 1..5_000_u64,

@@ -1,4 +1,4 @@
-//! A sender and the program it streams to: nothing is lost, nothing comes twice.
+//! A sender and the receiving program: no bytes are lost or duplicated.
 
 use std::time::Duration;
 
@@ -10,8 +10,8 @@ use proptest::prelude::*;
 
 use crate::kept;
 
-/// Streams a text; `between` is what passes before each write, and whether it is refused on the
-/// way without having got there.
+/// Streams a text; `between` returns the time before each write, and whether the write is rejected
+/// before it reaches the interface.
 fn stream(
     text: NcText<'_>,
     program: &mut StreamingProgram,
@@ -31,7 +31,7 @@ fn stream(
     now
 }
 
-/// 10 MB in simulated time through a decoder that takes 100 kB a second.
+/// 10 MB in simulated time through a decoder that executes 100 kB per second.
 #[test]
 fn ten_megabytes_arrive() {
     let mut wire = Vec::new();
@@ -60,7 +60,7 @@ fn ten_megabytes_arrive() {
     assert_eq!(executed.line_count(), text.line_count() as u64);
     assert_eq!((executed.byte_count(), executed.digest()), (wire.len() as u64, digest(&wire)));
     assert!(wire.ends_with(executed.recent()) && executed.recent().len() <= 20_100);
-    // It never ran dry for long: 10 MB take it 100 s.
+    // The decoder was never dry for long: 10 MB take 100 s.
     let seconds = now.as_secs_f64();
     assert!((99.0..102.0).contains(&seconds), "{seconds}");
 }
@@ -73,7 +73,7 @@ fn any_pace() -> impl Strategy<Value = Pace> {
     ]
 }
 
-/// Lines that are no end and no fault, of any length.
+/// Lines of any length without program ends and errors.
 fn lines() -> impl Strategy<Value = Vec<String>> {
     let line = (any::<u32>(), prop_oneof![9 => 0..80_usize, 1 => 0..960_usize])
         .prop_map(|(n, len)| format!("N{n} {}", "X".repeat(len)));
@@ -93,7 +93,7 @@ fn what_is_run_is_the_text(
     let bytes = lines.join(end).into_bytes();
     let text = NcText::new(&bytes).unwrap();
     let mut program = StreamingProgram::new(ProgramConfig { pace, ..ProgramConfig::default() });
-    // It gets through at times.
+    // At least some writes succeed.
     let mut waits = waits.iter().chain([&(100, false)]).cycle();
     let now = stream(text, &mut program, |_| {
         let &(wait, refused) = waits.next().unwrap();

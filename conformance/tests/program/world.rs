@@ -1,5 +1,5 @@
-//! The Service Interface in any order of steps: a program that asks, one host or two, writes and
-//! reads that fail, against a model that counts. The fuzz targets include this file.
+//! The Service Interface in any order of steps: a program, one or two hosts, and failing writes and
+//! reads, compared with a model that counts requests. The fuzz targets include this file.
 
 #![allow(dead_code, reason = "the fuzz targets use more than the tests")]
 
@@ -11,13 +11,13 @@ use ads_cnc_conformance::simulator::program::service::*;
 
 const NOW: Duration = Duration::ZERO;
 
-/// How a step goes.
+/// The outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Luck {
     Fine,
     /// Nothing arrives.
     Fails,
-    /// A write arrives, and the host is not told.
+    /// A write arrives, but the host gets an error.
     FailsLate,
 }
 
@@ -25,24 +25,24 @@ pub(crate) enum Luck {
 pub(crate) enum Action {
     Program,
     Host(usize, Luck),
-    /// The program gives up.
+    /// The program times out.
     GiveUp,
     ResetCnc,
     Restart(usize),
 }
 
-/// A request: which service, and which of a few texts, so that requests repeat.
+/// A request: the index of the service and of one of a few texts, so that requests repeat.
 pub(crate) type Asked = (usize, u8);
 
-/// What is wrong in one thing around hosts and the interface.
+/// A bug that is injected around the hosts and the interface.
 #[derive(Clone, Copy)]
 pub(crate) struct ServiceBend {
-    /// A host is told that a step failed.
+    /// Reports a failed step to a host.
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) restart: fn(&mut Host<'_>),
-    /// Whoever writes.
+    /// Writes a variable.
     pub(crate) write: fn(&mut ServiceInterface, ServiceVariable, &[u8]),
-    /// Which service the host says is asked.
+    /// The service that the host reports for a request.
     pub(crate) asked: fn(usize, &str) -> usize,
 }
 
@@ -55,7 +55,7 @@ impl ServiceBend {
     };
 }
 
-/// All that takes part, and the model: how often each service was asked and has served.
+/// All participants, and the model: the number of requests to each service, and of served ones.
 pub(crate) struct World<'s> {
     interface: ServiceInterface,
     hosts: Vec<Host<'s>>,
@@ -63,13 +63,13 @@ pub(crate) struct World<'s> {
     call: Option<(Asked, ServiceCall)>,
     asked: Vec<usize>,
     served: Vec<usize>,
-    /// Whether each answer is the right one; chaos makes wrong ones.
+    /// Whether each response must be right; chaos causes wrong ones.
     strict: bool,
     bend: ServiceBend,
 }
 
 impl<'s> World<'s> {
-    /// One host for all services, or one for each.
+    /// Creates one host for all services, or one for each.
     pub(crate) fn new(
         ids: &'s [ServiceId],
         together: bool,
@@ -94,12 +94,12 @@ impl<'s> World<'s> {
         }
     }
 
-    /// How often each service has served.
+    /// The number of requests that each service has served.
     pub(crate) fn served(&self) -> &[usize] {
         &self.served
     }
 
-    /// What a service answers: who it is, what it was asked, how often it has served.
+    /// The response of a service: its index, the request, and the number of served requests.
     fn answer(service: usize, request: &str, times: usize) -> String {
         format!("{service} {request} {times}")
     }
@@ -130,7 +130,7 @@ impl<'s> World<'s> {
                 }
                 self.call = None;
             }
-            CallStep::TimedOut => unreachable!("it has no longest wait"),
+            CallStep::TimedOut => unreachable!("there is no maximum wait"),
         }
     }
 
@@ -152,7 +152,7 @@ impl<'s> World<'s> {
                 let request = request.to_string();
                 let service = (self.bend.asked)(service, &request);
                 if self.strict {
-                    // SVC-2: asked by the program, of this service, just now.
+                    // SVC-2: the program has just sent this request to this service.
                     let ((asked, text), _) = self.call.as_ref().expect("somebody asks");
                     assert_eq!((*asked, format!("{asked}{text}")), (service, request.clone()));
                 }
@@ -179,9 +179,9 @@ impl<'s> World<'s> {
         }
     }
 
-    /// A write of RESPONSE_STATE that fails does not arrive where two hosts know nothing of each
-    /// other: a host that looks whether it has cannot tell its own request from a later one while
-    /// the other host is about to answer that.
+    /// With two independent hosts, a failed write of RESPONSE_STATE does not arrive: a host that checks
+    /// for this cannot distinguish its own request from a later one that the other host is about to
+    /// answer.
     pub(crate) fn luck_of_two(&self, action: Action) -> Action {
         let Action::Host(place, Luck::FailsLate) = action else { return action };
         match self.hosts[place % self.hosts.len()].step() {
@@ -190,11 +190,11 @@ impl<'s> World<'s> {
         }
     }
 
-    /// The program gives up, and all hosts step in turn until they have nothing to do. From then
-    /// on each answer has to be the right one.
+    /// The program times out, and all hosts execute steps in turn until they are idle. From then on,
+    /// each response must be right.
     pub(crate) fn settle(&mut self) {
         self.call = None;
-        // A host at rest reads one state and waits; all steps before that are some twenty.
+        // An idle host reads one state and waits; it has about twenty steps before that.
         let mut calm = 0;
         for round in 0.. {
             assert!(round < 200, "the hosts do not come to rest");
@@ -204,7 +204,7 @@ impl<'s> World<'s> {
             }
             let same = before == (self.interface.clone(), self.served.clone());
             calm = if same { calm + 1 } else { 0 };
-            // Longer than any host only reads.
+            // No active host only reads for longer than this.
             if calm > 12 {
                 break;
             }
@@ -222,13 +222,13 @@ impl<'s> World<'s> {
         (self.strict, self.asked) = (true, self.served.clone());
     }
 
-    /// Everyone steps in turn until the program has all its answers.
+    /// All participants execute steps in turn until the program has all responses.
     pub(crate) fn finish(&mut self, next: &mut impl Iterator<Item = Asked>) {
         let mut idle = 0;
         for _ in 0..2000 {
             self.program(next);
             (0..self.hosts.len()).for_each(|place| self.host(place, Luck::Fine));
-            // It asks as soon as it has its answer; a host may have the end of that before it.
+            // The program sends the next request at once; a host may still complete the last response.
             idle = if self.call.is_none() { idle + 1 } else { 0 };
             if idle > 12 {
                 break;

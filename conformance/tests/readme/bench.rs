@@ -1,4 +1,4 @@
-//! Where the calls are made: a folder of their own, a device, and a simulated CNC.
+//! The environment of the calls: a folder, a device, and a simulated CNC.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use std::{env, thread};
 use super::common::Serve;
 use super::shown::{Shown, fits, words};
 
-/// How long one call may take: what cargo has to build takes minutes.
+/// Time limit of a call; a build by cargo takes minutes.
 const WAIT_MAX: Duration = Duration::from_secs(900);
 
-/// How long one that does not end may take to show what it should.
+/// Time limit for the output of a call that does not end.
 const PATIENCE_ENDLESS: Duration = Duration::from_secs(60);
 
 pub(crate) fn root() -> PathBuf {
@@ -21,14 +21,14 @@ pub(crate) fn root() -> PathBuf {
 
 pub(crate) struct Bench {
     directory: PathBuf,
-    /// Stands for 192.0.2.10.
+    /// The device that calls use as 192.0.2.10.
     device: Serve,
-    /// Stands for 127.0.0.1; its NC program asks for square roots.
+    /// The CNC that calls use as 127.0.0.1; its NC program requests square roots.
     cnc: Serve,
 }
 
 impl Bench {
-    /// With the files that the calls name or show.
+    /// Creates the environment, with the files that the calls use or show.
     pub(crate) fn new(name: &str, shown: &[Shown]) -> Self {
         let directory = format!("ads-cnc-shown-{name}-{}", std::process::id());
         let directory = env::temp_dir().join(directory);
@@ -42,7 +42,7 @@ impl Bench {
             if let Some(name) = call.strip_prefix("cat ") {
                 bench.write(name, &output.replace("expires = 2030-", "expires = 9999-"));
             }
-            // What a refusal says is needed goes into the file that the next call has.
+            // Write the entry in a rejection to the file of the next call.
             if let Some((_, entry)) = output.split_once("--allow-write:\n\n") {
                 let expires = "expires = 9999-12-31T23:59:59Z";
                 bench.write("test.toml", &entry.replace("expires = …", expires));
@@ -55,7 +55,7 @@ impl Bench {
         fs::write(self.directory.join(name), text).unwrap();
     }
 
-    /// Makes the call and holds it to what is shown; one that shows nothing has to end well.
+    /// Executes the call and compares its output; a call without shown output must succeed.
     pub(crate) fn make(&self, shown: &Shown) {
         let Shown { call, output } = shown;
         let (found, status) = self.output(call, output);
@@ -66,8 +66,8 @@ impl Bench {
         }
     }
 
-    /// All that a call shows, in the order in which it comes, and how it ended. One that does not
-    /// end by itself is ended once it has shown what it should.
+    /// The output of a call in its order, and the exit status. A call that does not end by itself is
+    /// ended after it has printed the shown output.
     fn output(&self, call: &str, shown: &str) -> (String, Option<ExitStatus>) {
         let mut words = words(call);
         let is_endless =
@@ -96,7 +96,7 @@ impl Bench {
     }
 
     fn command(&self, words: &[String], out: &File) -> Command {
-        // The system picks the port of another CNC.
+        // Let the system choose the port of another CNC.
         let to_cnc = if words[1] == "serve" { "127.0.0.1:0" } else { &self.cnc.addr };
         let here = |word| match word {
             "192.0.2.10" => &self.device.addr,
@@ -106,7 +106,7 @@ impl Bench {
         let words: Vec<&str> = words.iter().map(|word| here(word.as_str())).collect();
         let (program, arguments) = words.split_first().unwrap();
         let mut command = match *program {
-            // Cargo itself tells on stderr what it builds.
+            // Cargo prints its own messages to stderr.
             "cargo" => {
                 let mut cargo = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
                 cargo.current_dir(root()).stderr(Stdio::null());
@@ -120,11 +120,11 @@ impl Bench {
                 tool.stderr(out.try_clone().unwrap());
                 tool
             }
-            other => panic!("nobody runs {other}"),
+            other => panic!("unknown command {other}"),
         };
         command.args(arguments);
         if let ["check", ..] = arguments {
-            // The device has not the usual port.
+            // The device does not use the default port.
             command.args(["--port", self.device.addr.rsplit(':').next().unwrap()]);
         }
         command

@@ -1,4 +1,4 @@
-//! Every crate that the tools are built from is accounted for in a document.
+//! A document states the reason for every crate that the tools use.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -24,7 +24,7 @@ fn every_crate_has_a_reason() {
     let document = fs::read_to_string(root().join("conformance/doc/dependencies.md")).unwrap();
     let (used, _) = document.split_once("## Considered and not used").unwrap();
     let quoted = used.split('`').skip(1).step_by(2);
-    // But for options and this project's own.
+    // Except options and this project's own crates.
     let quoted = quoted.filter(|word| !word.starts_with('-') && !word.starts_with("ads-cnc"));
     assert_eq!(quoted.collect::<BTreeSet<_>>(), crates);
     let counted = format!("built from {} crates", versions.len());

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::bench::{Bench, root};
 use super::shown::{Shown, calls};
 
-/// Calls that need more than this project, or minutes: gate.rs makes them.
+/// Calls that need other programs, or minutes: gate.rs executes them.
 pub(crate) const IN_THE_GATE: [&str; 4] =
     ["cargo run ", "ads-cnc selftest", "ads-cnc run --testee ", "ads-cnc run --client "];
 
@@ -41,7 +41,7 @@ pub(crate) fn is_in_the_gate(call: &str) -> bool {
     IN_THE_GATE.iter().any(|start| call.starts_with(start) || call == start.trim_end())
 }
 
-/// Makes the calls of each document in its order, as one may need what another left.
+/// Executes the calls of each document in order, because a call may need the files of a previous one.
 pub(crate) fn make(is_meant: impl Fn(&str) -> bool) -> usize {
     let mut made = 0;
     for (path, shown) in documents() {

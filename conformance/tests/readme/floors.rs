@@ -1,5 +1,5 @@
-//! A module of `conformance/src` imports only modules below it, in the order of the table in
-//! `lib.rs`, and no files import each other in a circle. What is `#[cfg(test)]` may import any.
+//! A module of `conformance/src` imports only modules below it in the table of `lib.rs`, and no files
+//! import each other in a circle. Code in `#[cfg(test)]` may import any module.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -51,14 +51,14 @@ fn arrows(path: &str, text: &str, found: &mut Vec<Arrow>) {
     }
 }
 
-/// The modules from the top down, as the table of `lib.rs` has them.
+/// The modules from top to bottom of the table in `lib.rs`.
 fn floors(lib: &str) -> Vec<&str> {
     let rows = lib.lines().filter_map(|line| line.strip_prefix("//! | [")?.split(" | ").next());
     rows.flat_map(|row| row.split('`').skip(1).step_by(2)).collect()
 }
 
 #[test]
-fn modules_import_what_is_below_them() {
+fn modules_import_only_modules_below_them() {
     let src = root().join("conformance/src");
     let lib = fs::read_to_string(src.join("lib.rs")).unwrap();
     let floors = floors(&lib);
@@ -71,7 +71,7 @@ fn modules_import_what_is_below_them() {
     let (mut files, mut all) = (BTreeMap::new(), Vec::new());
     read_files(&src, "", &mut files);
     files.iter().for_each(|(path, text)| arrows(path, text, &mut all));
-    // A name that no module has is above all modules.
+    // A name that is not a module counts as above all modules.
     let floor = |module: &str| floors.iter().position(|floor| *floor == module);
     all.retain(|arrow| floor(&arrow.to) < floor(&arrow.from));
     let upward = all.iter().map(|Arrow { from, to, at }| format!("{at}: {from} -> {to}"));
@@ -79,18 +79,18 @@ fn modules_import_what_is_below_them() {
     assert!(upward.is_empty(), "imports of a module above:\n{}", upward.join("\n"));
 }
 
-/// What a file imports.
+/// The imports of a file.
 struct Module {
     /// The path of each imported name.
     names: BTreeMap<String, String>,
-    /// The paths of its code and its imports, but for those that it only re-exports.
+    /// The paths in code and imports, except those that the file only re-exports.
     paths: BTreeSet<String>,
 }
 
 impl Module {
     fn new(text: &str) -> Self {
         let (mut code, mut imports) = (String::new(), Vec::new());
-        // The path of `pub(in path)` imports nothing.
+        // The path in `pub(in path)` is not an import.
         let text = text.replace("pub(in crate", "pub(in");
         for statement in text.split_inclusive(';') {
             let (before, tree) = statement.rsplit_once("use ").unwrap_or((statement, ""));
@@ -135,8 +135,8 @@ fn expand(tree: &str) -> Vec<String> {
     paths.map(|path| format!("{}{path}", prefix.trim())).collect()
 }
 
-/// The module that defines what a path in a module leads to, whoever re-exports it; none if that is
-/// in the same module or in another crate.
+/// The module that defines the item of a path in a module, following re-exports; `None` for the same
+/// module or another crate.
 fn definition(modules: &BTreeMap<String, Module>, module: &str, path: &str) -> Option<String> {
     let (first, rest) = path.split_once("::").unwrap_or((path, ""));
     let child = format!("{module}::{first}");

@@ -1,6 +1,5 @@
-//! The calls of documents that need Python 3, or minutes. `cargo test --workspace` leaves this out;
-//! `.ci/run` runs it. `ADS_CNC_TOOL` names the tool as it was built for release, which takes minutes
-//! less.
+//! The calls of documents that need Python 3, or minutes. `cargo test --workspace` omits this test;
+//! `.ci/run` runs it. `ADS_CNC_TOOL` is the path of a release build of the tool, which saves minutes.
 
 mod bench;
 #[path = "../common/mod.rs"]
@@ -11,7 +10,7 @@ mod shown;
 use documents::{is_in_the_gate, make};
 
 #[test]
-fn calls_show_what_the_documents_have() {
+fn calls_print_the_output_in_the_documents() {
     let made = make(is_in_the_gate);
     assert!(made >= 8, "{made} calls");
 }

@@ -1,10 +1,10 @@
-//! Links between the documents lead to what is there.
+//! Links between the documents lead to existing files and anchors.
 
 use super::documents::texts;
 use super::root;
 
 #[test]
-fn links_lead_somewhere() {
+fn links_have_targets() {
     let (mut seen, texts) = (0, texts());
     for (path, text) in &texts {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
@@ -29,7 +29,7 @@ fn links_lead_somewhere() {
     assert!(seen > 40, "{seen} links");
 }
 
-/// The anchor of a heading, as hosts make it.
+/// The anchor of a heading, as Git hosts create it.
 fn slug(heading: &str) -> String {
     let heading = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = heading.chars().filter(|one| one.is_alphanumeric() || " -_".contains(*one));

@@ -1,13 +1,13 @@
-//! What a document shows of calls, and whether something is as it is shown.
+//! The calls in a document, and the comparison of their output.
 
-/// A call in a block ```console and what stands below it.
+/// A call in a block ```console and the output below it.
 #[derive(Debug, Default)]
 pub(crate) struct Shown {
     pub(crate) call: String,
     pub(crate) output: String,
 }
 
-/// All calls of a document, in its order.
+/// All calls of a document, in order.
 pub(crate) fn calls(document: &str) -> Vec<Shown> {
     let mut all: Vec<Shown> = Vec::new();
     for block in document.split("```console\n").skip(1) {
@@ -26,7 +26,7 @@ pub(crate) fn calls(document: &str) -> Vec<Shown> {
     all
 }
 
-/// The words of a call as a shell has them, without anything that only a shell does.
+/// The words of a call, split as by a shell, without expansions.
 pub(crate) fn words(call: &str) -> Vec<String> {
     let (mut words, mut quote, mut open) = (vec![String::new()], None, false);
     for character in call.chars() {
@@ -45,9 +45,9 @@ pub(crate) fn words(call: &str) -> Vec<String> {
     words
 }
 
-/// Whether the output is the one shown: line by line, where one with … alone stands for any number
-/// of lines and one that ends in … for a longer one. What differs from run to run is not compared:
-/// ports that the system picks, seeds, times, and how often a program that takes its time is asked.
+/// Whether the output matches the shown one line by line. A line with only … matches any number of
+/// lines, and a line that ends in … any longer line. Values that differ from run to run are ignored:
+/// ports that the system chooses, seeds, times, and numbers of polls.
 pub(crate) fn fits(shown: &str, output: &str) -> bool {
     let lines = |text: &str| text.lines().map(steady).collect::<Vec<_>>();
     all_fit(&lines(shown), &lines(output))
@@ -66,7 +66,7 @@ fn all_fit(shown: &[String], output: &[String]) -> bool {
     })
 }
 
-/// A line without its numbers behind these words.
+/// A line without the numbers after these words.
 fn steady(line: &str) -> String {
     let mut line = line.to_owned();
     for words in ["127.0.0.1:", "seed ", "cases, ", "checks, ", "within ", " s ("] {
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_shown_so_does_not_fit() {
+    fn different_output_does_not_match() {
         let output = "a\nb\n\nlast, seed 7\n";
         for shown in ["…\n", "a\n…\n", "a\nb\n\nlast, seed 8\n", "a\n…\nla…\n", "…\nb\n…\n"]
         {

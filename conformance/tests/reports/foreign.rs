@@ -1,4 +1,4 @@
-//! Texts of others in a report are text in every form: names of a device, a foreign report, a profile.
+//! Foreign texts in a report are escaped in every format: names of a device, another's report, a profile.
 
 use std::fs;
 
@@ -8,16 +8,16 @@ use serde_json::{Value, json};
 use super::{FORMS, Folder, VERBOSE, ads_cnc, elements, everything};
 use crate::common::Serve;
 
-/// What a device says of itself is text in every form, whatever it is.
+/// The names that a device reports are escaped in every format.
 #[test]
-fn text_stays_text() {
+fn texts_of_a_device_are_escaped() {
     let folder = Folder::new("text");
     let mut document = everything(&folder);
     let odd = "</script><script>alert(1)</script> | `x` ]]> & \u{1}\u{fffe}";
     let acting = "C\u{1b}[31m\u{9b}2J\0\u{202e}\n\n# A heading";
     document["target"]["name"] = json!(odd);
     document["target"]["language"] = json!(acting);
-    // Markdown has room for some failures only.
+    // Markdown only contains some failures.
     let cases = document["cases"].as_array_mut().unwrap();
     let has_evidence = |case: &Value| case["failures"][0]["evidence"].is_object();
     let at = cases.iter().position(has_evidence).unwrap();
@@ -53,18 +53,18 @@ fn text_stays_text() {
             "## ads-cnc: &lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; \\| \\`x\\`"
         )
     );
-    // A fence is longer than any in what it holds.
+    // A fence is longer than any fence in its text.
     assert!(markdown.contains("````text\n"));
     let badge: Value = serde_json::from_str(&made(report::to_badge)).unwrap();
     assert_eq!(badge["schemaVersion"], 1);
 }
 
-/// Whoever wrote the report: each text in it in turn is one that acts, in every form.
+/// Each text of a report in turn is replaced by active content, and must be escaped in every format.
 #[test]
-fn no_text_of_a_foreign_report_acts() {
+fn all_texts_of_a_foreign_report_are_escaped() {
     let folder = Folder::new("foreign");
     let mut document = everything(&folder);
-    // All that can be there is there once; of most cases nothing is new.
+    // Keep one case with each combination of parts, because most cases are alike.
     let cases = document["cases"].as_array_mut().unwrap();
     let failed = cases.iter().position(|case| case.get("failures").is_some()).unwrap();
     let mut case = cases[failed].clone();
@@ -87,7 +87,7 @@ fn no_text_of_a_foreign_report_acts() {
         }
         let mut foreign = document.clone();
         *foreign.pointer_mut(&path).unwrap() = json!(acting);
-        // Of some keys the words are known: any other is no report.
+        // Some keys only allow known words; with any other, this is not a report.
         let Ok(report) = Report::from_json(&foreign.to_string()) else { continue };
         let made = |make: fn(&Report, &mut dyn std::io::Write) -> std::io::Result<()>| {
             let mut text = Vec::new();
@@ -122,7 +122,7 @@ fn no_text_of_a_foreign_report_acts() {
     }
     assert!(seen.len() > 40, "{seen:?}");
 
-    // And so is what is said of one that is no report.
+    // The error for an invalid report is escaped, too.
     let file = folder.path("odd.json");
     let mut odd = document;
     odd["\u{1b}[2J\u{9b}"] = json!(1);
@@ -150,9 +150,9 @@ fn texts(value: &Value) -> Vec<String> {
     }
 }
 
-/// Names and reasons that a profile and waivers have are texts of others as well.
+/// Names and reasons in a profile and in waivers are escaped, too.
 #[test]
-fn profiles_and_waivers_do_not_act() {
+fn texts_of_profiles_and_waivers_are_escaped() {
     let folder = Folder::new("acting");
     let serve = Serve::start(&[]);
     let (profile, waivers) = (folder.path("profile.toml"), folder.path("waivers.toml"));

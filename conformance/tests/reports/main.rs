@@ -1,4 +1,4 @@
-//! The forms of a report: made from the JSON alone, well-formed, and with the same facts.
+//! The formats of a report: converted only from the JSON, well-formed, and with the same facts.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -14,7 +14,7 @@ use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
 use serde_json::{Value, json};
 
-/// A folder that goes away.
+/// A folder that is removed when dropped.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -52,7 +52,7 @@ const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
 const DEFECT: &str = "variable-description.size.flip";
 const VERBOSE: Display = Display { detail: Detail::Verbose, color: false, found_shown: false };
 
-/// A report with all that one can have: failures with bytes, waivers, a selection.
+/// A report with all parts: failures with bytes, waivers, a selection.
 fn everything(folder: &Folder) -> Value {
     let waivers = folder.path("waivers.toml");
     let entry = |test: &str, requirement: &str| {
@@ -67,7 +67,7 @@ fn everything(folder: &Folder) -> Value {
 }
 
 #[test]
-fn json_keeps_to_its_schema_and_is_read_back() {
+fn json_matches_its_schema_and_is_read_back() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema/report.schema.json");
     let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     jsonschema::draft202012::meta::validate(&schema).unwrap();
@@ -107,9 +107,9 @@ fn json_keeps_to_its_schema_and_is_read_back() {
     }
 }
 
-/// A failure by the protocol names the one it is about.
+/// A failure of a protocol names the document of that protocol.
 #[test]
-fn each_protocol_is_where_its_own_is() {
+fn protocol_failures_name_their_document() {
     for (kind, id, text) in [("client", "CLIENT", "CLIENTS.md"), ("testee", "TESTEE", "README.md")]
     {
         let report = run(&[&format!("--{kind}"), "exit 3"]);
@@ -118,7 +118,7 @@ fn each_protocol_is_where_its_own_is() {
         let failed = failed.find(|one| one["requirement"] == id).unwrap();
         assert_eq!(failed["sources"], json!([format!("conformance/adapters/{text}")]));
         assert!(failed["clause"].as_str().unwrap().ends_with(&format!("a {kind}.")), "{failed:#}");
-        // And is counted.
+        // The failure is counted.
         let subject = &report["subjects"][0];
         assert_eq!(subject["totals"]["fail"], 1, "{subject:#}");
         assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
@@ -131,7 +131,7 @@ fn each_protocol_is_where_its_own_is() {
 }
 
 #[test]
-fn forms_are_made_from_the_json_alone() {
+fn formats_are_converted_from_the_json_only() {
     let folder = Folder::new("forms");
     let json = folder.path("report.json");
     let mut args = vec!["run".to_owned(), "--defect".to_owned(), DEFECT.to_owned()];
@@ -148,17 +148,17 @@ fn forms_are_made_from_the_json_alone() {
         assert_eq!(later.status.code(), Some(0), "{form}");
         assert_eq!(later.stdout, folder.read(&format!("with-run.{form}")).into_bytes(), "{form}");
     }
-    // And so is what is shown.
+    // The console output is the same, too.
     assert_eq!(ads_cnc(&["report", &json]).stdout, output.stdout);
 }
 
 #[test]
-fn what_is_no_report_is_refused() {
+fn invalid_reports_are_rejected() {
     let folder = Folder::new("odd");
     let odd = folder.path("odd.json");
     for (text, why) in [
         ("", "EOF while parsing a value at line 1"),
-        ("{\"format\":2}", "a report of format 2; this version reads 1"),
+        ("{\"format\":2}", "report format 2 instead of 1"),
         ("{\"format\":1,\n\"suit\":1}", "line 2"),
     ] {
         fs::write(&odd, text).unwrap();
@@ -212,7 +212,7 @@ fn junit_has_a_test_for_each_case() {
     };
     let test = "testsuites/testsuite/testcase";
     let cases = document["cases"].as_array().unwrap();
-    // And one for the waiver that does not hold.
+    // One more for the stale waiver.
     assert_eq!(at(test).len(), cases.len() + 1);
     let root = at("testsuites")[0];
     for (name, path) in [("tests", ""), ("failures", "/failure"), ("skipped", "/skipped")] {
@@ -240,9 +240,9 @@ fn junit_has_a_test_for_each_case() {
     }
 }
 
-/// A statement has each clause once for each subject; a comparison fails on what fails newly.
+/// A statement contains each clause once for each subject; a comparison fails for new failures.
 #[test]
-fn statements_and_comparisons_are_made_of_reports() {
+fn reports_are_converted_to_statements_and_compared() {
     let folder = Folder::new("statement");
     let (now, before) = (folder.path("now.json"), folder.path("before.json"));
     fs::write(&now, everything(&folder).to_string()).unwrap();
@@ -264,18 +264,18 @@ fn statements_and_comparisons_are_made_of_reports() {
     let (code, shown) = against(&now, &before);
     assert!(code == Some(1) && shown.contains("\nnewly failing     VAR-8    codec  "), "{shown}");
     let (code, shown) = against(&before, &now);
-    assert!(code == Some(0) && shown.contains("\nmended            VAR-8    codec  "), "{shown}");
+    assert!(code == Some(0) && shown.contains("\nfixed             VAR-8    codec  "), "{shown}");
     let (code, shown) = against(&now, &now);
     assert!(
-        code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 mended, "),
+        code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 fixed, "),
         "{shown}"
     );
 }
 
-/// An interrupted run is one line of a comparison and no success; whoever compares two kinds of runs is
-/// warned.
+/// An interrupted run is one line of a comparison and not a success; a comparison of different kinds of
+/// runs has warnings.
 #[test]
-fn a_comparison_is_no_success_if_less_is_judged() {
+fn a_comparison_with_fewer_verdicts_is_not_a_success() {
     let folder = Folder::new("less");
     let (now, before) = (folder.path("now.json"), folder.path("before.json"));
     let mut document = run(&["--only", "VAR-11", "--seed", "7"]);
@@ -295,17 +295,17 @@ fn a_comparison_is_no_success_if_less_is_judged() {
     assert_eq!(shown.matches("no longer judged  ").count(), 1, "{shown}");
     for part in [
         " verdicts: the run was interrupted\n",
-        "\nwarning  not the same target: ",
-        "\nwarning  not the same claims of the profile: platform_axes\n",
-        "\nwarning  not the same selection: VAR-11 before, VAR now\n",
+        "\nwarning  different target: ",
+        "\nwarning  different claims of the profile: platform_axes\n",
+        "\nwarning  different selection: VAR-11 before, VAR now\n",
     ] {
         assert!(shown.contains(part), "{part:?}: {shown}");
     }
 }
 
-/// A row that takes much of a page may be parted, or the page before it stays empty.
+/// Long rows may break across pages in print, because otherwise the previous page stays empty.
 #[test]
-fn long_rows_are_parted_in_print() {
+fn long_rows_may_break_in_print() {
     let folder = Folder::new("print");
     let mut document = everything(&folder);
     let case = document["cases"].as_array().unwrap();
@@ -326,9 +326,9 @@ fn long_rows_are_parted_in_print() {
     assert!(html.contains("tr:not(.long), blockquote, .area { break-inside: avoid; }"));
 }
 
-/// It can be sent around: nothing is fetched, and what is judged can be read without a script.
+/// The HTML report loads no resources, and the verdicts can be read without a script.
 #[test]
-fn html_needs_nothing_else() {
+fn html_is_self_contained() {
     let folder = Folder::new("html");
     let report = Report::from_json(&everything(&folder).to_string()).unwrap();
     let mut html = Vec::new();
@@ -349,7 +349,7 @@ fn html_needs_nothing_else() {
     ] {
         assert!(before.contains(fact), "{fact}");
     }
-    // The byte that differs and the one that should be there, with the clause in both editions.
+    // The differing byte and the expected one, with the clause in both editions.
     for part in [
         "<mark>03</mark> 00 00 00",
         "<mark>02</mark> 00 00 00",
@@ -364,7 +364,7 @@ fn html_needs_nothing_else() {
 }
 
 #[test]
-fn badges_say_how_it_ended() {
+fn badges_contain_the_result() {
     let badge = |args: &[&str]| -> Value {
         let output = ads_cnc(&[&["run", "--badge", "-"], args].concat());
         serde_json::from_slice(&output.stdout).unwrap()
@@ -376,7 +376,7 @@ fn badges_say_how_it_ended() {
     );
     let failed = badge(&["--defect", DEFECT]);
     assert_eq!(failed["color"], "red");
-    // Nothing but what an endpoint may have.
+    // shields.io rejects other keys.
     let keys: Vec<&String> = failed.as_object().unwrap().keys().collect();
     assert_eq!(keys, ["color", "isError", "label", "message", "schemaVersion"]);
 }

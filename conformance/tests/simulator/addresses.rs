@@ -1,4 +1,4 @@
-//! The addresses of the contents, according to the manuals.
+//! The addresses of contents according to the manuals.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable,
@@ -31,7 +31,7 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
             None => Vec::new(),
         }
     };
-    // The target says where the elements of an instance begin.
+    // The target returns the address of the first element of an instance.
     let of_first = |class, channel: u8, axis: u8| -> Check<IndexOffset> {
         let find = FindInstance::new(class, channel.into(), axis.into());
         let first = target.read::<ObjectAddress>(find)?.first_element()?;
@@ -40,7 +40,7 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
     };
     let own = at(AxisStride::X10000, 0)?;
     Ok(match held.holder {
-        // Channel 1 has the objects of the platform.
+        // The addresses of channel 1 include the objects of the platform.
         ContentOwner::Platform => [(Logical, 0), (Index, 0), (Logical, 1)]
             .map(|(by, instance)| object(by, ComTable::Channel, instance, own))
             .to_vec(),
@@ -72,7 +72,7 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
     })
 }
 
-/// The address of a content that is an element.
+/// The address of an element; `None` for an object.
 pub(crate) fn element(target: &Target, held: &StoredContent) -> Check<Option<ElementAddress>> {
     Ok(addresses(target, held)?.into_iter().find_map(|address| match address {
         ValueAddress::Element { element, .. } => Some(element),

@@ -1,4 +1,4 @@
-//! An operator exchanges axes and deactivates channels.
+//! Changes by an operator: exchange of axes, and deactivation of channels.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class};
 use ads_cnc::operation::{
@@ -20,7 +20,7 @@ checks! {
     ranks_are_those_of_the_active_channels,
 }
 
-/// The place of an axis in channel 1 of a content; 0 for an axis of the platform.
+/// The place in channel 1 of the axis that owns a content; 0 for a platform axis.
 fn place_of(held: &StoredContent) -> Option<u8> {
     match held.holder {
         ContentOwner::ChannelAxis { channel: 1, place }
@@ -44,7 +44,7 @@ fn contents(target: &Target, place: u8) -> Check<Vec<(String, Reply)>> {
     Ok(all)
 }
 
-/// In the default model the places 2 and 3 of channel 1 have the axes 2 and 3.
+/// In the default model, the places 2 and 3 of channel 1 have the axes 2 and 3.
 fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
     let cnc = target.cnc();
     same("the axes", (cnc.axis_at(1, 2), cnc.axis_at(1, 3)), (2, 3))?;
@@ -64,7 +64,7 @@ fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
     Ok(())
 }
 
-/// The elements of a class at a place, as many as are at the place of another channel.
+/// The elements of a class at a place.
 fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Vec<ReadElement>> {
     let at = |channel, place| -> Check<_> {
         let address = target.read::<ObjectAddress>(FindInstance::new(class, channel, place))?;
@@ -81,7 +81,7 @@ fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Ve
     Ok(all)
 }
 
-/// In the model, and after the axis 4 has left the first place of channel 2.
+/// Tested in the initial state, and after axis 4 has left the first place of channel 2.
 fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
     let cnc = target.cnc();
     let is_blank = |read: &ReadElement| -> Check<bool> {
@@ -112,7 +112,7 @@ fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
 
 const NAME: &str = "V.A.WCS";
 
-/// The handle and the value of a place.
+/// The handle and the value of the variable at a place.
 fn by_place(target: &Target, place: u32) -> Check<(Handle, Reply)> {
     let (channel, axis) = (Channel::new(1)?, ChannelAxis::new(place)?);
     let handle = target.read(AxisHandleByName::new(channel, axis, NAME)?)?;

@@ -1,4 +1,4 @@
-//! Checks that are tests, and that defects fail.
+//! Checks of the simulated CNC, which are tests and also detect defects.
 
 use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
 use ads_cnc_vectors::ClauseId;
@@ -12,7 +12,7 @@ pub(crate) struct SimulatorCheck {
 }
 
 impl SimulatorCheck {
-    /// The requirements that it checks.
+    /// The requirements that the check covers.
     pub(crate) fn clauses(&self) -> &'static [ClauseId] {
         let mut listed = SIMULATOR_CHECKS.iter().filter(|(name, _)| *name == self.name);
         listed.next().unwrap_or_else(|| panic!("{} is not in src/matrix/simulated.rs", self.name)).1

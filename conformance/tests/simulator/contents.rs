@@ -1,5 +1,5 @@
-//! The contents of objects and elements: every one has another value, so that none is mistaken for
-//! another.
+//! The contents of objects and elements. Each content has a different value, so that mixed-up contents
+//! are detected.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{
@@ -21,9 +21,9 @@ checks! {
     elements_have_the_attributes_of_their_contents,
 }
 
-/// Rounds of values: enough to give each content of one bit another sequence.
+/// Number of rounds of values, so that each content of one bit has a different sequence.
 const ROUNDS: u32 = 6;
-/// Rounds of longer contents.
+/// Number of rounds for longer contents.
 const ROUNDS_OF_NUMBERS: u32 = 2;
 
 fn is_bit(held: &StoredContent) -> bool {
@@ -53,7 +53,7 @@ fn what(held: &StoredContent) -> String {
     format!("{} of {:?}", held.name, held.holder)
 }
 
-/// A value as it counts: a text ends at its NUL.
+/// The relevant part of a value: a text ends at its NUL.
 fn counting<'v>(held: &StoredContent, value: &'v [u8]) -> &'v [u8] {
     match held.type_name {
         "STRING" => value.split(|&byte| byte == 0).next().unwrap_or_default(),
@@ -61,7 +61,7 @@ fn counting<'v>(held: &StoredContent, value: &'v [u8]) -> &'v [u8] {
     }
 }
 
-/// Has its lowest byte first, and is at each of its addresses.
+/// Each content is little-endian, and can be read at each of its addresses.
 fn contents_are_read_at_their_addresses(target: &Target) -> Check {
     let all = target.cnc().stored_contents();
     ensure(all.len() > 100, format_args!("{} contents", all.len()))?;
@@ -74,7 +74,7 @@ fn contents_are_read_at_their_addresses(target: &Target) -> Check {
         let of_round = |held: &StoredContent| is_bit(held) || round < ROUNDS_OF_NUMBERS;
         for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
             for address in addresses(target, held)? {
-                // The program stream and the offsets of functions are not read.
+                // The program stream and the offsets of functions cannot be read.
                 let Ok(request) = address.read() else { continue };
                 let found = target.ask(request)??;
                 let at = format!("{} at {address:?}", what(held));
@@ -125,7 +125,7 @@ fn descriptors(target: &Target, list: impl Into<ObjectList>) -> Check<Descriptor
     Ok(all)
 }
 
-/// With its own name and size.
+/// The descriptor contains the name and size of the object.
 fn every_object_is_in_its_list(target: &Target) -> Check {
     let all = target.cnc().stored_contents();
     let mut lists = vec![(0, descriptors(target, ObjectList::PLATFORM)?)];

@@ -1,4 +1,4 @@
-//! Defects that the checks and the golden sequences find.
+//! Defects that the checks and the golden sequences detect.
 
 use std::collections::BTreeSet;
 
@@ -25,8 +25,8 @@ fn checks() -> impl Iterator<Item = &'static SimulatorCheck> {
     all.into_iter().flatten()
 }
 
-/// The checks and sequences that a CNC with this seed fails, of those with one of these requirements;
-/// of all without any.
+/// The checks and sequences that a CNC with this defect fails, among those of these requirements, or
+/// among all if `requirements` is empty.
 fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
     let wanted = |id: &str| requirements.is_empty() || requirements.contains(&id);
     let fails = |failed: crate::target::Check, name: &str| {
@@ -39,17 +39,17 @@ fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
     checks.chain(sequences).collect()
 }
 
-/// The matrix of requirements lists these checks.
+/// The matrix of requirements lists all checks.
 #[test]
-fn the_matrix_has_every_check() {
+fn the_matrix_lists_every_check() {
     let names: BTreeSet<&str> = checks().map(|one| one.name).collect();
     let listed: BTreeSet<&str> = SIMULATOR_CHECKS.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, listed);
 }
 
-/// Each fails by a requirement that it breaks.
+/// Each of these defects fails a requirement that it breaks.
 #[test]
-fn defects_that_no_case_shows_are_found() {
+fn defects_that_no_case_detects_are_detected() {
     let is_missed = |id: &&&str| {
         let seed = faults::by_id(id).expect("a defect");
         failing(seed, &seed.requirements).is_empty()
@@ -58,7 +58,7 @@ fn defects_that_no_case_shows_are_found() {
     assert!(missed.is_empty(), "not found: {missed:?}");
 }
 
-/// Variants that differ in what the checks compare: another model, or what a CNC is free to do.
+/// Valid variants for which the checks do not apply: another model, or allowed behaviour that differs.
 const OTHERWISE: [&str; 15] = [
     "different.axes-move",
     "different.axis-handles",
@@ -77,11 +77,11 @@ const OTHERWISE: [&str; 15] = [
     "different.request-over-early",
 ];
 
-/// A check of what this CNC answers: a correct variant may answer otherwise.
+/// A check of the replies of this CNC; a valid variant may reply differently.
 const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
 
 #[test]
-fn correct_variants_fail_nothing() {
+fn valid_variants_pass() {
     let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
     let failing: BTreeSet<&str> = variants
         .filter(|seed| failing(seed, &[]).iter().any(|one| !one.contains(OF_THIS_CNC)))

@@ -1,4 +1,4 @@
-//! Device information, and error numbers.
+//! Device information and error numbers.
 
 use ads_cnc::Decode as _;
 use ads_cnc::Kind;
@@ -31,7 +31,7 @@ fn each_task_has_the_information_of_the_program(target: &Target) -> Check {
     Ok(())
 }
 
-/// In the frame they are those that the CNC answers with.
+/// The error numbers in the frames are those of [`Cnc::answer`].
 fn errors_have_their_numbers(target: &Target) -> Check {
     let channel = Channel::new(1)?;
     let requests: [Request<'_>; 3] = [
@@ -80,7 +80,8 @@ const QUERIES: [(Service, u32, u32, &[u8]); 18] = [
     (Service::Read, 0x12_3306, 1, b""),
 ];
 
-/// By number and by rank, and not for an unknown channel, axis, index or name, nor with a shorter length.
+/// Each query has the same reply by number and by rank, and an error for an unknown channel, axis,
+/// index or name, or a shorter length.
 fn each_query_has_its_own_answer(target: &Target) -> Check {
     let attributes =
         (0x12_3406..=0x12_3806).step_by(0x100).map(|group| (Service::Read, group, 1, &b""[..]));

@@ -1,5 +1,5 @@
-//! The simulated CNC, with its inside: what its programs execute, what its variables contain, and
-//! what an operator changes. Each check also finds the defects that no request from outside shows.
+//! The simulated CNC, including its internal state: the executed lines of programs, the contents of
+//! variables, and changes by an operator. The checks also detect defects that no request shows.
 
 mod addresses;
 mod changes;

@@ -43,7 +43,7 @@ const ONE: [u8; 4] = [1, 0, 0, 0];
 
 const NONE: [u8; 4] = [0; 4];
 
-/// All bytes differ.
+/// A state whose bytes all differ.
 const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
@@ -58,7 +58,7 @@ fn value(target: &Target, channel: u8, variable: ServiceVariable) -> Check<Vec<u
     Ok(value)
 }
 
-/// Ends the NC program of the model, and writes to the interface from within.
+/// Ends the NC program of the model, and writes to the interface without ADS.
 fn alone(target: &Target, channel: u8, values: &[(ServiceVariable, &[u8])]) -> Check {
     target.cnc().set_script(channel, None)?;
     target.cnc().with_service(channel, |service| {
@@ -68,7 +68,7 @@ fn alone(target: &Target, channel: u8, values: &[(ServiceVariable, &[u8])]) -> C
     Ok(())
 }
 
-/// The program asks twice.
+/// The program sends two requests.
 fn a_request_is_over_when_it_is_answered(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     alone(target, 1, &[])?;
@@ -86,7 +86,7 @@ fn a_request_is_over_when_it_is_answered(target: &Target) -> Check {
     Ok(())
 }
 
-/// A shorter text does not go on with the rest of the one before.
+/// A shorter text replaces the whole previous text.
 fn each_variable_is_its_own(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     alone(target, 1, &[])?;
@@ -109,7 +109,7 @@ fn each_variable_is_its_own(target: &Target) -> Check {
     Ok(())
 }
 
-/// While a program asks in each of two channels, one is answered.
+/// Programs in two channels have requests, and one is answered.
 fn an_answer_changes_no_other_channel(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let held: [(ServiceVariable, &[u8]); 4] = [
@@ -141,7 +141,7 @@ fn an_answer_changes_no_other_channel(target: &Target) -> Check {
     Ok(())
 }
 
-/// Until UUID and REQUEST are those of the program, REQUEST_STATE is 0.
+/// REQUEST_STATE is 0 until UUID and REQUEST are those of the program.
 fn a_program_writes_its_state_last(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Uuid};
     let config = ScriptConfig::square_root()?;

@@ -1,4 +1,4 @@
-//! Data streaming: what the interface of a channel holds, and what its program executes.
+//! Data streaming: the buffer of a channel's interface, and the executed lines of its program.
 
 use std::time::Duration;
 
@@ -34,7 +34,7 @@ checks! {
 /// Maximum number of bytes in the interface.
 pub(crate) const BUFFER_LEN: usize = 4094;
 
-/// Sends bytes to a stream, valid or not.
+/// Sends valid or invalid bytes to a stream.
 pub(crate) fn send(target: &Target, channel: Channel, data: &[u8]) -> Check<Result<(), AdsError>> {
     let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
     let mut buf = [0; 8];
@@ -42,8 +42,8 @@ pub(crate) fn send(target: &Target, channel: Channel, data: &[u8]) -> Check<Resu
     Ok(target.call(&call)?.map(drop))
 }
 
-/// Repeats a write that is rejected: the manuals do not state when a CNC cannot accept data, so a free
-/// buffer need not be enough.
+/// Repeats a rejected write, because the manuals do not state when a CNC cannot accept data, even if the
+/// buffer has room.
 pub(crate) fn send_until_taken(
     target: &Target,
     channel: Channel,
@@ -66,7 +66,7 @@ struct Stream<'t> {
     channel: u8,
 }
 
-/// The stream of the first channel, configured anew.
+/// The stream of the first channel with a new configuration.
 fn first(target: &Target, pace: Pace, start: Start) -> Check<Stream<'_>> {
     stream(target, 1, pace, start)
 }
@@ -130,7 +130,7 @@ fn comment(len: usize) -> Vec<u8> {
     line
 }
 
-/// By the number of the channel, and by its rank.
+/// The channel is addressed by its number and by its rank.
 fn each_channel_executes_its_own_stream(target: &Target) -> Check {
     for (rank, channel) in (1..).zip(target.channels()) {
         let stream = stream(target, channel, Pace::Fast, Start::Once)?;
@@ -144,7 +144,7 @@ fn each_channel_executes_its_own_stream(target: &Target) -> Check {
     Ok(())
 }
 
-/// Every printable character of ASCII, and tabs, in comments, which do not end streaming.
+/// Tests every printable ASCII character and tabs, in comments, which do not end streaming.
 fn lines_are_executed_as_written(target: &Target) -> Check {
     let graphic: String =
         (b' '..=b'~').map(char::from).filter(|c| !"()$#;%".contains(*c)).collect();
@@ -166,7 +166,7 @@ fn lines_are_executed_as_written(target: &Target) -> Check {
     same("the state", stream.state()?, State::Dry)
 }
 
-/// Around multiples of 256.
+/// Tests lengths around multiples of 256.
 fn packets_of_any_length_are_executed(target: &Target) -> Check {
     let stream = first(target, Pace::Fast, Start::Once)?;
     let mut all = Vec::new();
@@ -182,7 +182,7 @@ fn packets_of_any_length_are_executed(target: &Target) -> Check {
     Ok(())
 }
 
-/// With an empty and a non-empty interface.
+/// Tested with an empty and a non-empty interface.
 fn a_packet_that_is_too_long_takes_no_room(target: &Target) -> Check {
     let stream = first(target, Pace::Hold, Start::Once)?;
     for held in [0, STREAM_PACKET_MAX] {
@@ -197,7 +197,7 @@ fn a_packet_that_is_too_long_takes_no_room(target: &Target) -> Check {
     Ok(())
 }
 
-/// Packets of one short line.
+/// Each packet contains one short line.
 fn many_packets_fill_the_interface(target: &Target) -> Check {
     let stream = first(target, Pace::Hold, Start::Once)?;
     let line = |number: usize| format!("N{number:05} (of many)  \r\n").into_bytes();
@@ -241,7 +241,7 @@ fn each_channel_has_its_own_room(target: &Target) -> Check {
     Ok(())
 }
 
-/// The first line of the packet would fit, the second not.
+/// The first line of the packet would fit, but the second would not.
 fn a_packet_without_room_is_rejected_whole(target: &Target) -> Check {
     for room in [4, 40, 500, 988] {
         let stream = first(target, Pace::Hold, Start::Once)?;
@@ -288,7 +288,7 @@ fn a_packet_that_is_sent_twice_is_executed_twice(target: &Target) -> Check {
     stream.has_executed(b"X1\r\nX1\r\n")
 }
 
-/// Written after the program end was read, and before it was executed.
+/// The lines are written after the program end was read and before it is executed.
 fn lines_written_after_a_program_end_stay(target: &Target) -> Check {
     let slow = Pace::lines_per_second(1).expect("a pace");
     for end in ["M30", "M2", "M17", "M29"] {
@@ -385,7 +385,7 @@ fn comments_hide_words(target: &Target) -> Check {
         ] {
             ends_streaming(&text, false)?;
         }
-        // After the comment, and in the line below.
+        // The word is after the comment, or in the next line.
         for text in [
             format!("(x) {word}\r\n"),
             format!("(x\r\n{word}\r\n"),

@@ -1,4 +1,4 @@
-//! A simulated CNC to send requests to, and to look into.
+//! A simulated CNC whose state the checks can read.
 
 use std::error::Error;
 use std::fmt;
@@ -10,7 +10,7 @@ use ads_cnc_conformance::faults::{Faulty, Seed};
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 use ads_cnc_conformance::wire_service::decode_reply;
 
-/// Why a check fails.
+/// The reason why a check fails.
 pub(crate) struct Failed(pub(crate) String);
 
 impl fmt::Debug for Failed {
@@ -44,10 +44,10 @@ pub(crate) fn ensure(condition: bool, what: impl fmt::Display) -> Check {
     if condition { Ok(()) } else { Err(Failed(what.to_string())) }
 }
 
-/// The data of a success, or the error number.
+/// The data of a successful reply, or the error number.
 pub(crate) type Reply = Result<Vec<u8>, AdsError>;
 
-/// A CNC with a stopped clock, optionally with a defect. Requests are sent to it in frames.
+/// A CNC with a stopped clock, optionally with a defect, that receives requests in frames.
 pub(crate) struct Target(Faulty);
 
 impl Target {
@@ -77,7 +77,7 @@ impl Target {
         self.call(&request.encode(&mut data)?)
     }
 
-    /// The data of a success, as a stream.
+    /// The data of a successful reply, decoded as a stream.
     pub(crate) fn read<'a, T>(&self, request: impl Into<Request<'a>>) -> Check<T>
     where
         T: for<'b> Decode<'b>,

@@ -1,4 +1,4 @@
-//! Variables and dynamic parameters, compared with the model and with the state.
+//! Variables and dynamic parameters, compared with the model and the state.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName, DynamicValue};
@@ -19,7 +19,7 @@ checks! {
     parameters_come_and_go,
 }
 
-/// V.E and V.G of every channel; values that are READ_ONLY too.
+/// Compares V.E and V.G of every channel, including read-only variables.
 fn variables_are_described_as_configured(target: &Target) -> Check {
     for number in target.channels() {
         let channel = Channel::new(number.into())?;
@@ -93,7 +93,7 @@ fn variables_without_a_handle_are_written_by_name(target: &Target) -> Check {
     ensure(written > 0, "no such variable")
 }
 
-/// More than fit into a byte.
+/// Number of parameters; more than fit into a byte.
 const MANY: u32 = 300;
 
 const fn prefix(kind: DynamicKind) -> &'static str {
@@ -105,14 +105,14 @@ const fn prefix(kind: DynamicKind) -> &'static str {
     }
 }
 
-/// Name and value of the parameter at a place of the list.
+/// Name and value of the parameter at an index of the list.
 fn parameter(kind: DynamicKind, place: u32) -> (String, f64) {
     let mut name = format!("{}{place}", prefix(kind));
-    // Each tenth has the maximum length, including the NUL.
+    // Each tenth name has the maximum length, including the NUL.
     if place.is_multiple_of(10) {
         name += &"x".repeat(95 - name.len());
     }
-    // Of any magnitude, and with more digits than are usually shown.
+    // The values have various magnitudes, and many digits.
     let value = match place % 4 {
         0 => f64::from(place) * 1e-300,
         1 => f64::from(place) / 3.0,
@@ -135,7 +135,7 @@ fn parameters_come_and_go(target: &Target) -> Check {
         };
         let mut all: Vec<(String, f64)> = (1..=MANY).map(|place| parameter(kind, place)).collect();
         set(&all)?;
-        // The first is deleted: the indices of the others decrease.
+        // The first parameter is deleted, so the indices of the others decrease.
         let (gone, _) = all.remove(0);
         set(&all)?;
         let by_name = target.ask(DynamicValueByName::new(channel, kind, &gone)?)?;
@@ -147,7 +147,7 @@ fn parameters_come_and_go(target: &Target) -> Check {
     Ok(())
 }
 
-/// At the ends, and around 255.
+/// Checks the ends of the list, and the indices around 255.
 fn are_listed(
     target: &Target,
     channel: Channel,

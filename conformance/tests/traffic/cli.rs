@@ -1,4 +1,4 @@
-//! `ads-cnc check` and `--capture` as a person calls them.
+//! `ads-cnc check` and `--capture` as users call them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A folder of this process, gone when it is dropped.
+/// A folder of this process that is removed when dropped.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -39,9 +39,9 @@ impl Drop for Folder {
     }
 }
 
-/// Every tool that talks to a CNC keeps what it says, and nothing of it is to be complained of.
+/// The captured traffic of every command that connects to a CNC passes.
 #[test]
-fn what_tools_say_passes() {
+fn the_traffic_of_commands_passes() {
     let folder = Folder::new("tools");
     let program = folder.file("program.nc");
     fs::write(&program, "N10 G01 X100 F1000\n".repeat(200) + "N20 M30\n").unwrap();
@@ -61,9 +61,9 @@ fn what_tools_say_passes() {
         assert_eq!(checked.status.code(), Some(0), "{call:?}: {shown}");
         assert!(!shown.contains("DIFFERS") && !shown.contains("WARNING"), "{call:?}: {shown}");
     }
-    // The simulated CNC listens at a port that the system picks, which is found.
+    // The simulated CNC listens on a port that the system chooses, and the check finds it.
     let found = ads_cnc(&["check", &folder.file("2.pcapng")]);
-    let note = "the connections at other ports are judged, as with --any-port";
+    let note = "judging the connections at other ports, as with --any-port";
     assert!(text(&found.stderr).contains(note), "{}", text(&found.stderr));
     assert_eq!(found.status.code(), Some(0));
     let streamed = text(&ads_cnc(&["check", "--any-port", "-v", &folder.file("4.pcapng")]).stdout);
@@ -71,10 +71,10 @@ fn what_tools_say_passes() {
     assert!(streamed.contains(line), "{streamed}");
 }
 
-/// Whoever keeps what is said wants all of it.
+/// An incomplete capture is an error.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_capture_that_is_not_whole_is_an_error() {
+fn an_incomplete_capture_is_an_error() {
     let calls: [&[&str]; 3] = [&["get", "V.E.Testvar"], &["browse"], &["run", "--only", "COM-1"]];
     for call in calls {
         let said = ads_cnc(&[call, &["--capture", "/dev/full"]].concat());
@@ -83,9 +83,9 @@ fn a_capture_that_is_not_whole_is_an_error() {
     }
 }
 
-/// Half a conversation must not look like a whole one, whatever is shown.
+/// Every form of the report states that a part of the conversation is missing.
 #[test]
-fn what_is_missing_is_said_everywhere() {
+fn every_report_states_missing_traffic() {
     let folder = Folder::new("cut");
     let (file, page, note) =
         (folder.file("cut.pcapng"), folder.file("cut.html"), folder.file("cut.md"));
@@ -96,7 +96,7 @@ fn what_is_missing_is_said_everywhere() {
     let checked =
         ads_cnc(&["check", "--any-port", "-q", &file, "--html", &page, "--markdown", &note]);
     let shown = text(&checked.stdout);
-    let why = "judged up to a cut of the file";
+    let why = "the file was judged only in part";
     assert!(shown.starts_with(&format!("note: {why}")), "{shown}");
     assert_eq!(shown.lines().count(), 2, "{shown}");
     for file in [page, note] {
@@ -105,7 +105,7 @@ fn what_is_missing_is_said_everywhere() {
     }
 }
 
-/// The list of exchanges names what was asked for, and what came back.
+/// The list of exchanges contains the requested names and the values of replies.
 #[test]
 fn exchanges_have_names_and_values() {
     let folder = Folder::new("list");
@@ -120,18 +120,18 @@ fn exchanges_have_names_and_values() {
     assert!(shown("V.E.none").contains(refused));
 }
 
-/// A file that cannot be made is a wrong argument, not an error inside the tool.
+/// A file that cannot be created is wrong usage, not an internal error.
 #[test]
-fn a_capture_goes_to_a_folder_that_exists() {
+fn a_capture_needs_an_existing_folder() {
     let folder = Folder::new("nowhere");
     let file = folder.file("none/x.pcapng");
     let said = ads_cnc(&["get", "V.E.Testvar", "--capture", &file]);
     assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
 }
 
-/// The suite itself, which sends what no client should: the CNC passes, the client does not.
+/// The suite sends requests that no client should send: the CNC passes, but the client does not.
 #[test]
-fn the_suite_is_no_model_of_a_client() {
+fn the_suite_fails_as_a_client() {
     let folder = Folder::new("suite");
     let (file, report) = (folder.file("run.pcapng"), folder.file("report.json"));
     let run = ads_cnc(&["run", "--only", "VAR", "--only", "COM", "--capture", &file]);
@@ -157,7 +157,7 @@ fn valid(value: &Value, schema: &str) {
     assert_eq!(errors, [""; 0]);
 }
 
-/// Vectors are without the addresses, and nothing is written over; `extracted.rs` has the schema.
+/// Vectors contain no addresses, and no file is overwritten; `extracted.rs` checks the schema.
 #[test]
 fn vectors_are_extracted() {
     let folder = Folder::new("vectors");
@@ -178,15 +178,15 @@ fn vectors_are_extracted() {
         streams("variable-value") > 3
             && streams("object-descriptor") + streams("object-descriptors") > 3
     );
-    // Neither the NetIds of the conversation nor a name that was asked for.
+    // The vectors contain neither the NetIds of the conversation nor a requested name.
     assert!(content.contains("192.0.2.10.1.1") && !content.contains("127.0.0.1"));
     assert!(!content.contains("Testvar") && content.contains("V.E.Xxxxxxx"));
-    // All of them decode; each says so of itself.
+    // All vectors decode.
     let again = extract(&vectors, &[]);
     assert_eq!(again.status.code(), Some(2));
     assert!(text(&again.stderr).contains("vectors could not be written"));
     assert_eq!(fs::read_to_string(&vectors).unwrap(), content);
-    // Into a folder, with the texts.
+    // Write them to a folder, with the texts.
     let into = folder.file("folder");
     fs::create_dir(&into).unwrap();
     assert_eq!(extract(&into, &["--keep-texts"]).status.code(), Some(0));
@@ -195,7 +195,7 @@ fn vectors_are_extracted() {
 }
 
 #[test]
-fn what_is_no_capture_is_wrong_usage() {
+fn a_file_that_is_not_a_capture_is_wrong_usage() {
     let folder = Folder::new("none");
     let file = folder.file("none.pcap");
     let refused = |file: &str, why: &str| {
@@ -208,7 +208,7 @@ fn what_is_no_capture_is_wrong_usage() {
     refused(&file, "empty");
     fs::write(&file, "N10 G01 X100\n".repeat(10)).unwrap();
     refused(&file, "neither pcap nor pcapng");
-    // Nothing in it is nothing judged.
+    // An empty capture judges nothing.
     fs::write(&file, pcap(&[], Link::Ethernet)).unwrap();
     let checked = ads_cnc(&["check", &file]);
     assert_eq!(checked.status.code(), Some(3), "{}", text(&checked.stdout));

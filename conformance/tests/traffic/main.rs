@@ -1,4 +1,4 @@
-//! `ads-cnc check` and what stands behind it: captures are made here, of real conversations.
+//! `ads-cnc check` and its implementation, with captures that the tests make from real conversations.
 
 mod cli;
 mod defects;

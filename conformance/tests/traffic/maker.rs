@@ -1,4 +1,4 @@
-//! Captures made anew: other files, other links, other segments.
+//! Creates captures from messages, with other file formats, link types and segments.
 
 use ads_cnc_conformance::capture::{CaptureOptions, Checked, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
@@ -7,20 +7,20 @@ use pcap_parser::pcapng::Block;
 use pcap_parser::traits::PcapNGPacketBlock as _;
 use pcap_parser::{PcapBlockOwned, PcapError, create_reader};
 
-/// Who sends.
+/// The sender.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Client,
     Cnc,
 }
 
-/// What a side sent at once.
+/// Bytes that a side sent at once.
 pub(crate) type Message = (Side, Vec<u8>);
 
-/// The messages in a file that was recorded: by the library's reader, strictly.
+/// The messages in a recorded file, read strictly with the reader of the library.
 pub(crate) fn messages(file: &[u8]) -> Vec<Message> {
     let mut all = Vec::new();
-    // Who connects.
+    // The port of the connecting side.
     let mut client = 0;
     for packet in packets(file) {
         let headers = PacketHeaders::from_ethernet_slice(&packet).unwrap();
@@ -119,7 +119,7 @@ impl Link {
         }
         out.extend(ty.to_be_bytes());
         out.extend(ip);
-        // What is shorter is filled up on the wire.
+        // Short Ethernet frames are padded.
         if self == Self::Ethernet {
             out.resize(out.len().max(60), 0xEE);
         }
@@ -135,7 +135,7 @@ pub(crate) struct Segment {
     pub(crate) acknowledged: u32,
     pub(crate) syn: bool,
     pub(crate) payload: Vec<u8>,
-    /// Bytes that are kept of the packet.
+    /// Number of captured bytes of the packet.
     pub(crate) snap: Option<usize>,
     pub(crate) port: u16,
 }
@@ -167,7 +167,7 @@ impl Segment {
     }
 }
 
-/// Messages as segments of at most so many bytes, behind a handshake.
+/// Messages as segments of at most `most` bytes, after a handshake.
 pub(crate) fn segments(messages: &[Message], most: usize, begin: (u32, u32)) -> Vec<Segment> {
     let (mut client, mut cnc) = begin;
     let segment = |side, sequence, acknowledged, syn, payload: &[u8]| Segment {
@@ -202,12 +202,12 @@ pub(crate) fn segments(messages: &[Message], most: usize, begin: (u32, u32)) -> 
     all
 }
 
-/// A pcap file of segments, one each millisecond.
+/// A pcap file with one segment per millisecond.
 pub(crate) fn pcap(segments: &[Segment], link: Link) -> Vec<u8> {
     pcap_every(segments, link, 1)
 }
 
-/// A pcap file of segments, one each so many milliseconds.
+/// A pcap file with one segment every `millis` milliseconds.
 pub(crate) fn pcap_every(segments: &[Segment], link: Link, millis: u32) -> Vec<u8> {
     let mut file = Vec::new();
     file.extend(0xA1B2_C3D4_u32.to_le_bytes());
@@ -227,12 +227,12 @@ pub(crate) fn pcap_every(segments: &[Segment], link: Link, millis: u32) -> Vec<u
     file
 }
 
-/// What comes of a file.
+/// The result of a check of a file.
 pub(crate) fn checked(file: &[u8]) -> Checked {
     check(file, CaptureOptions::default()).unwrap()
 }
 
-/// What comes of a file, whatever its ports.
+/// The result of a check of a file with any ports.
 pub(crate) fn checked_anywhere(file: &[u8]) -> Checked {
     check(file, CaptureOptions { ports: Ports::Any, vectors: None }).unwrap()
 }
@@ -246,7 +246,7 @@ pub(crate) fn with(checked: &Checked, verdict: Verdict) -> Vec<String> {
     all.collect()
 }
 
-/// That nothing is raised, and how much was judged.
+/// Checks that nothing fails, and returns the number of judged checks.
 pub(crate) fn passes(checked: &Checked) -> usize {
     for verdict in [
         Verdict::Fail,

@@ -1,5 +1,5 @@
-//! Packets that are missing, or in another order than they were sent, are nobody's fault: what they
-//! hide is inconclusive, what is wrong in spite of them fails.
+//! Missing packets, and packets in another order than sent, are no failures: checks that need them are
+//! inconclusive, and other errors still fail.
 
 use ads_cnc_conformance::capture::Checked;
 use ads_cnc_conformance::faults::FieldDefect;
@@ -12,14 +12,14 @@ use crate::maker::{
 };
 use crate::talk::{a_little, conversation, everything};
 
-/// Segments of a handshake.
+/// Number of segments of a handshake.
 const SHAKE: usize = 3;
 
 fn whole(most: usize) -> Vec<Segment> {
     segments(&conversation(None, everything), most, (u32::MAX - 5000, 7))
 }
 
-/// As a client that has one invoke ID for everything would have said it.
+/// The conversation of a client that uses the same invoke ID for every request.
 fn monotone() -> Vec<Segment> {
     let mut all: Vec<Message> = Vec::new();
     for (side, bytes) in conversation(None, everything) {
@@ -34,7 +34,7 @@ fn monotone() -> Vec<Segment> {
     segments(&all, 1460, (1, 1))
 }
 
-/// Whatever is missing, nobody has done anything wrong.
+/// Checks that nothing fails.
 fn blames_nobody(checked: &Checked, what: &str) {
     for verdict in [Verdict::Fail, Verdict::Warning, Verdict::Differs, Verdict::HarnessError] {
         assert_eq!(with(checked, verdict), [""; 0], "{what}: {:?}", checked.tally.lines());
@@ -51,7 +51,7 @@ fn without(all: &[Segment], gone: impl Fn(usize, &Segment) -> bool) -> Vec<u8> {
     pcap(&rest.map(|(_, one)| one.clone()).collect::<Vec<_>>(), Link::Raw)
 }
 
-/// Numbers that look like chance, the same each time.
+/// Pseudo-random numbers that are the same each time.
 fn chance(state: &mut u64) -> u64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     *state >> 33
@@ -76,7 +76,7 @@ fn one_packet_may_be_missing() {
     for gone in (SHAKE..all.len()).step_by(9).chain([SHAKE, all.len() - 2, all.len() - 1]) {
         let what = format!("without {gone}, a packet of the {:?}", all[gone].side);
         let checked = checked(&without(&all, |place, _| place == gone));
-        // Of what was answered last nobody says that it was received.
+        // Nothing acknowledges the last reply.
         if gone + 1 == all.len() {
             blames_nobody(&checked, &what);
         } else {
@@ -111,9 +111,9 @@ fn several_packets_may_be_missing() {
     }
 }
 
-/// Answers are not taken for those to other requests, when only their order tells them apart.
+/// Replies are not matched with other requests if only their order distinguishes them.
 #[test]
-fn an_invoke_id_may_be_that_of_every_request() {
+fn all_requests_may_have_the_same_invoke_id() {
     let all = monotone();
     let none = checked(&without(&all, |_, _| false));
     passes(&none);
@@ -134,7 +134,7 @@ fn an_invoke_id_may_be_that_of_every_request() {
 fn a_side_may_be_missing() {
     let all = whole(1460);
     for (side, case) in [(Side::Client, "cap-client-frames"), (Side::Cnc, "cap-cnc-frames")] {
-        // With the handshake of the other side, and without.
+        // With and without the handshake of the other side.
         for from in [0, SHAKE, 50] {
             let file = without(&all, |place, one| one.side == side || place < from);
             for checked in [checked(&file), checked_anywhere(&file)] {
@@ -148,7 +148,7 @@ fn a_side_may_be_missing() {
 }
 
 #[test]
-fn neighbours_may_change_places() {
+fn neighbouring_packets_may_be_swapped() {
     let all = whole(1460);
     let exchanges = checked(&without(&all, |_, _| false)).tally.exchanges;
     for first in [SHAKE, SHAKE + 1] {
@@ -169,7 +169,7 @@ fn packets_may_be_shuffled() {
             let checked = checked(&pcap(&shuffled(&all, SHAKE, seed), Link::Raw));
             passes(&checked);
             assert_eq!((checked.tally.exchanges, checked.tally.gaps), (exchanges, 0), "{seed}");
-            // The handshake among them: whether that is the beginning is not known.
+            // The handshake is shuffled, too, so the beginning is unknown.
             let from = self::checked(&pcap(&shuffled(&all, 0, seed), Link::Raw));
             blames_nobody(&from, &format!("shuffled by {seed}"));
             assert!(from.tally.exchanges + 8 > exchanges, "{seed}");
@@ -187,9 +187,9 @@ fn packets_may_be_shuffled() {
     }
 }
 
-/// What a client refused data for, or read before, may be in a gap.
+/// A gap may contain the rejection or the read that a request depends on.
 #[test]
-fn what_came_before_may_be_missing() {
+fn preceding_packets_may_be_missing() {
     let talk = |writes: &[(u32, &[u8], u32)], gone: &[usize]| {
         let all: Vec<Message> =
             writes.iter().flat_map(|(to, data, result)| written(*to, data, *result)).collect();
@@ -214,9 +214,9 @@ fn what_came_before_may_be_missing() {
     is_open(&talk(&service, &[SHAKE, SHAKE + 1]), "what was read");
 }
 
-/// An answer of which the request never was, in a capture that is whole, whatever its order.
+/// A reply without a request fails in a complete capture with any order.
 #[test]
-fn an_answer_to_nothing_fails() {
+fn a_reply_without_a_request_fails() {
     let mut talk = conversation(None, everything);
     let twice = talk.iter().position(|(side, _)| *side == Side::Cnc).unwrap();
     talk.insert(twice + 40, talk[twice].clone());
@@ -228,7 +228,7 @@ fn an_answer_to_nothing_fails() {
         assert_eq!(with(&checked, Verdict::Fail), ["cap-cnc-frames ADS-5"], "{seed}");
         assert_eq!(checked.tally.unasked, 1);
     }
-    // More than anybody keeps.
+    // More replies than the judge stores.
     let many: Vec<Message> = std::iter::repeat_n(talk[twice].clone(), 20_000).collect();
     talk.splice(twice..twice, many);
     let checked = checked(&pcap(&segments(&talk, 1460, (1, 1)), Link::Raw));
@@ -236,9 +236,9 @@ fn an_answer_to_nothing_fails() {
     assert_eq!(checked.tally.unasked, 20_001);
 }
 
-/// A request that was never answered, while the capture went on.
+/// A request without a reply fails if the capture continues.
 #[test]
-fn a_request_without_an_answer_fails() {
+fn a_request_without_a_reply_fails() {
     let mut talk = conversation(None, everything);
     let silent = talk.iter().rposition(|(side, bytes)| *side == Side::Cnc && bytes.len() < 100);
     let silent = silent.unwrap() - 100;
@@ -251,14 +251,14 @@ fn a_request_without_an_answer_fails() {
         assert!(failed.len() == 1 && failed[0].starts_with("cap-cnc-services ADS-"), "{failed:?}");
         assert_eq!(checked.tally.unanswered, 1);
     }
-    // Nobody saw whether the answer came; what was asked before a gap stays open, as does what is wrong.
+    // The reply may be in a gap; requests before a gap are inconclusive, even wrong ones.
     let cut = without(&all, |place, _| place == all.len() - 20);
     blames_nobody(&checked(&cut), "a gap behind it");
     let lone: Vec<Segment> = all[..=SHAKE].to_vec();
     blames_nobody(&checked(&pcap_every(&lone, Link::Raw, 60_000)), "nothing behind it");
 }
 
-/// Another order hides no defect.
+/// Defects are detected in any order of packets.
 #[test]
 fn defects_fail_in_any_order() {
     for (defect, requirement) in [

@@ -1,6 +1,6 @@
-//! AMS frames in EtherCAT frames and files of NetMon 2.x, as ADS Monitor writes them.
+//! AMS frames in EtherCAT frames, and NetMon 2.x files, as ADS Monitor writes them.
 //!
-//! No real file of ADS Monitor was at hand; `.ci/wireshark` has Wireshark write one.
+//! No real file of ADS Monitor was available; `.ci/wireshark` uses one that Wireshark writes.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc_conformance::capture::{CaptureOptions, FileEnd, FileError, check};
@@ -10,7 +10,7 @@ use ads_cnc_conformance::judge::Verdict;
 use crate::maker::{Link, Message, Side, checked, passes, pcap, segments, sum, with};
 use crate::talk::{conversation, everything};
 
-/// The AMS frames of a conversation in their order, without AMS/TCP header.
+/// The AMS frames of a conversation in order, without AMS/TCP headers.
 fn frames(messages: &[Message]) -> Vec<Vec<u8>> {
     let mut begun = [Vec::new(), Vec::new()];
     let mut all = Vec::new();
@@ -24,7 +24,7 @@ fn frames(messages: &[Message]) -> Vec<Vec<u8>> {
     all
 }
 
-/// An Ethernet frame with an AMS frame, with the padding that the wire needs.
+/// An Ethernet frame that contains an AMS frame, padded to the minimum length.
 fn packet(ams: &[u8], tag: &[u8]) -> Vec<u8> {
     let mut packet = vec![1, 1, 5, 1, 0, 0, 2, 0, 0, 0, 0, 1];
     packet.extend(tag);
@@ -61,7 +61,7 @@ fn first(number: usize) -> Vec<Vec<u8>> {
     all
 }
 
-/// A file of NetMon 2, with a packet each millisecond.
+/// A NetMon 2 file with one packet per millisecond.
 fn netmon(packets: &[Vec<u8>], minor: u8) -> Vec<u8> {
     let trailer: &[u8] = match minor {
         0 => &[],
@@ -89,7 +89,7 @@ fn netmon(packets: &[Vec<u8>], minor: u8) -> Vec<u8> {
     file
 }
 
-/// The verdicts and the number of checks are those of the same conversation over TCP.
+/// The verdicts and the number of checks are the same as for the conversation over TCP.
 #[test]
 fn without_tcp_the_verdicts_are_the_same() {
     let talk = conversation(None, everything);
@@ -123,7 +123,7 @@ fn without_tcp_defects_fail() {
     }
 }
 
-/// Requests from before the capture may be answered in it, and a request without a reply fails.
+/// The capture may contain replies to earlier requests, but a request without a reply fails.
 #[test]
 fn a_capture_may_begin_anywhere() {
     let ams = first(12);
@@ -150,7 +150,7 @@ fn each_client_has_its_own_invoke_ids() {
             let at = port(frame);
             frame[at] = 1;
         }
-        // The second request has the invoke ID of the first, and is sent before the reply to that.
+        // The second request has the invoke ID of the first and is sent before the reply to the first.
         let id = all[0][28..32].to_vec();
         for frame in &mut all[2..4] {
             frame[28..32].copy_from_slice(&id);
@@ -164,14 +164,14 @@ fn each_client_has_its_own_invoke_ids() {
     }
 }
 
-/// A frame that is cut is inconclusive, and a packet with less than its headers is counted.
+/// A truncated frame is inconclusive, and a packet with truncated headers is counted.
 #[test]
-fn a_frame_may_be_cut() {
+fn a_frame_may_be_truncated() {
     let mut all = packets(&first(6));
     let last = all[3].len() - 1;
     all[3].truncate(last.min(16 + 32));
     all.push(all[0][..40].to_vec());
-    // Process data, which is not AMS.
+    // A packet with process data, which is not AMS.
     all.push([&all[0][..14], &[0x10, 0x10], &[0; 44][..]].concat());
     let checked = checked(&pcap_of(&all, 1));
     assert_eq!(with(&checked, Verdict::Fail), [""; 0]);
@@ -200,14 +200,14 @@ fn a_netmon_file_may_end_anywhere() {
             for value in [0, 0x7F, 0xFF] {
                 let mut spoilt = file.clone();
                 spoilt[place] = value;
-                // Whatever comes of it.
+                // Any result is valid.
                 let _ = check(&spoilt[..], CaptureOptions::default()).is_ok();
             }
         }
     }
 }
 
-/// No packet is lost unnoticed, and no count is believed.
+/// Missing packets are detected, and wrong counts have no effect.
 #[test]
 fn a_netmon_file_is_compared_with_its_frame_table() {
     let all = packets(&first(6));
@@ -224,13 +224,13 @@ fn a_netmon_file_is_compared_with_its_frame_table() {
     other[place] ^= 1;
     assert_eq!(
         end(&other),
-        "the frame table lists 6 packets, and 6 were found one after the other; convert the file \
+        "the frame table lists 6 packets, but 6 consecutive ones were found; convert the file \
          with editcap -F pcapng"
     );
     let mut long = file.clone();
     long[128 + 12..128 + 16].copy_from_slice(&u32::MAX.to_le_bytes());
-    assert_eq!(end(&long), "packet 1: it has 4294967295 bytes, at most 8388608 are read");
+    assert_eq!(end(&long), "packet 1: 4294967295 bytes, more than the maximum of 8388608");
     let mut old = file;
     old[..6].copy_from_slice(b"RTSS\x01\x01");
-    assert_eq!(end(&old), "a capture of NetMon 1.1, not 2.x; convert it with editcap -F pcapng");
+    assert_eq!(end(&old), "NetMon 1.1 instead of 2.x; convert it with editcap -F pcapng");
 }

@@ -1,4 +1,4 @@
-//! Conversations with the simulated CNC, as its client recorded them.
+//! Conversations with the simulated CNC, recorded by the client.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
@@ -36,7 +36,7 @@ impl Write for Memory {
     }
 }
 
-/// What a client and a CNC said to each other.
+/// The bytes between a client and a CNC.
 pub(crate) fn conversation(
     defect: Option<&FieldDefect>,
     talk: impl FnOnce(&mut Session),
@@ -53,12 +53,12 @@ pub(crate) fn conversation(
     messages(&bytes)
 }
 
-/// The same in a file, at the port of AMS.
+/// The conversation as a capture with the default AMS port.
 pub(crate) fn recorded(defect: Option<&FieldDefect>, talk: impl FnOnce(&mut Session)) -> Vec<u8> {
     pcap(&segments(&conversation(defect, talk), 1460, (1, 1)), Link::Ethernet)
 }
 
-/// Asks for something of everything. What does not come back is not waited for.
+/// Sends requests of every kind; ignores missing replies.
 pub(crate) fn everything(session: &mut Session) {
     let channel = Channel::new(1).unwrap();
     objects(session, channel);
@@ -67,7 +67,7 @@ pub(crate) fn everything(session: &mut Session) {
     parameters(session, channel);
 }
 
-/// Asks for two numbers.
+/// Reads two numbers.
 pub(crate) fn a_little(session: &mut Session) {
     let channel = Channel::new(1).unwrap();
     let _ = session.call(&CountObjects::new(channel)).is_ok();

@@ -1,4 +1,4 @@
-//! However a conversation comes over the wire, the same comes of it; and what is missing is told.
+//! The judgement does not depend on the packets of a conversation; missing bytes are reported.
 
 use ads_cnc_conformance::capture::{CaptureOptions, Collector, FileEnd, FileError, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
@@ -28,7 +28,7 @@ fn links_do_not_matter() {
 fn segments_do_not_matter() {
     let all = conversation();
     let expected = sum(&checked(&pcap(&segments(&all, 1460, (1, 1)), Link::Raw)));
-    // Sequence numbers that wrap around among them.
+    // Some sequence numbers wrap around.
     for (most, begin) in [
         (1, (1, 1)),
         (3, (u32::MAX - 100, u32::MAX)),
@@ -41,7 +41,7 @@ fn segments_do_not_matter() {
     }
 }
 
-/// Neighbours of the same side change places, and some segments come twice or in other pieces.
+/// Neighbouring segments of the same side are swapped, and some are repeated or split differently.
 #[test]
 fn order_does_not_matter() {
     let all = conversation();
@@ -58,7 +58,7 @@ fn order_does_not_matter() {
         mixed.push(segment.clone());
         if place % 7 == 3 {
             let mut again = segment.clone();
-            // Once more, and with what came after it.
+            // Repeat the segment together with the next one.
             if let Some(next) = straight.get(place + 1).filter(|next| next.side == again.side) {
                 again.payload.extend(&next.payload);
             }
@@ -82,13 +82,13 @@ fn any_port_is_found() {
     let found = checked_anywhere(&file);
     assert!(passes(&found) > 50);
     assert_eq!(found.tally.exchanges * 2, found.tally.frames);
-    // Something else altogether is passed over.
+    // A connection of another protocol is ignored.
     let other = vec![(Side::Client, b"GET / HTTP/1.1\r\n\r\n".to_vec()), (Side::Cnc, vec![0; 900])];
     let other = checked_anywhere(&pcap(&self::segments(&other, 100, (1, 1)), Link::Raw));
     assert_eq!((other.tally.frames, passes(&other)), (0, 0));
 }
 
-/// A capture that began in the middle, inside a frame at that.
+/// A capture that began in the middle of a frame.
 #[test]
 fn the_beginning_may_be_missing() {
     let all = conversation();
@@ -107,7 +107,7 @@ fn the_beginning_may_be_missing() {
     }
 }
 
-/// What never came is inconclusive, and nothing else is.
+/// Only checks that need missing bytes are inconclusive.
 #[test]
 fn gaps_are_inconclusive() {
     let all = conversation();
@@ -123,9 +123,9 @@ fn gaps_are_inconclusive() {
     assert!(open.len() <= 3, "{open:?}");
 }
 
-/// The function whose answer was cut is named.
+/// The requirement of the function with a truncated reply is inconclusive.
 #[test]
-fn what_a_snap_length_cuts_is_inconclusive() {
+fn a_snap_length_makes_replies_inconclusive() {
     let all = conversation();
     let mut cut = segments(&all, 1460, (1, 1));
     let large = cut.iter_mut().find(|one| one.side == Side::Cnc && one.payload.len() > 130);
@@ -137,7 +137,7 @@ fn what_a_snap_length_cuts_is_inconclusive() {
     assert_eq!(checked.tally.gaps, 1);
 }
 
-/// Cut anywhere, a file is judged up to there and raises nothing.
+/// A file that is truncated anywhere is judged up to there, without failures.
 #[test]
 fn a_file_may_end_anywhere() {
     let all = conversation();
@@ -157,8 +157,11 @@ fn a_file_may_end_anywhere() {
                 Ok(checked) => {
                     passes(&checked);
                     let end = checked.tally.end.clone().unwrap();
-                    let told =
-                        checked.tally.lines().iter().any(|line| line.contains("a cut of the file"));
+                    let told = checked
+                        .tally
+                        .lines()
+                        .iter()
+                        .any(|line| line.contains("the file was judged only in part"));
                     assert_eq!(told, end != FileEnd::Whole);
                 }
                 Err(error) => {
@@ -170,7 +173,7 @@ fn a_file_may_end_anywhere() {
     }
 }
 
-/// Nothing in a file makes it panic, wherever a byte is another.
+/// A changed byte anywhere in a file does not cause a panic.
 #[test]
 fn hostile_files_are_read() {
     let all = conversation();
@@ -184,7 +187,7 @@ fn hostile_files_are_read() {
             for value in [0, 0x7F, 0xFF] {
                 let mut spoilt = file.clone();
                 spoilt[place] = value;
-                // Whatever comes of it.
+                // Any result is valid.
                 let _ = check(&spoilt[..], CaptureOptions::default()).is_ok();
                 let anywhere =
                     CaptureOptions { ports: Ports::Any, vectors: Some(Collector::new(false)) };
@@ -194,9 +197,9 @@ fn hostile_files_are_read() {
     }
 }
 
-/// A conversation with the simulated CNC raises nothing, on either side.
+/// A conversation with the simulated CNC passes on both sides.
 #[test]
-fn what_is_recorded_passes() {
+fn recorded_conversations_pass() {
     let checked = checked(&recorded(None, everything));
     assert!(passes(&checked) > 50);
     assert_eq!(checked.tally.exchanges * 2, checked.tally.frames);

@@ -1,4 +1,4 @@
-//! Gaps in a capture, and the requirements they leave undecided.
+//! Handles gaps in a capture, and the requirements that are inconclusive because of them.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
@@ -36,13 +36,13 @@ impl TrafficJudge {
         self.lost.entry(way.connection).or_default().gap = Some(span.last.packet);
     }
 
-    /// Which side sent these bytes, as far as the ports show.
+    /// The side that sent the bytes, according to the ports.
     fn side(&self, way: &SegmentDirection) -> Topic {
         let asks = self.waiting.range((way.connection, 0)..=(way.connection, u32::MAX)).next();
         match asks.and_then(|(_, all)| all.front()) {
             Some(asked) if asked.way.from == way.from => Topic::ClientFrames,
             Some(_) => Topic::CncFrames,
-            // Usually the listener's port is the lower one.
+            // The listener usually has the lower port.
             None if way.to.port() < way.from.port() => Topic::ClientFrames,
             None => Topic::CncFrames,
         }
@@ -93,7 +93,7 @@ impl TrafficJudge {
         self.rules.records.on(case, observation).open(rule, found);
     }
 
-    /// A lost reply leaves the requirement of the requested function undecided.
+    /// Makes the requirement of the requested function inconclusive after a lost reply.
     fn open_function(
         &mut self,
         asked: &CapturedFrame,
@@ -141,7 +141,7 @@ impl TrafficJudge {
                 self.unanswered(&asked, &lost, ending);
             }
         }
-        // Requests sent before the capture began are answered in it.
+        // The capture contains replies to requests sent before it began.
         let unasked = lost.unasked.iter().filter(|_| !lost.joined && !lost.is_running);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());
@@ -149,13 +149,13 @@ impl TrafficJudge {
         self.waiting_of.remove(&connection);
     }
 
-    /// No segment of one direction was captured.
+    /// Handles a connection of which one direction was not captured.
     fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
         let observation = CapturedFrames::Bytes(&[], location(way, None, None));
         let (case, found) = if is_cnc {
-            (Topic::CncFrames, "nothing of what the CNC sent was captured")
+            (Topic::CncFrames, "no segment sent by the CNC was captured")
         } else {
-            (Topic::ClientFrames, "nothing of what the client sent was captured")
+            (Topic::ClientFrames, "no segment sent by the client was captured")
         };
         self.rules.records.on(case, &observation).open(ADS_5, found);
     }
@@ -166,14 +166,15 @@ impl TrafficJudge {
             CapturedFrames::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));
         let packet = asked.span.last.packet;
         if lost.gap.is_some_and(|gap| gap.saturating_add(REORDERED_MAX) >= packet) {
-            self.open_function(asked, &observation, "the answer may be in a gap");
+            self.open_function(asked, &observation, "the reply may be in a gap");
             return;
         }
         let waited = match (self.now, asked.span.last.time) {
             (Some(now), Some(then)) => now.since(then),
             _ => return,
         };
-        // No reply can follow if the CNC's side, or the rest of the connection, was not captured.
+        // A missing reply is no fault if the CNC's side or the rest of the connection was not
+        // captured.
         let followed = ending.unseen.is_none() && ending.last > packet;
         if waited > REPLY_TIMEOUT && !lost.joined && followed {
             let rule = service_clause(asked.header.command);

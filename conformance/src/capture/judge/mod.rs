@@ -20,13 +20,13 @@ use crate::exchange::{Exchange, ExchangeError, violations};
 use crate::judge::{CaseOutcome, Checks as _};
 use crate::rules::{RuleBook, Topic, service_clause};
 
-/// A reply that is later than this counts as missing.
+/// A reply after more than this time counts as missing.
 const REPLY_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A captured frame and its location.
 #[derive(Clone, Debug)]
 struct CapturedFrame {
-    /// Its number among all frames, in the order of the capture.
+    /// The number of the frame in the capture.
     number: u64,
     frame: Vec<u8>,
     header: AmsHeader,
@@ -34,10 +34,10 @@ struct CapturedFrame {
     span: Span,
 }
 
-/// What is missing of a connection.
+/// The missing parts of a connection.
 #[derive(Debug, Default)]
 struct ConnectionLoss {
-    /// Its beginning was not captured.
+    /// The beginning was not captured.
     joined: bool,
     /// Requests may have been sent before the capture; all frames since then were captured.
     is_running: bool,
@@ -51,9 +51,9 @@ struct ConnectionLoss {
 #[derive(Debug, Default)]
 struct EarlyReplies {
     all: BTreeMap<u64, CapturedFrame>,
-    /// Their numbers by invoke ID.
+    /// The numbers of the replies by invoke ID.
     ids: BTreeSet<(u32, u64)>,
-    /// Their numbers by connection.
+    /// The numbers of the replies by connection.
     connections: BTreeSet<(u64, u64)>,
     bytes: usize,
 }
@@ -66,7 +66,7 @@ pub(super) struct TrafficJudge {
     waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
     /// The same keys, ordered by invoke ID.
     waiting_ids: BTreeSet<(u32, u64)>,
-    /// By connection: the numbers of its waiting requests, with their invoke IDs.
+    /// For each connection, the numbers and invoke IDs of its waiting requests.
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
     /// Memory of all waiting requests.
     waiting_bytes: usize,
@@ -219,7 +219,7 @@ impl TrafficJudge {
         self.is_crossed |= asked.way.connection != reply.way.connection;
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
-        // A request that is not of one of the services may be answered in any way.
+        // Any reply is allowed to a request that does not belong to one of the services.
         let Ok(Some(call)) = Call::from_frame(&sent) else { return };
         let exchange = Exchange {
             sent: asked.frame.clone(),

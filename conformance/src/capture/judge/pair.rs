@@ -1,4 +1,4 @@
-//! Finds the request of each reply, also if both were captured in another order.
+//! Finds the request of each reply, even if the reply was captured first.
 
 use ads_cnc_vectors::ids::*;
 
@@ -10,23 +10,23 @@ use super::{CapturedFrame, EarlyReplies, TrafficJudge, location};
 use crate::judge::Checks as _;
 use crate::rules::{Topic, service_clause};
 
-/// Maximum number of waiting requests of a connection, and of bytes of those of all connections;
-/// beyond it the oldest request of the connection is forgotten.
+/// Maximum number of waiting requests of a connection, and maximum memory of those of all
+/// connections. Beyond that, the oldest request of the connection is dropped.
 const WAITING_MAX: usize = 4096;
 const WAITING_BYTES_MAX: usize = 0x100_0000;
 
-/// Maximum number of replies of all connections that wait for their requests, and of their bytes.
+/// Maximum number and memory of the replies of all connections that wait for their requests.
 const EARLY_MAX: usize = 4096;
 const EARLY_BYTES_MAX: usize = 0x100_0000;
 
-/// A reply may be captured up to this many packets before its request.
+/// Maximum number of packets by which a reply may be captured before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
-/// Maximum number of requests or replies with the same invoke ID that are compared: more than can
-/// have been captured in another order.
+/// Maximum number of requests or replies with the same invoke ID that are compared; a wrong order of
+/// capture affects fewer.
 const ALIKE_MAX: usize = 512;
 
-/// Maximum number of shown replies without a request of a connection, and of bytes of each.
+/// Maximum number of replies without a request that are shown for a connection, and of bytes of each.
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
 
@@ -46,7 +46,7 @@ impl EarlyReplies {
         Some(reply)
     }
 
-    /// The number of the first reply with this invoke ID that matches.
+    /// The number of the first matching reply with this invoke ID.
     fn find(&self, id: u32, matches: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
         let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let alike = alike.filter_map(|(_, number)| self.all.get(number));
@@ -63,11 +63,11 @@ impl EarlyReplies {
     }
 }
 
-/// Memory of a waiting request besides its bytes.
+/// Memory of a waiting request in addition to its bytes.
 const WAITING_OVERHEAD: usize = 1280;
 
 impl CapturedFrame {
-    /// Its memory while it waits.
+    /// The memory of the frame while it waits.
     fn memory(&self) -> usize {
         self.frame.len().saturating_add(WAITING_OVERHEAD)
     }
@@ -77,8 +77,8 @@ impl CapturedFrame {
         self.header.source == reply.header.target && self.header.target == reply.header.source
     }
 
-    /// Whether the sender of this request had already received a reply, which then answers an
-    /// earlier one. The TCP acknowledgement shows that in any order of capture.
+    /// Whether the sender of this request had already received the reply, which thus answers an
+    /// earlier request. The TCP acknowledgement shows this in any order of capture.
     fn follows(&self, reply: &Self) -> bool {
         let got = self.span.last.acknowledged;
         self.way.connection == reply.way.connection
@@ -87,7 +87,7 @@ impl CapturedFrame {
 }
 
 impl TrafficJudge {
-    /// Waits for the reply to a request, unless the reply was captured first.
+    /// Stores a request until its reply is captured, unless the reply was captured first.
     pub(super) fn wait(&mut self, seen: CapturedFrame) {
         let id = seen.header.invoke_id;
         let answered = self.early.find(id, |reply| {
@@ -110,8 +110,7 @@ impl TrafficJudge {
             count(&mut self.tally.forgotten);
             self.lost.entry(connection).or_default().joined = true;
             if self.forget((connection, oldest), 0).is_none() {
-                // The oldest is this request itself: those of other connections take all the
-                // memory.
+                // This request itself is the oldest, because other connections use all the memory.
                 self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.memory());
                 self.waiting_of.entry(connection).or_default().remove(&seen.number);
                 return;
@@ -143,8 +142,8 @@ impl TrafficJudge {
         Some(one)
     }
 
-    /// Whether another request of this client with this invoke ID waits for its reply; `None` if that reply may be
-    /// missing in the capture.
+    /// Whether another request of this client with this invoke ID waits for its reply; `None` if that
+    /// reply may be missing in the capture.
     pub(super) fn is_repeated(
         &self,
         seen: &CapturedFrame,
@@ -176,7 +175,7 @@ impl TrafficJudge {
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
         let matches = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
         let here = self.waiting.get(&key).and_then(|all| {
-            // A client reuses an invoke ID after it has received the reply, which is in the gap.
+            // A client reuses an invoke ID after receiving the reply, so that reply is in the gap.
             if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
                 latest.into_iter().find(|&place| all.get(place).is_some_and(matches))
@@ -189,7 +188,7 @@ impl TrafficJudge {
         if let Some(place) = here {
             return self.forget(key, place);
         }
-        // Between two routers a request and its reply may use different connections.
+        // Two routers may send a request and its reply on different connections.
         let id = reply.header.invoke_id;
         let others = self.waiting_ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let mut others = others.map(|(id, connection)| (*connection, *id));
@@ -228,8 +227,7 @@ impl TrafficJudge {
         let connection = reply.way.connection;
         let key = (connection, header.invoke_id);
         let is_whole = self.lost.get(&connection).is_none_or(|lost| lost.gap.is_none());
-        // A request with the same invoke ID and command belongs to it although the addresses are
-        // wrong.
+        // A request with the same invoke ID and command matches, although the addresses are wrong.
         let place = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
             all.iter()
                 .take(ALIKE_MAX)

@@ -1,4 +1,4 @@
-//! Segments in any order, and missing ones.
+//! Tests the reassembly of segments in any order, and with gaps.
 
 use super::*;
 
@@ -24,7 +24,7 @@ fn joined(half: &mut DirectionState, parts: &[(u32, &[u8])], end: bool) -> Strin
 }
 
 #[test]
-fn segments_come_in_any_order() {
+fn segments_are_reassembled_in_any_order() {
     for start in [0_u32, 100, u32::MAX, u32::MAX - 3, u32::MAX - 6, 0x7FFF_FFFE] {
         let at = |offset: u32| start.wrapping_add(offset);
         let begun = || {
@@ -36,7 +36,7 @@ fn segments_come_in_any_order() {
                 missing: 0,
                 mark: MARK,
             };
-            half.push(syn, &mut |_| panic!("there is nothing in it"));
+            half.push(syn, &mut |_| panic!("a SYN has no bytes"));
             half
         };
         let parts: [(u32, &[u8]); 4] =
@@ -60,7 +60,7 @@ fn segments_come_in_any_order() {
 }
 
 #[test]
-fn what_never_came_is_a_gap() {
+fn missing_bytes_are_a_gap() {
     let mut half = DirectionState::default();
     assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"fg")], false), "ab");
     assert_eq!((half.ahead.len(), half.early), (1, 1));
@@ -70,7 +70,7 @@ fn what_never_came_is_a_gap() {
 
 /// The other side has acknowledged the bytes: they were sent, but not captured.
 #[test]
-fn what_is_acknowledged_is_not_waited_for() {
+fn acknowledged_bytes_are_not_awaited() {
     let mut half = DirectionState::default();
     assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"f"), (16, b"g")], false), "ab");
     half.acknowledge(17, MARK);
@@ -82,7 +82,7 @@ fn what_is_acknowledged_is_not_waited_for() {
 
 /// The last bytes were not captured, but the other side has acknowledged them, or a FIN follows.
 #[test]
-fn what_is_missing_at_the_end_is_a_gap() {
+fn missing_bytes_at_the_end_are_a_gap() {
     let begun = || {
         let mut half = DirectionState::default();
         assert_eq!(joined(&mut half, &[(10, b"ab")], false), "ab");
@@ -90,7 +90,7 @@ fn what_is_missing_at_the_end_is_a_gap() {
     };
     let mut half = begun();
     half.acknowledge(13, MARK);
-    assert_eq!(joined(&mut half, &[], true), "", "that may be a FIN");
+    assert_eq!(joined(&mut half, &[], true), "", "this may be a FIN");
     let mut half = begun();
     half.acknowledge(20, MARK);
     assert_eq!(joined(&mut half, &[], true), "_______");
@@ -102,7 +102,7 @@ fn what_is_missing_at_the_end_is_a_gap() {
 }
 
 #[test]
-fn no_more_is_held_back_than_a_limit() {
+fn the_number_of_waiting_bytes_is_limited() {
     let mut half = DirectionState::default();
     let payload = vec![b'x'; 60_000];
     let mut out = |_: ReassembledPiece<'_>| {};
@@ -117,7 +117,7 @@ fn no_more_is_held_back_than_a_limit() {
 }
 
 #[test]
-fn what_was_cut_off_is_a_gap() {
+fn truncated_bytes_are_a_gap() {
     let mut half = DirectionState::default();
     let mut all = Vec::new();
     let mut out = |piece: ReassembledPiece<'_>| all.push(format!("{piece:?}"));

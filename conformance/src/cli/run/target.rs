@@ -1,4 +1,4 @@
-//! The suite against a device, or against the simulated CNC.
+//! Runs the suite against a device or the simulated CNC.
 
 use std::path::Path;
 use std::time::Instant;
@@ -34,8 +34,8 @@ impl Run {
         let deadline = self.deadline.begin();
         let session = target.with_malformed(self.malformed).open()?;
         let mut session = session.with_deadline(deadline);
-        // A device must answer once before its cases run; afterwards silence is judged by each
-        // case.
+        // A device must reply once before the cases run; afterwards each case judges a missing
+        // reply.
         match session.check_reachable(&profile) {
             Ok(()) => {}
             Err(ToolError::NotSent) => {
@@ -49,7 +49,7 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        // Without a profile nothing is claimed.
+        // Without a profile, the device claims nothing.
         let name = self.profile.is_none().then_some("none (judged by what was found)".into());
         let profile = Profile { name: name.unwrap_or(profile.name), ..profile };
         let session = TargetState::new(client, profile);
@@ -74,7 +74,7 @@ impl Run {
         self.judge(plan, session, None, about)
     }
 
-    /// A profile with what the device answers.
+    /// A profile filled in with the answers of the device.
     pub(super) fn profile_of_device(&self) -> Result<String, ToolError> {
         let deadline = self.deadline.begin();
         let mut session = self.target.open()?.with_deadline(deadline);
@@ -88,7 +88,7 @@ impl Run {
         Ok(state.profile.filled())
     }
 
-    /// Starts the simulated CNC, runs everything against it and stops it.
+    /// Starts the simulated CNC, runs the plan against it and stops it.
     pub(super) fn simulated(
         &self,
         seed: u32,
@@ -131,8 +131,8 @@ impl Run {
         let usable = client.gate().check_target(client.target().net_id, Moment::now());
         let mut rejected = Vec::new();
         if let Err(why) = &usable {
-            print_error(format_args!("nothing is written: {why}"));
-            rejected.push(format!("allow-write: nothing is written: {why}"));
+            print_error(format_args!("nothing will be written: {why}"));
+            rejected.push(format!("allow-write: nothing was written: {why}"));
         }
         let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
             plan.cases.iter().cloned().partition(|case| case.needs == Needs::Codec);
@@ -163,7 +163,7 @@ impl Run {
         let is_whole = outcomes.iter().all(|one| one.verdict() != Verdict::Interrupted);
         if allow && usable.is_ok() && is_whole && !outcomes.iter().any(has_written) {
             print_error(
-                "nothing was written: nothing that the file for --allow-write names was found",
+                "nothing was written: the device has no item of the file for --allow-write",
             );
         }
         let (outcomes, left_out) = plan.finish(outcomes);
@@ -180,7 +180,7 @@ impl Run {
     }
 }
 
-/// Says what was found, and what the selected cases will take.
+/// Prints the result of the discovery, and how many requests the selected cases will send.
 fn print_forecast(discovery: &Discovery, plan: &Plan) {
     let found = &discovery.found;
     print_error(format_args!("found {}", found.summary()));
@@ -212,7 +212,7 @@ fn has_written(outcome: &CaseOutcome) -> bool {
     outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
 }
 
-/// The device information that the target returns; not every target does.
+/// The device information; `None` if the target does not return it.
 fn of_itself(session: &mut session::Session) -> Option<DeviceReport> {
     let info = session.device_info(Task::Com).ok()?;
     let state = session.device_state(Task::Com).ok();

@@ -1,4 +1,4 @@
-//! Runs a command for a request.
+//! Runs the command of `service` for a request.
 
 use std::io::{Read, Write as _};
 use std::process::{self, Stdio};
@@ -15,24 +15,25 @@ use super::response::{Ended, STDOUT_MAX, ServiceResponse, answer};
 use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
-/// How long stdout may stay open after the command has ended: a process it started may hold it.
+/// Time for which stdout may stay open after the command has ended: a process that the command
+/// started may still have it open.
 const GRACE: Duration = Duration::from_millis(500);
 
 /// Interval at which the command is polled.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Maximum number of processes that hold the stdout of an ended command: each takes a thread. Only
-/// a process in a session of its own outlives the command.
+/// Maximum number of processes that keep the stdout of an ended command open: each takes a thread.
+/// Only a process in its own session survives the command.
 const HOLDERS_MAX: usize = 8;
 
-/// The command that is run for each request.
+/// The command that answers each request.
 pub(super) struct ServiceCommand<'s> {
     /// The program and its arguments.
     pub(super) words: &'s [String],
     pub(super) channel: u8,
     pub(super) limit: Duration,
     pub(super) interrupt: &'s Interrupt,
-    /// Threads that read the stdout of a command.
+    /// Number of threads that read the stdout of a command.
     pub(super) readers: Arc<AtomicUsize>,
 }
 
@@ -45,18 +46,19 @@ impl ServiceCommand<'_> {
             Ok(child) => {
                 let stdout = CapturedOutput::start(&child, &self.readers);
                 if let Some(mut stdin) = child.take_stdin() {
-                    // A command need not read stdin. The request fits into the buffer of a pipe.
+                    // This does not block: the request fits into the buffer of the pipe, also if the
+                    // command does not read stdin.
                     let _unread = writeln!(stdin, "{}", utf8(request));
                 }
                 let ended = self.wait(&child, started);
                 let closed = !matches!(ended, Ended::Exited(_)) || stdout.closes();
-                // Ends the child and all processes that it started.
+                // This ends the child and all processes that it started.
                 drop(child);
                 stdout.closes();
                 let mut answer = answer(&ended, &stdout.bytes());
                 if !closed {
-                    let warning = "a process that the command has started still had its stdout, \
-                                   and was ended unless it has a session of its own";
+                    let warning = "a process started by the command kept its stdout open; it was \
+                                   ended unless it has its own session";
                     answer.warnings.push(warning.to_owned());
                 }
                 answer
@@ -67,8 +69,8 @@ impl ServiceCommand<'_> {
     fn start(&self, uuid: ServiceId, state: u32) -> Result<RunningCommand, String> {
         if self.readers.load(Ordering::SeqCst) >= HOLDERS_MAX {
             return Err(format!(
-                "{HOLDERS_MAX} processes that earlier commands have started still have their \
-                 stdout; end them"
+                "{HOLDERS_MAX} processes started by earlier commands still hold their stdout; \
+                 end them"
             ));
         }
         let (program, arguments) = self.words.split_first().ok_or("no command")?;
@@ -128,7 +130,7 @@ impl CapturedOutput {
         Self { kept, closed }
     }
 
-    /// Whether stdout is closed within [`GRACE`] and all output is stored.
+    /// Waits until stdout is closed and all output is stored, for at most [`GRACE`].
     fn closes(&self) -> bool {
         self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
     }
@@ -138,7 +140,8 @@ impl CapturedOutput {
     }
 }
 
-/// Reads to the end and stores the beginning. A command whose stdout is not read would block.
+/// Stores the beginning and reads to the end, because a command whose stdout is not read would
+/// block.
 fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     let mut chunk = [0; 4096];
     while let Ok(len @ 1..) = from.read(&mut chunk) {
@@ -148,7 +151,7 @@ fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     }
 }
 
-/// A CP1252 text as UTF-8, the encoding of commands.
+/// Converts a CP1252 text to UTF-8, the encoding of stdin.
 pub(super) fn utf8(text: CncStr<'_>) -> String {
     text.chars().collect()
 }

@@ -1,4 +1,4 @@
-//! `ads-cnc service`: a host of the Service Interface that runs a command for each request.
+//! `ads-cnc service`: serves the Service Interface by running a command for each request.
 
 #![cfg_attr(
     not(test),
@@ -112,7 +112,7 @@ Exit codes: 0 ended by a signal, --once or --answers; 1 the CNC rejects a reques
 
 fn uuid(text: &str) -> Result<ServiceId, String> {
     ServiceId::new(text).map_err(|_| {
-        "8, 4, 4, 4 and 12 hex digits are needed, as 560AACBF-6335-44A9-895A-8B27F3ED5E47"
+        "expected 8, 4, 4, 4 and 12 hex digits, such as 560AACBF-6335-44A9-895A-8B27F3ED5E47"
             .to_owned()
     })
 }
@@ -140,7 +140,7 @@ impl ServiceArguments {
         })
     }
 
-    /// Shows the requests of one poll and one answer, without sending them.
+    /// Shows the ADS requests of one poll and one answer, without sending them.
     fn show(&self) -> Result<(), ToolError> {
         use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 
@@ -166,8 +166,8 @@ impl ServiceArguments {
 
     fn serve(&self) -> Result<(), ToolError> {
         let channel = self.channel.channel;
-        // Checked before the first poll: an NC program would wait forever for an answer that may
-        // not be written.
+        // Check this before the first poll: an NC program would wait forever for an answer whose
+        // write is not allowed.
         let check = |session: &Session| {
             use ServiceVariable::{RequestState, Response, ResponseState};
             let mut writes = [Response, RequestState, ResponseState].into_iter();
@@ -202,7 +202,7 @@ impl ServiceArguments {
         ));
         while answers.is_none_or(|answers| serving.answered < answers) {
             let is_idle = serving.step(&mut session)?;
-            // A begun answer is always completed.
+            // Complete an answer that was begun.
             if is_idle && (serving.is_enough(answers) || interrupt.sleep(self.poll)) {
                 break;
             }
@@ -217,7 +217,7 @@ struct Serving<'s> {
     host: Host<'s>,
     command: ServiceCommand<'s>,
     channel: Channel,
-    /// The request being answered, as text, until its outcome is known.
+    /// The request being answered, as text; `None` once its outcome is known.
     served: Option<String>,
     answered: u64,
     failed_writes: u32,
@@ -230,7 +230,7 @@ impl Serving<'_> {
         answers.is_some_and(|answers| self.answered >= answers)
     }
 
-    /// Does the next step; returns whether to wait before the one after it.
+    /// Executes the next step; returns whether to wait before the following step.
     fn step(&mut self, session: &mut Session) -> Result<bool, ToolError> {
         match self.host.step() {
             HostStep::Read(variable) => {
@@ -295,10 +295,14 @@ impl Serving<'_> {
                 self.answered = self.answered.saturating_add(1);
                 let mut out = io::stdout().lock();
                 let told = writeln!(out, "{served}").and_then(|()| out.flush());
-                told.map_err(|error| ToolError::Internal(format!("stdout is lost: {error}")))
+                told.map_err(|error| {
+                    ToolError::Internal(format!("cannot write to stdout: {error}"))
+                })
             }
             _ => {
-                print_error(format_args!("dropped, the request is no longer there: {served}"));
+                print_error(format_args!(
+                    "dropped, because the request no longer exists: {served}"
+                ));
                 Ok(())
             }
         }
@@ -307,7 +311,7 @@ impl Serving<'_> {
     fn unanswered(&self) {
         if let Some(served) = &self.served {
             print_error(format_args!(
-                "this answer may not have arrived, and the NC program may wait for it: {served}"
+                "this answer may not have arrived; the NC program may still wait for it: {served}"
             ));
         }
     }

@@ -7,7 +7,7 @@ use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::text::char_to_cp1252;
 use ads_cnc::{CncStr, CncString};
 
-/// Maximum number of stored bytes of stdout: more than fit into a response, in UTF-8 too.
+/// Maximum number of stored bytes of stdout: more than a response needs, also in UTF-8.
 pub(super) const STDOUT_MAX: usize = 1024;
 
 const SUCCESS: u32 = 1;
@@ -30,11 +30,11 @@ pub(super) struct ServiceResponse {
 pub(super) enum Ended {
     /// By itself, or by a signal.
     Exited(ExitStatus),
-    /// It exceeded this time limit.
+    /// The command exceeded this time limit.
     TimeOver(Duration),
     /// This process received a signal.
     Interrupted,
-    /// It could not be started.
+    /// The command could not be started.
     NotStarted(String),
 }
 
@@ -45,7 +45,7 @@ impl Ended {
             Self::Exited(status) => match status.code() {
                 Some(0) => SUCCESS,
                 Some(1) => EXIT_CODE_1,
-                // Windows has codes of 32 bits, shown as negative numbers.
+                // Windows has unsigned codes of 32 bits, which `code` returns as `i32`.
                 Some(code) => u32::from_le_bytes(code.to_le_bytes()),
                 None => ENDED,
             },
@@ -55,7 +55,7 @@ impl Ended {
         }
     }
 
-    /// The reason, if the command itself did not fail.
+    /// The reason, if the command did not exit by itself.
     fn reason(&self) -> Option<String> {
         match self {
             Self::Exited(status) if status.code().is_some() => None,
@@ -81,21 +81,21 @@ pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
     if let Some(reason) = ended.reason().filter(|_| response.is_empty()) {
         response = reason.into_bytes();
     }
-    // Without the NUL, which the CNC appends.
+    // The CNC appends the NUL.
     let most = SERVICE_TEXT_MAX.saturating_sub(1);
     if response.len() > most {
-        warnings.push(format!("the response is cut to {most} bytes"));
+        warnings.push(format!("the response is truncated to {most} bytes"));
         response.truncate(most);
     }
     let response = CncStr::from_bytes(&response).map(CncString::from).unwrap_or_default();
     ServiceResponse { response, state: ended.state(), warnings }
 }
 
-/// Text of a command in CP1252, without its last line end.
+/// Converts the output of a command to CP1252 and removes the last line end.
 fn cp1252(stdout: &[u8], warnings: &mut Vec<String>) -> Vec<u8> {
     let mut bytes = match std::str::from_utf8(stdout) {
         Ok(text) => to_cp1252(text, warnings),
-        // The stored output was cut within a character.
+        // The stored output ends within a character.
         Err(error) if error.error_len().is_none() && stdout.len() >= STDOUT_MAX => {
             let whole = stdout.get(..error.valid_up_to()).unwrap_or_default();
             to_cp1252(std::str::from_utf8(whole).unwrap_or_default(), warnings)
@@ -124,7 +124,7 @@ fn to_cp1252(text: &str, warnings: &mut Vec<String>) -> Vec<u8> {
     });
     let bytes = bytes.collect();
     if let Some(character) = strange {
-        warnings.push(format!("CP1252 has no {character:?}; there is a ? for each such character"));
+        warnings.push(format!("CP1252 has no {character:?}; each such character becomes a ?"));
     }
     bytes
 }
@@ -134,13 +134,13 @@ mod tests {
     use super::*;
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
-        // Any outcome for which stdout is used as it is.
+        // `Interrupted` uses stdout without changes.
         let ServiceResponse { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }
 
     #[test]
-    fn stdout_is_cut_to_what_fits() {
+    fn stdout_is_truncated_to_the_size_of_a_response() {
         assert_eq!(of(b"1.732051\r\n"), (b"1.732051".to_vec(), vec![]));
         assert_eq!(of(b"two\nlines\n\n").0, b"two\nlines\n");
         assert_eq!(of("12,5 €/m²".as_bytes()), (b"12,5 \x80/m\xB2".to_vec(), vec![]));
@@ -151,7 +151,7 @@ mod tests {
         let (response, warnings) = of(b"a\0b");
         assert_eq!((&response[..], warnings.len()), (&b"a"[..], 1));
 
-        // Characters count, each of which is one byte in CP1252.
+        // The limit counts characters, because each is one byte in CP1252.
         assert_eq!(of("ä".repeat(127).as_bytes()), (vec![0xE4; 127], vec![]));
         let (response, warnings) = of("ä".repeat(128).as_bytes());
         assert_eq!((response, warnings.len()), (vec![0xE4; 127], 1));
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn no_state_is_0_and_no_failure_looks_like_success() {
+    fn the_state_is_never_0_and_only_success_is_1() {
         let all = [
             (Ended::TimeOver(Duration::from_secs(1)), TIME_OVER),
             (Ended::Interrupted, ENDED),

@@ -1,21 +1,20 @@
-//! Checks a program before any of it is sent.
+//! Checks a program before it is sent.
 
 use std::io::{self, Write};
 
 use ads_cnc::streaming::{LineError, NcText};
 
-/// Maximum number of lines of messages, in case the file is not a text.
+/// Maximum number of messages shown, in case the file is not a text.
 const SHOWN_MAX: usize = 100;
 
 /// A text that can be sent.
 pub(super) struct CheckedText<'a> {
     pub(super) text: NcText<'a>,
-    /// Number of places at which the CNC would end streaming.
+    /// Number of lines that would make the CNC end streaming.
     pub(super) ends: usize,
 }
 
-/// Checks a text and prints one line for each finding; returns `None` if there are lines that
-/// cannot be sent.
+/// Checks a text and prints one line for each finding; returns `None` if a line cannot be sent.
 pub(super) fn check<'a>(
     bytes: &'a [u8],
     name: &str,
@@ -35,7 +34,7 @@ pub(super) fn check<'a>(
         let (line, column) = (finding.line, finding.column);
         let level = if finding.kind.ends_streaming() { "error" } else { "warning" };
         ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
-        // The finding has its line number, but not in the format of compilers.
+        // Replace the finding's own position by the format of compilers.
         let whole = finding.to_string();
         let place = format!("line {line}, column {column}: ");
         let what = whole.strip_prefix(&place).unwrap_or(&whole);
@@ -65,7 +64,7 @@ impl Messages<'_> {
     }
 }
 
-/// The first error of every line that has one, with the number of the line.
+/// The first error of each line, with the line number.
 fn line_errors(bytes: &[u8]) -> impl Iterator<Item = (u32, LineError)> {
     let mut rest = bytes;
     let lines = std::iter::from_fn(move || {
@@ -91,9 +90,9 @@ mod tests {
         (String::from_utf8(out).unwrap(), ends)
     }
 
-    /// Every line that cannot be sent is reported, with the line number of the codec.
+    /// The line numbers are those of the codec.
     #[test]
-    fn every_bad_line_is_named() {
+    fn every_line_that_cannot_be_sent_is_reported() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();
         let bytes = [&b"N1 (\xE4 \xF6)\r\n\nN3\n\0N4\rN5 \x80"[..], &long].concat();
         let (output, ends) = output_of(&bytes);
@@ -109,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn findings_have_a_level() {
+    fn findings_are_errors_or_warnings() {
         let (output, ends) =
             output_of(b"N10: G0 X0\nN20 $GOTO N10\nN30 $WHILE 1\nN40 M30\nN50 X1\n");
         assert_eq!(
@@ -122,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_not_shown_whole() {
+    fn messages_about_a_binary_file_are_limited() {
         let (output, _) = output_of(&b"\xFF\n".repeat(1000));
         assert_eq!(output.lines().count(), SHOWN_MAX + 1);
         assert!(output.ends_with("\n… and 900 more\n"), "{output}");

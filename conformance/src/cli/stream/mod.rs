@@ -1,4 +1,4 @@
-//! `ads-cnc stream`: an NC program, packet by packet, to the streaming object of a channel.
+//! `ads-cnc stream`: sends an NC program in packets to the streaming object of a channel.
 
 #![cfg_attr(
     not(test),
@@ -96,7 +96,7 @@ Once the command has sent a packet, stdout shows which lines were accepted and, 
 which were not.";
 
 impl StreamArguments {
-    /// Sends, and returns the exit code.
+    /// Sends the program and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |_| None)
     }
@@ -108,18 +108,18 @@ impl StreamArguments {
         {
             Some(checked) => checked,
             None => {
-                print_error("nothing was sent: these lines cannot be");
+                print_error("nothing was sent, because of the errors above");
                 return Ok(Exit::Failure);
             }
         };
         if ends > 0 && !self.force {
             print_error(
-                "nothing was sent: the CNC would end streaming there; --force sends it all the same",
+                "nothing was sent: the lines above would end streaming; --force sends them anyway",
             );
             return Ok(Exit::Failure);
         }
         let Some(lines) = NonZeroUsize::new(text.line_count()) else {
-            return Err(ToolError::Usage(format!("{name} is empty: there is nothing to send")));
+            return Err(ToolError::Usage(format!("{name} is empty")));
         };
         if self.target.is_dry() { self.show(text) } else { self.send(&name, text, lines) }
     }
@@ -165,19 +165,19 @@ impl StreamArguments {
         let summary = sending.summary(name, lines.get(), &end, progress.elapsed());
         if let Err(error) = writeln!(io::stdout().lock(), "{summary}") {
             print_error(format_args!("{summary}"));
-            return Err(ToolError::Internal(format!("that could not be written: {error}")));
+            return Err(ToolError::Internal(format!("cannot write the summary: {error}")));
         }
         Ok(match end {
             SendEnd::Done => Exit::Success,
             SendEnd::Interrupted => {
-                print_error("interrupted. The machine runs what the CNC has taken");
+                print_error("interrupted. The machine still runs the accepted lines");
                 Exit::Nothing
             }
             SendEnd::GivenUp(error) => {
                 print_error(format_args!(
-                    "given up: the CNC still refuses, with {error:#x}. Is the streaming program (see \
-                     P-CHAN-00158) running in channel {channel}, and does nothing hold the machine? \
-                     --retries waits longer"
+                    "gave up: the CNC still rejects the packet with {error:#x}. Check that the \
+                     streaming program (see P-CHAN-00158) is running in channel {channel} and that \
+                     the machine is not stopped; increase --retries to wait longer"
                 ));
                 Exit::Failure
             }
@@ -185,15 +185,15 @@ impl StreamArguments {
                 print_error(&error);
                 if error.ads_error().is_some() {
                     print_error(format_args!(
-                        "that is no refusal for the time being. Has channel {channel} a streaming \
-                         program? It is off unless P-CHAN-00158 names one"
+                        "this error does not mean busy, so the packet is not sent again. Check that \
+                         P-CHAN-00158 names a streaming program for channel {channel}"
                     ));
                 }
                 error.exit()
             }
             SendEnd::Unknown(error) => {
                 print_error(&error);
-                print_error("it is not sent again: lines that are run twice may do harm");
+                print_error("the packet is not sent again: running its lines twice may do harm");
                 error.exit()
             }
         })

@@ -7,7 +7,7 @@ use ads_cnc::streaming::{self, NcText};
 
 use super::super::progress::{self, UPDATE_INTERVAL};
 
-/// The time between two lines if stderr is not a terminal.
+/// Time between two lines if stderr is not a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Shows progress: one line that changes on a terminal, one every few seconds elsewhere.
@@ -36,12 +36,12 @@ impl StreamProgress {
         self.started.elapsed()
     }
 
-    /// Shows how much was accepted, if an update is due, and why it waits.
+    /// If an update is due, shows how much was accepted and why the command waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
         let due = if !self.line.live {
             LINE_INTERVAL
         } else if waits.is_some() && !self.waited {
-            // It may be the last update for a long time.
+            // Show a wait at once: it may be the last update for a long time.
             Duration::ZERO
         } else {
             UPDATE_INTERVAL
@@ -80,7 +80,7 @@ pub(super) struct Rate(pub(super) usize, pub(super) Duration);
 
 impl fmt::Display for Rate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A shorter time cannot be measured.
+        // Avoid a division by zero.
         let seconds = self.1.as_secs_f64().max(0.001);
         let bytes = u32::try_from(self.0).map_or(f64::MAX, f64::from);
         scaled(bytes / seconds, f)?;
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_says_how_far_it_is() {
+    fn a_line_shows_the_accepted_part() {
         let text = NcText::new(b"N10 G0 X0\nN20 M30\n").unwrap();
         let progress = StreamProgress::new(text, false);
         let sent = streaming::Progress { packets: 1, lines: 1, bytes: 11 };

@@ -12,7 +12,7 @@ use super::progress::{ByteCount, Rate, StreamProgress};
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, ToolError};
 
-/// How a packet is repeated that the CNC cannot take for now.
+/// How often and when a packet is sent again that the CNC rejected as busy.
 pub(super) struct Retry {
     pub(super) after: Duration,
     pub(super) times: u32,
@@ -24,7 +24,7 @@ pub(super) enum SendEnd {
     Done,
     /// A signal.
     Interrupted,
-    /// A packet was rejected with "busy" too often.
+    /// A packet was rejected as busy too often.
     GivenUp(AdsError),
     /// A packet was rejected with another error, or not sent.
     Stopped(ToolError),
@@ -37,7 +37,7 @@ pub(super) struct Sending<'a> {
     pub(super) sender: Sender<'a>,
     pub(super) channel: Channel,
     pub(super) retry: Retry,
-    /// How often a packet was rejected with "busy".
+    /// Number of times that a packet was rejected as busy.
     pub(super) refusals: u64,
     /// Number of lines in the last packet sent.
     pub(super) out: usize,
@@ -59,7 +59,7 @@ impl Sending<'_> {
             self.out = packet.iter().filter(|&&byte| byte == b'\n').count();
             let write = WriteProgramStream::new(self.channel, packet);
             let error = session.call(&write).err();
-            // Only an ADS error of the CNC is a reason to repeat a packet.
+            // Repeat a packet only after an ADS error of the CNC.
             let ack = match &error {
                 None => Ack::Accepted,
                 Some(error) => error.ads_error().map_or(Ack::Rejected, Ack::from_result),
@@ -94,7 +94,7 @@ impl Sending<'_> {
         }
     }
 
-    /// What was accepted, and what was not.
+    /// A summary of the accepted lines and of the others.
     pub(super) fn summary(
         &self,
         name: &str,
@@ -106,7 +106,7 @@ impl Sending<'_> {
         let (packets, bytes, rate) = (sent.packets, ByteCount(sent.bytes), Rate(sent.bytes, took));
         let channel = self.channel.number();
         let mut summary = match sent.lines {
-            0 => format!("{name}: channel {channel} has taken nothing"),
+            0 => format!("{name}: channel {channel} accepted nothing"),
             _ => {
                 let packets = match packets {
                     1 => "1 packet".to_owned(),
@@ -114,7 +114,7 @@ impl Sending<'_> {
                 };
                 let took = took.as_secs_f64();
                 format!(
-                    "{name}: channel {channel} has taken {} in {packets}, {bytes}, within {took:.1} \
+                    "{name}: channel {channel} accepted {} in {packets}, {bytes}, within {took:.1} \
                      s ({rate})",
                     range(1, sent.lines),
                 )
@@ -122,19 +122,20 @@ impl Sending<'_> {
         };
         let refused = match self.refusals {
             0 => String::new(),
-            1 => ", after 1 refusal for the time being".to_owned(),
-            times => format!(", after {times} refusals for the time being"),
+            1 => ", after 1 rejection as busy".to_owned(),
+            times => format!(", after {times} rejections as busy"),
         };
         summary.push_str(&refused);
         let mut next = sent.lines.saturating_add(1);
         if let SendEnd::Unknown(_) = end {
             let after = next.saturating_add(self.out);
             let out = range(next, after.saturating_sub(1));
-            let _infallible = write!(summary, "\n  not known whether it was taken: {out}");
+            let _infallible = write!(summary, "\n  unknown whether accepted: {out}");
             next = after;
         }
         if next <= lines {
-            let _infallible = write!(summary, "\n  not sent or not taken: {}", range(next, lines));
+            let _infallible =
+                write!(summary, "\n  not sent or not accepted: {}", range(next, lines));
         }
         summary
     }

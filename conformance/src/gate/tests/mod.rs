@@ -100,7 +100,7 @@ fn only_queries_pass_by_default() {
         if spec.effect != Effect::Query {
             continue;
         }
-        // The address is allowed at its own port only; each accepts some data.
+        // The address is allowed only at its own port, where it accepts one of these data.
         let offset = match spec.offset {
             ads_cnc::operation::OffsetRule::At(at) => at,
             ads_cnc::operation::OffsetRule::OfKind([first, ..]) => first,
@@ -144,7 +144,7 @@ fn only_queries_pass_by_default() {
 }
 
 #[test]
-fn what_is_never_sent_no_opt_in_sends() {
+fn some_requests_are_never_allowed() {
     let everything = "[[stream]]\nchannel = 1\n[[object]]\ngroup = 0x120101\noffset = 1";
     let sda = AmsPort::SDA;
     let never = [
@@ -162,7 +162,7 @@ fn what_is_never_sent_no_opt_in_sends() {
         at(AmsPort::COM, Service::Read, 0x12_0100, 0x90, &[]),
         at(AmsPort::COM, Service::ReadWrite, 0x12_0101, 0x90, &[1]),
         at(AmsPort::COM, Service::Write, 0x12_0100, 0x90, b"M30\r\n"),
-        // Written to an address without a function
+        // A write to an address without a function
         at(AmsPort::SDA, Service::Write, 0x12_0101, 0x90, b"M30\r\n"),
     ];
     for frame in never {
@@ -174,7 +174,7 @@ fn what_is_never_sent_no_opt_in_sends() {
 }
 
 #[test]
-fn each_write_has_its_entry() {
+fn each_write_needs_its_entry() {
     let all = writes();
     for (frame, table) in &all {
         let refusal = check(frame).unwrap_err();
@@ -190,7 +190,7 @@ fn each_write_has_its_entry() {
 }
 
 #[test]
-fn an_entry_is_for_one_target_and_one_time() {
+fn a_file_applies_to_one_target_until_it_expires() {
     for (frame, table) in writes() {
         let gate = gate(table);
         let end = Moment::from_rfc3339("2026-05-04T15:30:00Z").unwrap();
@@ -210,7 +210,7 @@ fn an_entry_is_for_one_target_and_one_time() {
 }
 
 #[test]
-fn a_variable_stands_for_its_elements_only() {
+fn a_variable_includes_only_its_elements() {
     let list = gate("[[variable]]\nchannel = 1\nname = \"V.E.list\"");
     for (name, passes) in [
         ("V.E.list", true),
@@ -238,10 +238,10 @@ fn a_variable_stands_for_its_elements_only() {
     assert!(list.check(&request(other), now()).is_err());
 }
 
-/// A file may require an IP address, and must require a loopback address for the NetId
-/// 127.0.0.1.1.1, which every machine uses for itself.
+/// A file may require an IP address. A file for the NetId 127.0.0.1.1.1, which every machine uses for
+/// itself, only applies to a loopback address.
 #[test]
-fn a_file_binds_an_address() {
+fn a_file_may_require_an_address() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"";
     let to = |gate: &Gate, address: &str| gate.clone().to_address(address.parse().unwrap());
     let bound = gate(&format!("address = \"192.0.2.10\"\n{table}"));
@@ -296,7 +296,7 @@ fn malformed_requests_need_a_file() {
 }
 
 #[test]
-fn a_host_writes_its_three_variables() {
+fn a_service_entry_allows_three_variables() {
     let gate = gate("[[service]]\nchannel = 1");
     for (name, passes) in [
         ("V.G.SERVICE.RESPONSE", true),
@@ -311,7 +311,7 @@ fn a_host_writes_its_three_variables() {
 }
 
 #[test]
-fn a_bad_file_is_refused_with_its_line() {
+fn an_invalid_file_is_rejected_with_its_line() {
     for (tables, line, what) in [
         ("tarlet = 1", 3, "unknown field"),
         ("[[variable]]\nchannel = 1\nname = \"V.E.a\"\naxes = 1", 6, "unknown field"),

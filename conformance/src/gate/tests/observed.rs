@@ -1,4 +1,4 @@
-//! What the gate learns from replies: handles, descriptions and lists of objects.
+//! Tests the observations of the gate: handles, descriptions and lists of objects.
 
 use ads_cnc::operation::{
     AxisHandleByName, CountObjects, DescribeByIndex, DescribeByName, HandleByName, ObjectList,
@@ -49,7 +49,7 @@ fn ambiguity(gate: &Gate, frame: &[u8]) -> Option<Ambiguity> {
 }
 
 #[test]
-fn a_handle_is_good_for_what_was_asked() {
+fn a_handle_allows_writes_to_its_variable() {
     let mut gate = gate(
         "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
                          [[variable]]\nchannel = 1\nname = \"V.E.b[1]\"",
@@ -74,9 +74,9 @@ fn a_handle_is_good_for_what_was_asked() {
     assert_eq!(ambiguity(&gate, &by_handle(7)), unconfirmed());
 }
 
-/// A write by a handle is rejected if any reply gives it to another name too.
+/// A write by a handle is rejected if any reply contains the handle for another name.
 #[test]
-fn a_handle_of_several_names_is_not_written_by() {
+fn a_handle_with_several_names_is_rejected() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
                  [[variable]]\nchannel = 1\nname = \"V.A.p.X\"";
     let confirmed = |name: &str| {
@@ -137,9 +137,9 @@ fn a_handle_of_several_names_is_not_written_by() {
     assert_eq!(ambiguity(&axis, &by_handle(7)), shared("V.A.q"));
 }
 
-/// Beyond the limit the gate rejects every write by handle; later observations do not change that.
+/// Beyond the limit, the gate rejects every write by handle, also after later observations.
 #[test]
-fn what_is_learnt_is_bounded() {
+fn the_number_of_observations_is_limited() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
                  [[object]]\nchannel = 1\nname = \"b_w\"";
     let mut gate = gate(table);
@@ -156,18 +156,17 @@ fn what_is_learnt_is_bounded() {
     }
     assert!(gate.check(&by_name("V.E.a"), now()).is_ok());
     assert!(gate.knows_handle(channel(1), Handle(2)));
-    // Writes by handle stay rejected on another connection: names that were not stored are unknown
-    // there too.
+    // Writes by handle remain rejected on another connection, because the names that were not stored
+    // are unknown there, too.
     gate.forget();
     describe(&mut gate, "V.E.a", 7);
     give_handle(&mut gate, "V.E.a", 7);
     assert!(gate.check(&by_handle(7), now()).is_err());
 }
 
-/// A handle must be confirmed again on a new connection. A foreign name of a handle is not
-/// forgotten.
+/// On a new connection, a handle must be confirmed again, but its foreign names remain known.
 #[test]
-fn another_connection_forgets_what_lets_writes_pass() {
+fn a_new_connection_discards_permissions() {
     let confirm = |gate: &mut Gate, handle| {
         give_handle(gate, "V.E.a", handle);
         describe(gate, "V.E.a", handle);
@@ -189,7 +188,7 @@ fn another_connection_forgets_what_lets_writes_pass() {
 }
 
 #[test]
-fn an_object_is_known_by_its_name_when_the_list_is() {
+fn a_named_object_needs_the_whole_list() {
     let object = |name: &str, offset| {
         let at = (IndexGroup::new(0x12_0101), IndexOffset::new(offset));
         Descriptor::new(name, "BOOL").unwrap().with_content(at.0, at.1).encode_to_vec().unwrap()
@@ -206,7 +205,7 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     let mut known = gate(table);
     observe(&mut known, CountObjects::new(channel(1)), &three);
     observe(&mut known, ask(2, 1), &object("b_w", 2));
-    // There might be another object with the same name.
+    // Another object may have the same name.
     assert!(known.check(&write(2), now()).is_err());
     observe(&mut known, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("c_w", 3)]));
     assert!(known.check(&write(2), now()).is_ok());
@@ -223,7 +222,7 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     observe(&mut beyond, ask(2, 3), &list([("b_w", 2), ("c_w", 3), ("d_w", 4)]));
     assert!(beyond.check(&write(2), now()).is_err());
 
-    // Two names at one address, in one list or in two.
+    // Two names have the same address, in one list or in two.
     let shared = Some(Ambiguity::Shared("c_w".parse().unwrap()));
     let mut same = gate(table);
     observe(&mut same, CountObjects::new(channel(1)), &three);

@@ -1,4 +1,4 @@
-//! What fails, each cause once, with what follows from it.
+//! The causes of failures, with the cases that are inconclusive because of them.
 
 use serde::Serialize;
 
@@ -25,7 +25,7 @@ pub(super) struct CauseView {
     followers: Vec<FollowerView>,
 }
 
-/// A case that is inconclusive for it.
+/// A case that is inconclusive because of the cause.
 #[derive(Serialize)]
 struct FollowerView {
     clause: String,
@@ -35,7 +35,7 @@ struct FollowerView {
 /// The causes, the gravest first.
 pub(super) fn causes(report: &Report) -> Vec<CauseView> {
     let mut all = groups(report);
-    // The order by requirement stays.
+    // The sort keeps the order by requirement.
     all.sort_by_key(|group| {
         (!group.is_failure(), std::cmp::Reverse(group.verdict.gravity()), group.waived)
     });

@@ -1,4 +1,4 @@
-//! A finding and its bytes, as the template needs them.
+//! A finding and its bytes, in the form that the template needs.
 
 use serde::Serialize;
 
@@ -28,7 +28,7 @@ struct EvidenceView {
     sent: Option<BytesView>,
     received: Option<BytesView>,
     expected: Option<BytesView>,
-    /// The request and the reply by their headers and services, if the finding is about these.
+    /// The headers and services of the request and the reply, if the finding is about these.
     frames: Vec<Vec<BytesView>>,
     frame_sent: String,
     frame_received: String,
@@ -44,7 +44,7 @@ struct BytesView {
 
 #[derive(Serialize, Default)]
 struct RowView {
-    /// Number of omitted items; all other fields are empty then.
+    /// Number of omitted items; if not 0, all other fields are empty.
     more: usize,
     offset: usize,
     bytes: Vec<ByteView>,
@@ -89,7 +89,7 @@ fn evidence(evidence: &EvidenceReport, is_of_frames: bool) -> EvidenceView {
     let EvidenceReport {
         call, result, sent, received, expected, frame_sent, frame_received, ..
     } = evidence;
-    // With the same fields, the expected ones are shown below the received ones.
+    // If the fields are the same, show each expected one below the received one.
     let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
         let places = |bytes: &BytesReport| -> Vec<usize> {
             bytes.fields.iter().map(|field| field.offset).collect()
@@ -132,7 +132,7 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
     }
 }
 
-/// Maximum number of shown zeros at the end of a field.
+/// Maximum number of zeros shown at the end of a field.
 const ZEROS: usize = 8;
 
 fn row(field: &FieldReport) -> RowView {

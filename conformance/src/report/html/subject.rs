@@ -1,4 +1,4 @@
-//! A subject's requirements and cases, as the template needs them.
+//! A subject's requirements and cases, in the form that the template needs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,16 +34,16 @@ struct RequirementView {
     title: String,
     verdict: Verdict,
     waived: bool,
-    /// Its cases, the gravest first.
+    /// The cases to link to, the gravest first.
     cases: Vec<String>,
-    /// Number of its other cases.
+    /// Number of other cases.
     more: usize,
 }
 
 /// Maximum number of cases that a requirement links to.
 const LINKED_MAX: usize = 8;
 
-/// The cases of a requirement, the gravest first, and the number of those left out.
+/// The cases of a requirement, the gravest first, and the number of omitted ones.
 fn linked(report: &Report, who: CaseSubject, id: &str) -> (Vec<String>, usize) {
     let verdict = |case: &CaseReport| {
         let mut mine = case.requirements.iter().filter(|one| one.requirement == id);
@@ -61,14 +61,14 @@ fn linked(report: &Report, who: CaseSubject, id: &str) -> (Vec<String>, usize) {
 struct GroupView {
     title: String,
     counts: Vec<Chip>,
-    /// Whether it is collapsed at first.
+    /// Whether the group is initially collapsed.
     folded: bool,
-    /// The gravity of its gravest verdict that is not waived.
+    /// The gravity of the gravest verdict that is not waived.
     #[serde(skip)]
     gravity: u8,
-    /// The cases that did not pass, or all of a group of which all passed.
+    /// The cases that did not pass; all cases if all passed.
     cases: Vec<CaseView>,
-    /// The others.
+    /// The other cases.
     rest: Vec<CaseView>,
 }
 
@@ -111,7 +111,7 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
                         RequirementView {
                             id: one.requirement.clone(),
                             title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
-                                || "The protocol with the suite".to_owned(),
+                                || "Protocol with the suite".to_owned(),
                                 |requirement| requirement.title.clone(),
                             ),
                             verdict: one.verdict,
@@ -132,7 +132,7 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
         groups: {
             let groups = groups.into_iter().map(|((_, title), cases)| group(title, cases));
             let mut groups: Vec<GroupView> = groups.collect();
-            // The gravest first; the sort keeps the order of the others.
+            // The sort keeps the order of groups with equal gravity.
             groups.sort_by_key(|group| (group.folded, std::cmp::Reverse(group.gravity)));
             groups
         },
@@ -140,7 +140,7 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
 }
 
 fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
-    // The gravest first, of vectors the simplest.
+    // The gravest cases first, and then the simplest vectors.
     cases.sort_by_cached_key(|case| {
         let evidence = case.failures.first().and_then(|failure| failure.evidence.as_ref());
         let parts = evidence.map(|one| [&one.sent, &one.received]).into_iter().flatten();

@@ -10,10 +10,10 @@ use crate::faults::Seed;
 use crate::judge::order;
 use crate::selftest::parallel::{Tell, parallel};
 
-/// Which defects are measured again.
+/// The defects that are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Every changed defect, and [`SAMPLE`] others picked by this seed.
+    /// Every changed defect, and [`SAMPLE`] others selected by this seed.
     Sample(u32),
     /// Every changed defect.
     Changed,
@@ -46,7 +46,7 @@ impl CheckedTable {
     ) -> Self {
         let mut differences = Vec::new();
         let published = DetectionTable::published().unwrap_or_else(|| {
-            differences.push("the table cannot be read".to_owned());
+            differences.push("cannot parse the table".to_owned());
             DetectionTable { inputs: String::new(), rows: Vec::new() }
         });
         if published.inputs != inputs() {
@@ -101,7 +101,7 @@ impl CheckedTable {
     }
 }
 
-/// The defects that changed since the table was written, and a number of the others by a seed.
+/// The defects that changed since the table was written, and a sample of the others.
 fn sample(
     mut seeds: Vec<&'static Seed>,
     (seed, count): (u32, usize),
@@ -127,7 +127,7 @@ fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
     let Some(before) = before else { return vec![format!("{id}: not in the table")] };
     let mut differences = Vec::new();
     if before.hash != now.hash {
-        differences.push(format!("{id}: the defect does something else than when it was measured"));
+        differences.push(format!("{id}: the defect has changed since it was measured"));
     }
     for (mode, detection) in &now.modes {
         let shown = |detection: Option<&Detection>| {

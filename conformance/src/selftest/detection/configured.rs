@@ -1,4 +1,5 @@
-//! Right CNCs that are configured otherwise than the simulated one, and answer as a defect does.
+//! Correct CNCs with another configuration than the simulated CNC, whose replies equal those of a
+//! defect.
 
 use std::sync::Arc;
 
@@ -9,15 +10,15 @@ use crate::edition::Edition;
 use crate::faults::{self, Faulty};
 use crate::session::ToolError;
 
-/// The lines that contain a text, and what they become.
+/// A text, and the replacement of each line that contains it.
 type Change = (&'static str, fn(&str) -> String);
 
-/// A right CNC that is configured otherwise, optionally a valid variant.
+/// A correct CNC with another configuration, optionally a valid variant.
 pub(super) struct Witness {
-    /// The IDs of the defects whose answers it gives.
+    /// The IDs of the defects whose replies the witness gives.
     defects: &'static [&'static str],
     pub(super) what: &'static str,
-    /// Of the default model.
+    /// The changes of the default model.
     changes: &'static [Change],
     edition: Option<Edition>,
     variant: Option<&'static str>,
@@ -146,7 +147,8 @@ fn read_only(line: &str) -> String {
     line.replace(WRITABLE, "")
 }
 
-/// What is an axis number and read-only stays so: a number of its own, which may be written.
+/// Makes a value writable. A read-only axis number becomes an ordinary number, because the number of
+/// an axis stays read-only.
 fn writable(line: &str) -> String {
     let own = if line.contains(WRITABLE) { line } else { &line.replace(AXIS_NUMBER, NUMBERS) };
     read_only(own).replace(", type = ", &format!("{WRITABLE}, type = "))
@@ -156,7 +158,7 @@ fn toggled(line: &str) -> String {
     if line.contains(WRITABLE) { read_only(line) } else { writable(line) }
 }
 
-/// The bytes of its UTF-8, as characters of CP1252.
+/// The bytes of the UTF-8 text as characters of CP1252.
 fn utf8(line: &str) -> String {
     line.replace('ä', "Ã¤").replace('°', "Â°")
 }
@@ -176,7 +178,7 @@ impl Witness {
         model.lines().map(|line| changed(line) + "\n").collect()
     }
 
-    /// The CNC in place of a device; `None` if a profile of the device is not true of it.
+    /// The CNC to use instead of a device; `None` if the profile of the device does not apply to it.
     pub(super) fn cnc(
         &self,
         device: &Device,
@@ -187,7 +189,7 @@ impl Witness {
     }
 }
 
-/// The witnesses that a defect does not need: in no mode does it give the defect's answers.
+/// The unnecessary witnesses: those whose replies equal the defect's in no mode.
 pub(super) fn stale(rows: &[DetectionRow]) -> Vec<String> {
     let is_needed = |defect: &str, what: &str| {
         let results = rows.iter().filter(|row| row.id == defect).flat_map(|row| row.modes.values());
@@ -196,7 +198,7 @@ pub(super) fn stale(rows: &[DetectionRow]) -> Vec<String> {
     };
     let all = WITNESSES.iter().flat_map(|one| one.defects.iter().map(|defect| (*defect, one.what)));
     let stale = all.filter(|(defect, what)| !is_needed(defect, what));
-    stale.map(|(defect, what)| format!("{defect}: it needs no witness: {what}")).collect()
+    stale.map(|(defect, what)| format!("{defect}: unnecessary witness: {what}")).collect()
 }
 
 #[cfg(test)]
@@ -204,9 +206,9 @@ mod tests {
     use super::*;
     use crate::simulator::DEFAULT_MODEL;
 
-    /// Each witness is of defects that exist, and is configured otherwise by each of its changes.
+    /// The defects of each witness exist, and each change has an effect.
     #[test]
-    fn every_witness_is_another_cnc() {
+    fn every_change_of_a_witness_applies() {
         for witness in WITNESSES {
             let known = |id: &&str| faults::by_id(id).is_some();
             assert!(witness.defects.iter().all(known), "{:?}", witness.defects);
@@ -221,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_witness_that_no_defect_needs_is_stale() {
+    fn an_unnecessary_witness_is_stale() {
         let all: usize = WITNESSES.iter().map(|witness| witness.defects.len()).sum();
         assert_eq!(stale(&[]).len(), all);
     }

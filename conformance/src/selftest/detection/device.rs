@@ -1,4 +1,4 @@
-//! The CNCs that the suite is run against.
+//! The CNCs against which the suite is run.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -17,10 +17,10 @@ use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite::{self, ClaimsBy};
 
-/// The places for axes of a channel that the suite tries.
+/// Number of axis indices of a channel that the suite tries.
 const AXES_MAX: u32 = 64;
 
-/// A CNC without a defect to run the suite against.
+/// A CNC without a defect, against which the suite is run.
 pub(super) struct Device {
     /// The TOML of its model.
     pub(super) model: &'static str,
@@ -28,9 +28,9 @@ pub(super) struct Device {
     profile: Profile,
     /// Every writable value, except axis numbers.
     allowed: Allowed,
-    /// The answers of the CNC without a defect, by the requests its gate allows.
+    /// The digests of the replies without a defect, by the requests that the gate allows.
     right: [OnceLock<Vec<u64>>; 3],
-    /// The same without what may be configured.
+    /// The same, without values that may be configured.
     right_if_configured: [OnceLock<Vec<u64>>; 3],
 }
 
@@ -59,7 +59,7 @@ impl Device {
         };
         if device.get().is_none() {
             let settings = Settings { edition: Some(edition), version: None };
-            // Another thread may have set an equal one.
+            // Another thread may already have set an equal device.
             let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
         }
         device.get().ok_or_else(|| ToolError::Internal("no device".to_owned()))
@@ -75,8 +75,8 @@ impl Device {
         Ok(Arc::new(Faulty::new(self.correct_cnc()?, seed)))
     }
 
-    /// A CNC with another model and edition, optionally a valid variant; `None` if the profile of this
-    /// device, which the mode has, is not true of it.
+    /// A CNC with another model and edition, optionally a valid variant; `None` if the mode uses the
+    /// profile of this device and that does not apply to the CNC.
     pub(super) fn cnc_with_model(
         &self,
         model: &str,
@@ -86,7 +86,7 @@ impl Device {
     ) -> Result<Option<Arc<Faulty>>, ToolError> {
         let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
         let model = built(model, settings)?;
-        // Whatever is written, nothing is claimed of these contents.
+        // The profile claims nothing about these contents, so it still applies after writes.
         let unwritten = self.profile.unwritten.clone();
         let profile = Profile { unwritten, ..model.profile() };
         if mode.has_profile() && format!("{profile:?}") != format!("{:?}", self.profile) {
@@ -95,7 +95,7 @@ impl Device {
         Ok(Some(Arc::new(Faulty::new(Cnc::new(model).with_stopped_clock(), variant))))
     }
 
-    /// The digests of the answers without a defect to every request that a mode may send.
+    /// The digests of the replies without a defect to every request that a mode may send.
     pub(super) fn correct_answers(
         &self,
         mode: Mode,
@@ -117,8 +117,8 @@ impl Device {
         Ok(right.get().map_or(&[], Vec::as_slice))
     }
 
-    /// The places for axes that the suite does not write to: those without an axis, or all of other
-    /// channels than the first if it does not know.
+    /// The axis indices that the suite does not write to: those without an axis or, if unknown, all in
+    /// channels other than the first.
     fn unwritten_places(&self, mode: Mode) -> Vec<(u32, u32)> {
         if mode.has_profile() {
             return self.profile.empty_places.to_vec();
@@ -149,7 +149,7 @@ impl Device {
         let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
         let mut session = Session::in_process(cnc, mode.gate(&self.allowed))?;
         if session.check_reachable(&profile).is_err() {
-            // For a device without any answer `run` makes no report.
+            // `run` writes no report for a device that does not reply at all.
             return Ok(Vec::new());
         }
         let (client, _) = session.into_parts();
@@ -169,8 +169,8 @@ fn built(model: &str, settings: Settings) -> Result<Model, ToolError> {
     model.map_err(|error| ToolError::Internal(format!("the model: {error}")))
 }
 
-/// The complete file of `--allow-write`: each value that the CNC describes as writable, and the
-/// writable values it does not list.
+/// A file of `--allow-write` with every value that the CNC describes as writable, and every writable
+/// value that it does not list.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = Session::in_process(cnc, Gate::queries())?;
@@ -197,7 +197,7 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError
     Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
 }
 
-/// The answers of a CNC to every request that a mode may send to the device.
+/// The digests of a CNC's replies to every request that a mode may send to the device.
 pub(super) fn answers(
     device: &Device,
     cnc: Arc<Faulty>,
@@ -211,7 +211,7 @@ pub(super) fn answers(
     Ok(ask_everything(client, Arc::clone(cnc.cnc()), right, compare, &places))
 }
 
-/// The device with this model, which is that of a valid variant.
+/// The device with the model of a valid variant.
 fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
     static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
     let devices = DEVICES.get_or_init(Mutex::default);
@@ -219,14 +219,14 @@ fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
     if let Some(device) = devices.get(model) {
         return Ok(device);
     }
-    // Three of them, for the lifetime of the process.
+    // Only three devices are leaked.
     let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
     devices.insert(model, device);
     Ok(device)
 }
 
-/// The CNCs to try a defect on: with the edition in which it is detectable, or with both; for a
-/// variant with a model of its own, that model.
+/// The CNCs on which a defect is tried: with the edition in which it is detectable, or with both; or
+/// with the variant's own model.
 pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, ToolError> {
     if let Some(model) = seed.own_model() {
         return of_model(model).map(|device| vec![device]);

@@ -1,11 +1,11 @@
-//! How the suite is run against a device, and what it detects.
+//! The modes in which the suite is run against a device, and the result of a defect in a mode.
 
 use std::collections::BTreeSet;
 
 use crate::gate::{Allowed, Gate};
 use crate::text::named;
 
-/// How the suite is run against a device.
+/// A mode in which the suite is run against a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mode {
     /// Queries only, without a profile.
@@ -55,8 +55,8 @@ pub enum DetectionResult {
     Elsewhere,
     /// No requirement fails; this request would detect the defect.
     Missed(String),
-    /// No requirement fails, and no request of the mode distinguishes the CNC from a right one:
-    /// from the CNC without the defect, or from this witness.
+    /// No requirement fails, and no request of the mode distinguishes the CNC from a correct CNC: the
+    /// CNC without the defect, or this witness.
     Undetectable(String),
     /// A valid variant, and no requirement fails.
     Quiet,

@@ -2,9 +2,9 @@
 //! run the suite against a device.
 //!
 //! A CNC in this process is tested through the gate, as `ads-cnc run --target` tests a device: with
-//! the same cases, defaults and limits, and without access to the simulator's state. Its clock
-//! advances only while the client waits for a missing reply, so that a run takes little time and is
-//! repeatable. No device holds the values of the manuals' examples, so no profile claims them.
+//! the same cases, defaults and limits, and without access to the state of the simulator. Its clock
+//! advances only while the client waits for a missing reply, so that a run is short and repeatable.
+//! A real device does not have the values of the manuals' examples, so no profile claims them.
 
 mod check;
 mod configured;
@@ -40,8 +40,8 @@ pub fn measure(seed: &Seed) -> Result<DetectionRow, ToolError> {
     Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
 }
 
-/// A hash of the defect's row, and of the answers up to the first that differs from the CNC without
-/// it.
+/// A hash of the defect's row, and of the replies up to the first that differs from the CNC without
+/// the defect.
 ///
 /// # Errors
 /// An error of the simulated CNC.
@@ -58,7 +58,7 @@ pub fn hash(seed: &Seed) -> Result<String, ToolError> {
     Ok(table::hash(&text))
 }
 
-/// The result of a defect in a mode: on the CNC of each edition, until it is caught.
+/// The result of a defect in a mode: tried on the CNC of each edition until it is caught.
 fn detect(seed: &Seed, mode: Mode) -> Result<Detection, ToolError> {
     let devices = devices(seed)?;
     let mut outcomes = Vec::new();
@@ -80,7 +80,7 @@ fn detect(seed: &Seed, mode: Mode) -> Result<Detection, ToolError> {
         _ if !failed.is_empty() => DetectionResult::Elsewhere,
         _ => witness::of(seed, &devices, mode)?,
     };
-    // A requirement below must is caught by a warning.
+    // For a requirement below the level must, a warning counts as caught.
     let counts = |id: &str, verdict: Verdict| match verdict {
         Verdict::Fail | Verdict::Vacuous => true,
         Verdict::Warning | Verdict::Differs => {

@@ -1,4 +1,4 @@
-//! Pairs of defects: that one clause fails does not hide another one that is broken.
+//! Tests with pairs of defects that the failure of one clause does not hide another broken clause.
 
 use serde::Serialize;
 
@@ -15,15 +15,15 @@ use crate::selftest::parallel::{Tell, parallel};
 use crate::selftest::tried::{TrialResult, judge};
 use crate::session::ToolError;
 
-/// Number of pairs that are tried.
+/// Number of tried pairs.
 pub const PAIRS: usize = 200;
 
-/// The seed by which they are chosen: always the same ones, so that the list below is complete.
+/// The seed that selects the pairs; it is constant, so that the following list is complete.
 const SEED: u32 = 24;
 
-/// Fields whose defect hides that of another field in a later function. The clause of a dimension is
-/// shown by elements that are read, the other clauses of a description by itself. The value of a
-/// parameter is compared with that of the variable with its name.
+/// Fields whose defect hides a defect of another field in a later function. Only reading elements
+/// shows a wrong dimension, while a description alone shows the breach of its other clauses. The value
+/// of a parameter is compared with the value of the variable with its name.
 const MASKED: [(&str, &str); 3] = [
     ("variable-handle-read", "variable-description.dimensions"),
     ("variable-handle-read", "dynamic-value.value"),
@@ -35,9 +35,10 @@ const MASKED: [(&str, &str); 3] = [
 pub struct PairFigures {
     /// Both are detected.
     pub both: usize,
-    /// The request or the expectation of one depends on the reply of the other, whose clause alone fails.
+    /// The request or the expectation for one depends on the reply of the other, and only the clause of
+    /// the other fails.
     pub masked: usize,
-    /// One hides the other, though they do not depend on each other.
+    /// One hides the other, although they do not depend on each other.
     pub hidden: Vec<String>,
 }
 
@@ -56,7 +57,7 @@ pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
         match detected {
             Err(error) => figures.hidden.push(format!("{}: {error}", name())),
             Ok((true, true)) => figures.both += 1,
-            // Frames that are wrong in two ways.
+            // Two defects of frames may hide each other.
             Ok((false, false)) if [&one, &other].iter().all(|it| is_of_frames(it)) => {
                 figures.masked += 1;
             }
@@ -74,7 +75,7 @@ pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
     figures
 }
 
-/// Defects that are caught alone, in pairs.
+/// Pairs of defects that are caught alone.
 fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
     let is_caught = |seed: &Seed| {
         let found = table.row(seed).and_then(|row| row.modes.get(&Mode::ReadOnly));
@@ -92,7 +93,7 @@ fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
     pairs.take(PAIRS).map(|(one, other)| (one.clone(), other.clone())).collect()
 }
 
-/// Whether each of the two is detected by a clause that it breaks.
+/// Whether each defect of a pair is detected by a clause that it breaks.
 fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), ToolError> {
     let device = Device::of_edition(Edition::English)?;
     let outcomes = device.outcomes_with(vec![one.clone(), other.clone()], Mode::ReadOnly)?;
@@ -103,14 +104,14 @@ fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), T
     Ok((detected(one), detected(other)))
 }
 
-/// Whether the field is of a frame or of an ADS service, and of no function.
+/// Whether the field belongs to a frame or an ADS service, and not to a function.
 fn is_of_frames(defect: &FieldDefect) -> bool {
     functions(defect.stream).is_empty()
 }
 
-/// Whether a wrong field makes another one undetectable: that of an earlier function, or of the same
-/// function. A wrong frame may leave nothing to detect; and the clause of a service is the cause only if
-/// no function of another service fails.
+/// Whether a wrong field can make another one undetectable, because it belongs to an earlier function
+/// or to the same function. A wrong frame may make everything undetectable; the clause of a service
+/// is the cause only if no function of another service fails.
 fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     let listed = MASKED
         .iter()
@@ -121,8 +122,8 @@ fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     listed || is_of_frames(masking) || is_of_frames(masked) || depends
 }
 
-/// The functions whose request or reply is the stream, or has it as a record; none for a stream of
-/// frames.
+/// The functions whose request or reply is the stream or contains it as a record; none for a stream
+/// of frames.
 fn functions(stream: Stream) -> Vec<Function> {
     let stream = match stream {
         Stream::ObjectDescriptor => Stream::ObjectDescriptors,

@@ -1,10 +1,10 @@
-//! Every request that a mode may send, to distinguish two CNCs: each request is sent, also
-//! malformed, and its answer recorded.
+//! Sends every request that a mode may send, also malformed, and records the replies, to distinguish
+//! two CNCs.
 //!
-//! Requests that the suite sends to no device are left out: malformed writes, and writes to an axis
-//! or a channel that may not exist. The requests are derived from the function table, from the lists
-//! of the CNC, from boundary values and short sequences, but not from the cases of the suite. Two
-//! CNCs with equal answers receive the same requests, so equal digests mean equal answers.
+//! Requests that the suite never sends to a device are omitted: malformed writes, and writes to an
+//! axis or a channel that may not exist. The requests are derived from the function table, from the
+//! lists of the CNC, from boundary values and short sequences, but not from the cases of the suite.
+//! Two CNCs with equal replies receive the same requests, so equal digests mean equal replies.
 
 mod configurable;
 mod queries;
@@ -33,13 +33,13 @@ use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
 
-/// Where a reply with data has its result.
+/// The position of the result in the frame of a reply with data.
 const RESULT: Range<usize> = 38..42;
-/// The lengths in the AMS/TCP header and the AMS header.
+/// The positions of the lengths in the AMS/TCP header and the AMS header.
 const LENGTHS: [Range<usize>; 2] = [2..6, 26..30];
-/// The requested channel numbers and ranks; others are left out.
+/// The requested channel numbers and ranks.
 const CHANNELS: [u32; 14] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 255];
-/// The requested axes, places and spindles.
+/// The requested axes, axis indices and spindles.
 const AXES: [u32; 7] = [1, 2, 3, 4, 5, 6, 255];
 /// Number of requests of a function that are also sent malformed.
 const MALFORMED_EACH: usize = 6;
@@ -61,7 +61,7 @@ struct ContentAddress {
     size: u32,
 }
 
-/// A CNC, and the digest of each of its answers.
+/// A CNC, and the digest of each reply.
 pub(super) struct AnswerRecorder<'t> {
     client: Client,
     cnc: Arc<Cnc>,
@@ -71,21 +71,21 @@ pub(super) struct AnswerRecorder<'t> {
     malformed: BTreeMap<Function, usize>,
     variables: Vec<Variable>,
     contents: Vec<ContentAddress>,
-    /// Channels and places for axes.
+    /// Channel and axis index of each axis that is not written.
     unwritten_places: &'t [(u32, u32)],
-    /// If their values do not count.
+    /// The replies whose values are ignored; `None` to compare all.
     configurable: Option<ConfigurableReplies>,
 }
 
-/// The recorded answers.
+/// The recorded replies.
 pub(super) struct RecordedAnswers {
     pub(super) answers: Vec<u64>,
-    /// The first request whose answer differs from that of the other CNC.
+    /// The first request whose reply differs from that of the other CNC.
     pub(super) difference: Option<String>,
 }
 
-/// Sends all requests that the client's gate allows; if there are answers of another CNC to compare
-/// with, only up to the first difference.
+/// Sends all requests that the client's gate allows; with the replies of another CNC to compare, only
+/// up to the first difference.
 pub(super) fn ask_everything<'t>(
     client: Client,
     cnc: Arc<Cnc>,
@@ -121,7 +121,7 @@ impl AnswerRecorder<'_> {
             self.streams();
             self.services();
         }
-        // Once more: some answers differ only after others, after writes or after some time.
+        // Once more, because some replies differ only after others, after writes or after some time.
         self.queries();
         for _ in 0..12 {
             self.cnc.pass(Duration::from_secs(1));
@@ -145,7 +145,7 @@ impl AnswerRecorder<'_> {
         self.elements();
     }
 
-    /// Sends a request if the gate allows it; returns the data of a success.
+    /// Sends a request if the gate allows it; returns the data of a successful reply.
     fn ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -153,7 +153,7 @@ impl AnswerRecorder<'_> {
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
         *sent += 1;
-        // A malformed write is sent to the simulated CNC only, and not in any of these modes.
+        // Malformed writes are not sent in any of these modes.
         let is_query = request.function().spec().effect == Effect::Query;
         if is_query && *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.send_malformed(&call, data.as_ref().map_or(0, Vec::len));
@@ -161,7 +161,7 @@ impl AnswerRecorder<'_> {
         data
     }
 
-    /// Sends variants of a request, each with one fault.
+    /// Sends variants of a request, each with one error.
     fn send_malformed(&mut self, call: &Call<'_>, answered: usize) {
         let longer = [call.data, &[0]].concat();
         let shorter = |count: usize| call.data.get(..call.data.len().checked_sub(count)?);
@@ -238,7 +238,7 @@ impl AnswerRecorder<'_> {
         self.answers.push(answer);
     }
 
-    /// The channels that answer, by number and by rank.
+    /// The channels that reply, by number and by rank.
     fn channels(&mut self) -> Vec<Channel> {
         let numbers = CHANNELS.iter().filter_map(|&number| Channel::new(number).ok());
         let ranks = CHANNELS.iter().filter_map(|&rank| Channel::by_index(rank).ok());
@@ -253,9 +253,9 @@ impl AnswerRecorder<'_> {
     }
 }
 
-/// A received frame in which each error, and each TRUE of a write flag or descriptor, is 1: no error
-/// number is documented, and every number but 0 is TRUE. Whether a packet is taken or rejected for now
-/// depends on how fast the CNC reads, so both are an error.
+/// A received frame in which each error number, and each TRUE of a write flag or descriptor, is
+/// replaced by 1: no error number is documented, and every number except 0 is TRUE. Whether a stream
+/// packet is accepted or rejected as busy depends on the speed of the CNC, so both become an error.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
     const DATA: usize = RESULT.end + 4;
@@ -284,7 +284,7 @@ fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     received
 }
 
-/// 1 in place of every number but 0.
+/// Replaces every number except 0 by 1.
 fn is_set(number: &mut [u8]) {
     if number.iter().any(|byte| *byte != 0) {
         number.fill(0);

@@ -1,8 +1,8 @@
 //! The committed table: the detection of each seeded defect, in each mode.
 //!
-//! One line for each defect and result, fields separated by tabs: defect, hash of the defect,
-//! modes, result, the request or witness, requirements that fail, cases that fail. A valid variant
-//! of the CNC is `quiet` if no requirement fails.
+//! The table has one line for each defect and result, with fields separated by tabs: defect, hash of
+//! the defect, modes, result, the request or witness, requirements that fail, cases that fail. A
+//! valid variant of the CNC is `quiet` if no requirement fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
@@ -23,7 +23,7 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionRow {
     pub id: String,
-    /// A hash of the defect's row, and of the CNC's answers with it.
+    /// A hash of the defect's row, and of the CNC's replies with the defect.
     pub hash: String,
     /// The result by mode.
     pub modes: BTreeMap<Mode, Detection>,
@@ -34,7 +34,7 @@ pub struct DetectionRow {
 pub struct DetectionTable {
     /// A hash of the cases, the levels of the requirements and the default model.
     pub inputs: String,
-    /// In the order of the defects.
+    /// The rows in the order of the defects.
     pub rows: Vec<DetectionRow>,
 }
 
@@ -70,7 +70,7 @@ pub fn inputs() -> String {
     hash(&text)
 }
 
-/// The hash of a text in 16 digits.
+/// The hash of a text as 16 hex digits.
 pub(super) fn hash(text: &str) -> String {
     format!("{:016x}", digest(text.as_bytes()))
 }

@@ -1,8 +1,9 @@
-//! Shows that a defect is undetectable in a mode: a right CNC, the witness, gives the same answers
+//! Shows that a defect is undetectable in a mode: a correct CNC, the witness, gives the same replies
 //! to every request that the mode may send.
 //!
-//! The witness is the CNC without the defect, or one that is [configured](super::configured)
-//! otherwise. In a mode with a profile, that profile is also true of the witness.
+//! The witness is the CNC without the defect, or a CNC with [another
+//! configuration](super::configured). In a mode with a profile, the profile also applies to the
+//! witness.
 
 use super::configured;
 use super::device::{Device, answers};
@@ -11,8 +12,8 @@ use super::requests::Compare;
 use crate::faults::{FieldChange, FieldDefect, Seed};
 use crate::session::ToolError;
 
-/// Fields with arbitrary values: a one-to-one change of them gives a right CNC too. Stream, field,
-/// changes, and why.
+/// Fields with arbitrary values: a one-to-one change of their values results in a correct CNC, too.
+/// Stream, field, changes and reason.
 const FREE: &[(&str, &str, &[FieldChange], &str)] = &[
     ("device-info-reply", "major", ONE_TO_ONE, "a CNC may have any version"),
     ("device-info-reply", "minor", ANY, "a CNC may have any version"),
@@ -35,8 +36,7 @@ const ONE_TO_ONE: &[FieldChange] =
 const ANY: &[FieldChange] =
     &[FieldChange::FlipLow, FieldChange::Invert, FieldChange::SwapBytes, FieldChange::Zero];
 
-/// Defects by which a CNC differs only where nothing is documented, or where a part of the requirement
-/// is assumed; and why.
+/// Defects with only undocumented or assumed effects, each with the reason.
 const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.var.axis-handle-own", "how handles of the axis interface are used is assumed (VAR-10)"),
     ("cnc.var.handle-changes", "a name may have several handles (VAR-10)"),
@@ -58,7 +58,7 @@ const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.sda.feedhold-2", "that TRUE is 1 is assumed (GEN-5)"),
 ];
 
-/// Why a CNC with this defect is a right one.
+/// The reason why a CNC with this defect is correct.
 pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
     let undocumented = UNDOCUMENTED.iter().find(|(start, _)| seed.id.starts_with(start));
     if let Some((_, why)) = undocumented {
@@ -97,7 +97,7 @@ pub(super) fn of(
     Ok(DetectionResult::Undetectable(why))
 }
 
-/// The witness of which [`Compare::Configured`] is the proof.
+/// The witness that [`Compare::Configured`] proves.
 const CONFIGURED: &str =
     "elements may have any texts, objects any content, and V.E any extended description";
 
@@ -112,7 +112,7 @@ fn difference(
     Ok(answers(device, device.cnc(Some(seed))?, mode, Some(right), compare)?.difference)
 }
 
-/// A CNC configured otherwise that gives the same answers as the defect.
+/// A CNC with another configuration that gives the same replies as the defect.
 fn configured_witness(
     seed: &Seed,
     device: &Device,

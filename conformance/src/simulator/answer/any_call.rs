@@ -1,4 +1,4 @@
-//! Every call is answered: with data that the function's stream decodes, or an error number.
+//! Tests that any call is answered with data that the function's stream decodes, or an error number.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -107,7 +107,7 @@ fn any_call_is_answered() {
         assert!(u32::try_from(reply.len()).unwrap() <= call.read_length);
         assert!(request.decode_reply(&reply).is_ok(), "{call:?}: {reply:?}");
     }
-    // With fewer answers the test would prove little.
+    // With fewer successful replies, the test would prove little.
     assert!(answered > 5_000, "{answered}");
     assert!(functions.len() > 25, "{functions:?}");
 }

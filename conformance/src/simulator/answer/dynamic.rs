@@ -1,4 +1,4 @@
-//! Dynamic parameters (DYN).
+//! Answers requests for dynamic parameters (DYN).
 
 use ads_cnc::TextRef;
 use ads_cnc::ads::AdsError;

@@ -1,4 +1,4 @@
-//! Elements of the classes of SDA and GEO (SDA).
+//! Answers requests for elements of the classes of SDA and GEO (SDA).
 
 use ads_cnc::address::{
     Addressing, Attribute, AxisStride, Class, ClassGroup, ElementAddress, IndexOffset,
@@ -14,7 +14,7 @@ use crate::simulator::model::Item;
 use crate::simulator::owner::Owner;
 use crate::simulator::{to_len, to_u32};
 
-/// The type of the first element of an instance, which is the number of the others.
+/// The type of the first element of an instance, which contains the number of the other elements.
 const COUNT_TYPE: &str = "UNS32";
 const COUNT_LENGTH: u32 = 4;
 const COUNT_UNIT: &str = "-";
@@ -35,7 +35,7 @@ impl AnsweringCnc<'_> {
         self.locate(address).is_ok().then_some(address)
     }
 
-    /// The content; of the first element, the number of the others.
+    /// The content; for the first element, the number of the other elements.
     pub(super) fn read_element(&self, address: ElementAddress) -> ReplyData {
         match self.locate(address)? {
             (owner, None) => encode(ElementCount(to_u32(content::items(self.model, owner).len()))),
@@ -53,7 +53,7 @@ impl AnsweringCnc<'_> {
         Ok(Vec::new())
     }
 
-    /// The name; of the first element, that of the instance.
+    /// The name; for the first element, that of the instance.
     pub(super) fn element_name(&self, address: ElementAddress) -> ReplyData {
         match self.element(address)? {
             (_, Some(item)) => encode_text(item.name.as_cnc_str()),
@@ -92,8 +92,8 @@ impl AnsweringCnc<'_> {
 
     /// Owner and index of the element at an address; `None` for the first.
     ///
-    /// The instances of a class are those of SDA-5. That the position controller itself has no
-    /// elements, and that a platform axis is in every HLD, is assumed (E-30).
+    /// The instances of a class are those of SDA-5. It is assumed that the position controller itself
+    /// has no elements, and that every HLD contains the platform axes (E-30).
     fn locate(&self, address: ElementAddress) -> Result<(Owner, Option<usize>), AdsError> {
         let ClassGroup { addressing, class, instance, .. } = address.class_group();
         let split = address.index_offset().axis_and_element(stride(class, instance));
@@ -160,7 +160,7 @@ impl AnsweringCnc<'_> {
     }
 }
 
-/// As printed: 0x1000 for the platform axes of the HLD, otherwise 0x10000 (ADR-7, E-01).
+/// The printed stride: 0x1000 for the platform axes of the HLD, otherwise 0x10000 (ADR-7, E-01).
 const fn stride(class: Class, instance: u8) -> AxisStride {
     match (class, instance) {
         (Class::Hld, 0) => AxisStride::X1000,
@@ -169,7 +169,7 @@ const fn stride(class: Class, instance: u8) -> AxisStride {
 }
 
 fn text(text: &str) -> ReplyData {
-    // The model has checked that names are CP1252.
+    // The model was checked: names are CP1252.
     encode_text(CncStr::new(text).map_err(|_| AdsError::INVALID_DATA)?)
 }
 

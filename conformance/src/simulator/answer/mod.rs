@@ -28,33 +28,33 @@ pub struct Cnc {
 }
 
 impl Cnc {
-    /// A CNC with this data model, in its initial state.
+    /// Creates a CNC with this data model, in its initial state.
     pub fn new(model: Model) -> Self {
         let policy = Policy::DEFAULT;
         let state = Mutex::new(CncState::new(&model, policy));
         Self { model, state, clock: Clock::running(), policy }
     }
 
-    /// Replaces the data model; the state is the initial one.
+    /// Replaces the data model and resets the state.
     pub(crate) fn with_model(self, model: Model) -> Self {
         Self { clock: self.clock, ..Self::new(model) }
     }
 
-    /// Replaces the policy of its NC programs; the state is the initial one.
+    /// Replaces the policy of the NC programs and resets the state.
     pub(crate) fn with_policy(mut self, policy: Policy) -> Self {
         self.state = Mutex::new(CncState::new(&self.model, policy));
         Self { policy, ..self }
     }
 
-    /// The CNC of the manuals' examples: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
+    /// Creates the CNC of the manuals' examples, see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
     ///
     /// # Errors
-    /// None: a test builds it.
+    /// Never: a test builds the default model.
     pub fn with_default_model() -> Result<Self, ModelError> {
         Model::default_model().map(Self::new)
     }
 
-    /// Stops the clock: only [`pass`](Self::pass) advances it, so that tests control the time.
+    /// Stops the clock. Then only [`pass`](Self::pass) advances it, so that tests control the time.
     ///
     /// ```
     /// use std::time::Duration;
@@ -89,7 +89,7 @@ impl Cnc {
         self
     }
 
-    /// Advances the clock: parameters are created and deleted, programs continue.
+    /// Advances the clock by `time`: parameters are created and deleted, and programs continue.
     pub fn pass(&self, time: Duration) {
         self.clock.pass(time);
     }
@@ -103,37 +103,35 @@ impl Cnc {
         self.state_and_time().0
     }
 
-    /// The state, and its time: the clock is read once for each request.
+    /// The state and its time, because the clock is read only once for each request.
     fn state_and_time(&self) -> (MutexGuard<'_, CncState>, Duration) {
-        // No panic is reachable under the lock, and it would leave each value valid.
+        // No panic can occur under the lock, and each value would be valid after one.
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let now = self.now();
         state.advance(now);
         (state, now)
     }
 
-    /// Time since the CNC was started.
+    /// Time since the start of the CNC.
     pub(super) fn now(&self) -> Duration {
         self.clock.now()
     }
 
-    /// Answers a request with data.
-    ///
-    /// Which error number a CNC gives is not documented (ADS-7), so these are assumed:
-    ///
-    /// | number | for |
-    /// |---|---|
-    /// | 0x6 | a port that no task has |
-    /// | 0x701 | a service that the function does not take |
-    /// | 0x702 | an index group without functions, a channel, axis or spindle that is not there |
-    /// | 0x703 | an index offset without function, an object or element that is not there; 0x4C on a CNC too old for it |
-    /// | 0x704 | a write of what is read-only |
-    /// | 0x705 | a request, a value or a read length of the wrong size |
-    /// | 0x706 | an index out of bounds or too many, a handle of no variable of the channel, a handle of a kind that is by name only, a write where no axis is, an axis exchange that cannot be, NC text for which there is no room now |
-    /// | 0x710 | a name or kind that is not there |
+    /// Answers a request; returns the data of the reply.
     ///
     /// # Errors
-    /// One of these numbers.
+    /// The error numbers of a CNC are not documented (ADS-7), so these are assumed:
+    ///
+    /// | number | reason |
+    /// |---|---|
+    /// | 0x6 | no task has this port |
+    /// | 0x701 | the function has another service |
+    /// | 0x702 | index group without functions; no such channel, axis or spindle |
+    /// | 0x703 | index offset without a function; no such object or element; 0x4C on a CNC that is too old |
+    /// | 0x704 | write to a read-only value |
+    /// | 0x705 | wrong size of a request, a value or the read length |
+    /// | 0x706 | index out of bounds, or too many indices; handle of no variable of the channel, or of a kind that is accessible by name only; write to a place without an axis; impossible axis exchange; no room for NC text now |
+    /// | 0x710 | no such name or kind |
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
         let request = dispatch(call)?;
         let reply = self.reply(&request)?;
@@ -143,12 +141,12 @@ impl Cnc {
         Ok(reply)
     }
 
-    /// Appends the frame to answer with; see [`Responder::respond`].
+    /// Appends the frame of the reply; see [`Responder::respond`].
     pub fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         Responder::respond(self, net_id, frame, answers);
     }
 
-    /// The policy of its NC programs.
+    /// The policy of the NC programs.
     pub(super) const fn policy(&self) -> Policy {
         self.policy
     }
@@ -187,7 +185,7 @@ impl Cnc {
             Request::DynamicValueByName(op) => running.dynamic_by_name(op),
             Request::DynamicValueByIndex(op) => running.dynamic_by_index(op),
             Request::WriteProgramStream(op) => running.write_program_stream(op),
-            // `Request` is non-exhaustive; the assertion below fails for a new function.
+            // `Request` is non-exhaustive; the following assertion fails for a new function.
             _ => Err(AdsError::INVALID_OFFSET),
         }
     }
@@ -235,7 +233,7 @@ fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
 }
 
 fn encode<'a>(reply: impl Into<Reply<'a>>) -> ReplyData {
-    // The model was checked, so this does not fail.
+    // This does not fail, because the model was checked.
     reply.into().encode_to_vec().map_err(|_| AdsError::INVALID_DATA)
 }
 

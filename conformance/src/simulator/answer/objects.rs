@@ -1,4 +1,4 @@
-//! COM objects: their descriptors and contents (COM).
+//! Answers requests for COM objects: descriptors and contents (COM).
 
 use ads_cnc::address::{AxisStride, ComGroup, ComTable, IndexOffset};
 use ads_cnc::ads::AdsError;
@@ -34,7 +34,8 @@ impl AnsweringCnc<'_> {
         Ok(Vec::new())
     }
 
-    /// The objects of a list; the first channel's list includes the platform's (COM-4).
+    /// The objects of a list; the list of the first channel includes the objects of the platform
+    /// (COM-4).
     fn objects(&self, list: ObjectList) -> Result<DescriptorsRef<'_>, AdsError> {
         let parts = list.parts();
         let list = match (parts.table, parts.instance) {
@@ -55,7 +56,7 @@ impl AnsweringCnc<'_> {
 
     /// Owner and index of the object at an address.
     ///
-    /// For a platform axis both forms are accepted, the axis in the group or in the offset (E-04).
+    /// For a platform axis, both forms are accepted: the axis in the group or in the offset (E-04).
     fn object(&self, (com, offset): (ComGroup, IndexOffset)) -> Result<(Owner, usize), AdsError> {
         let split = offset.axis_and_element(AxisStride::X10000);
         let (axis, element) = split.map_err(|_| AdsError::INVALID_OFFSET)?;

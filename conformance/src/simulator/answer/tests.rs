@@ -51,7 +51,7 @@ fn printed_examples() {
     let array = le(&[123, 234, 345, 456, 567]);
     assert_eq!(ask(0x47, b"\x34\x12\x00\x02\0\0\0\0"), Ok(array.clone()));
     assert_eq!(ask(0x48, b"V.E.Testvar\0"), Ok(array));
-    // Not the printed 333: the array above decides (E-27).
+    // The value follows from the array above, not from the printed 333 (E-27).
     assert_eq!(ask(0x48, b"V.E.Testvar[3]\0"), Ok(le(&[456])));
     assert_eq!(ask(0x4B, b"\x03\0\0\0V.E\0"), Ok(vec![2, 0, 0, 0, 2, 0, 0, 0]));
     for kind in [b"\0\0\0\0V.G\0", b"\0\0\0\0V.A\0"] {
@@ -62,7 +62,7 @@ fn printed_examples() {
     // An axis that does not exist, and a name with an axis.
     assert_eq!(ask(0x4_0005, b"V.A.WCS\0"), Err(AdsError::SYMBOL_NOT_FOUND));
     assert_eq!(ask(0x2_0005, b"V.A.WCS.Y\0"), Err(AdsError::SYMBOL_NOT_FOUND));
-    // The channel interface has it with the axis's name.
+    // On the channel interface, the name contains the axis name.
     assert_eq!(ask(0x46, b"V.A.WCS.Y\0"), Ok(vec![0x1B, 0, 2, 1]));
     assert_eq!(ask(0x48, b"V.A.WCS.Y\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
 
@@ -74,7 +74,7 @@ fn printed_examples() {
 }
 
 #[test]
-fn all_names_of_the_manual_are_there() {
+fn all_names_of_the_manual_exist() {
     for name in [
         "V.E.array_sgn32",
         "V.E.struct.array_uns32",
@@ -95,7 +95,7 @@ fn all_names_of_the_manual_are_there() {
 }
 
 #[test]
-fn every_variable_answers_as_it_describes_itself() {
+fn every_variable_matches_its_description() {
     let cnc = cnc();
     let mut types = std::collections::BTreeSet::new();
     for (group, counts) in
@@ -123,7 +123,7 @@ fn every_variable_answers_as_it_describes_itself() {
 }
 
 #[test]
-fn elements_of_more_dimensions() {
+fn elements_with_several_dimensions() {
     assert_eq!(ask(0x48, b"V.E.matrix[1][0]\0"), Ok(vec![21, 0]));
     assert_eq!(ask(0x48, b"V.E.cube[1][2][3]\0"), Ok(vec![23]));
     let handle = ask(0x46, b"V.E.cube\0").unwrap();
@@ -140,7 +140,7 @@ fn elements_of_more_dimensions() {
 }
 
 #[test]
-fn a_rank_is_no_number() {
+fn a_rank_is_not_a_number() {
     let channel = |group| cnc().answer(&call(group, 0x48, 4, b"V.E.channel\0"));
     for (group, number) in [
         (0x12_2301, 1),
@@ -160,7 +160,7 @@ fn a_rank_is_no_number() {
 }
 
 #[test]
-fn what_is_unknown_has_a_number() {
+fn unknown_addresses_are_errors() {
     use AdsError as E;
     let none = b"V.E\0";
     assert_eq!(ask(0x43, none), Err(E::INVALID_OFFSET));
@@ -199,14 +199,14 @@ fn what_is_unknown_has_a_number() {
 }
 
 #[test]
-fn no_kind_is_the_sum_and_only_a_number() {
+fn a_count_without_a_kind_is_the_sum() {
     assert_eq!(ask(0x44, b"\0"), Ok(vec![139, 0, 0, 0]));
     assert_eq!(ask(0x44, b""), Ok(vec![139, 0, 0, 0]));
     assert_eq!(ask(0x45, b"\0\0\0\0\0"), Err(AdsError::SYMBOL_NOT_FOUND));
 }
 
 #[test]
-fn lengths_have_to_fit() {
+fn wrong_lengths_are_errors() {
     use AdsError as E;
     let short = |offset, length, data: &[u8]| {
         assert!(cnc().answer(&call(0x12_2301, offset, length, data)).is_ok());
@@ -235,7 +235,7 @@ fn lengths_have_to_fit() {
 
 /// Every channel has the program stream that its list contains (STM-1).
 #[test]
-fn every_channel_lists_the_object_it_streams_through() {
+fn every_channel_lists_its_streaming_object() {
     for channel in [1, 2, 6] {
         let all = com(0x13_0100 + channel, 1, 84 * 40).unwrap();
         let name = b"mc_program_stream_w\0";
@@ -249,7 +249,7 @@ fn every_channel_lists_the_object_it_streams_through() {
 #[test]
 fn object_lists() {
     let count = |group| com(group, 0, 4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
-    // 19 of its own, 9 of its axes, 2 of the platform.
+    // 19 own objects, 9 of the axes, 2 of the platform.
     assert_eq!(count(0x13_0101), Ok(30));
     assert_eq!(count(0x03_0101), Ok(30));
     assert_eq!(count(0x13_0100), Ok(2));
@@ -264,7 +264,7 @@ fn object_lists() {
 
     let read = |first, length| com(0x13_0101, first, length).map(|bytes| bytes.len() / 84);
     assert_eq!((read(1, 84), read(1, 168), read(1, 30 * 84)), (Ok(1), Ok(2), Ok(30)));
-    // At most the existing ones; one if the length is not a multiple.
+    // The reply contains at most the existing ones, or one if the length is not a multiple.
     assert_eq!((read(29, 4 * 84), read(1, 31 * 84), read(1, 100)), (Ok(2), Ok(30), Ok(1)));
     assert_eq!(read(1, 84 * 10_000_000), Ok(30));
     assert_eq!(read(1, 83), Err(AdsError::INVALID_SIZE));
@@ -286,9 +286,9 @@ fn object_lists() {
     assert_eq!(axis[12..20], [0, 2, 0x12, 0, 1, 0, 1, 0]);
 }
 
-/// Each object can be read at the address and with the length of its descriptor.
+/// Each object can be read with the address and the length from its descriptor.
 #[test]
-fn every_object_is_where_its_descriptor_says() {
+fn every_object_matches_its_descriptor() {
     let cnc = cnc();
     let mut ids = std::collections::BTreeSet::new();
     for group in [0x13_0101, 0x13_0102, 0x13_0106, 0x13_0201, 0x13_0202, 0x13_0203, 0x13_0205] {
@@ -307,8 +307,8 @@ fn every_object_is_where_its_descriptor_says() {
     }
 }
 
-/// Sixteen and more platform axes: their offsets with the stride 0x1000 reach the range of the
-/// other stride.
+/// With sixteen or more platform axes, the offsets with the stride 0x1000 reach the range of the other
+/// stride.
 #[test]
 fn many_platform_axes() {
     let axes: String = (1..=40).map(|n| format!("[[axis]]\nname = \"A{n}\"\n")).collect();
@@ -326,7 +326,7 @@ fn many_platform_axes() {
         let number = Ok(u16::try_from(axis).unwrap().to_le_bytes().to_vec());
         assert_eq!(read(0x12_3300, 0x1000 * axis + 1, 2), number);
         assert_eq!(read(0x12_3301, 0x1_0000 * axis + 1, 2), number);
-        // The first element has the number of elements.
+        // The first element contains the number of elements.
         assert_eq!(read(0x12_3300, 0x1000 * axis, 4), Ok(vec![1, 0, 0, 0]));
     }
 }

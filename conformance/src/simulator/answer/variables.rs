@@ -1,4 +1,4 @@
-//! Variables with flexible data type (VAR).
+//! Answers requests for variables with flexible data type (VAR).
 
 mod resolve;
 
@@ -62,7 +62,7 @@ impl AnsweringCnc<'_> {
         let channel = self.channel(op.channel)?;
         let (named, indices) = self.named(Function::DescribeByName, channel, op.name.text())?;
         let Resolved::Variable(at) = named else {
-            // The description of a parameter; that it has no handle is assumed.
+            // It is assumed that the description of a parameter has no handle.
             return encode(DescriptionByNameRef {
                 handle: Handle(0),
                 var_type: VariableType::REAL64,
@@ -217,7 +217,7 @@ impl AnsweringCnc<'_> {
                 values.and_then(|values| values.get_mut(variable))
             }
         };
-        // A place without an axis cannot be written.
+        // A place without an axis is not writable.
         copy_padded(
             value.and_then(|value| value.get_mut(part)).ok_or(AdsError::INVALID_DATA)?,
             bytes,

@@ -6,8 +6,8 @@ use super::{Meaning, Model};
 use crate::profile::Profile;
 
 impl Model {
-    /// The complete profile of a device with this model, except for the printed examples, which a
-    /// model cannot show.
+    /// The complete profile of a device with this model. It does not claim the printed examples, which
+    /// a model cannot show.
     pub fn profile(&self) -> Profile {
         let active = || self.channels.iter().filter(|channel| channel.active);
         let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);
@@ -22,7 +22,7 @@ impl Model {
         let elements = self.classes.iter();
         let elements =
             elements.flat_map(|class| class.channel.items.iter().chain(&class.axis.items));
-        // A write to these contents exchanges axes; writing the old number does not undo it.
+        // A write to these contents exchanges axes; writing the old number does not undo this.
         let exchange = self.channel_axis.items.iter().chain(elements);
         let exchange = exchange.filter(|item| item.writable && item.meaning == Meaning::AxisNumber);
         let unwritten: BTreeSet<String> = exchange.map(|item| item.name.to_string()).collect();

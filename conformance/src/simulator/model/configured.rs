@@ -1,4 +1,4 @@
-//! The variables of the model, to compare answers with.
+//! The variables of the model, for comparison with replies.
 
 use ads_cnc::{CncString, ExtendedDescription, VariableAccess, VariableType};
 
@@ -14,13 +14,14 @@ pub struct ConfiguredVariable {
     /// Size of the whole value in bytes.
     pub size: usize,
     pub dimensions: Vec<u32>,
-    /// V.E only.
+    /// The extended description; only for V.E.
     pub extended: Option<ExtendedDescription>,
     pub value: Vec<u8>,
 }
 
 impl Model {
-    /// V.E and V.G of the channel with this logical number, in the order of their indices.
+    /// The V.E and V.G variables of the channel with this logical number, in the order of their
+    /// indices.
     pub fn configured(&self, channel: u32) -> (Vec<ConfiguredVariable>, Vec<ConfiguredVariable>) {
         let found =
             self.channels.iter().enumerate().find(|(_, one)| u32::from(one.number) == channel);

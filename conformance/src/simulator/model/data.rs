@@ -14,9 +14,9 @@ use crate::simulator::program::{ProgramConfig, ScriptConfig};
 pub struct Model {
     pub(in crate::simulator) edition: Edition,
     pub(in crate::simulator) version: Option<CncVersion>,
-    /// In the order of their numbers.
+    /// The channels in the order of their numbers.
     pub(in crate::simulator) channels: Vec<ChannelModel>,
-    /// In the configured order, which is that of the platform axes.
+    /// The axes in the configured order, which is that of the platform axes.
     pub(in crate::simulator) axes: Vec<AxisModel>,
     pub(in crate::simulator) spindles: usize,
     pub(in crate::simulator) platform: Objects,
@@ -35,9 +35,9 @@ pub struct Model {
 pub(in crate::simulator) struct ChannelModel {
     /// Logical number, from 1.
     pub(in crate::simulator) number: u8,
-    /// At the start.
+    /// Whether the channel is initially active.
     pub(in crate::simulator) active: bool,
-    /// The axis at each place, initially.
+    /// The initial axis at each place.
     pub(in crate::simulator) places: Vec<Option<usize>>,
     pub(in crate::simulator) objects: Objects,
     pub(in crate::simulator) variables: Variables,
@@ -47,17 +47,17 @@ pub(in crate::simulator) struct ChannelModel {
     pub(in crate::simulator) by_handle: HashMap<u32, VariableRef>,
     pub(in crate::simulator) parameters: Vec<Parameter>,
     pub(in crate::simulator) program: ProgramConfig,
-    /// Its NC program that sends requests to services, if any.
+    /// The NC program that sends requests to services, if any.
     pub(in crate::simulator) script: Option<ScriptConfig>,
-    /// The list of its own objects and those of its axes.
+    /// The list of the channel's own objects and those of its axes.
     pub(in crate::simulator) list: Descriptors,
-    /// The same list followed by the platform's objects (COM-4).
+    /// The same list, followed by the platform's objects (COM-4).
     pub(in crate::simulator) list_of_first: Descriptors,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::simulator) struct AxisModel {
-    /// The axis name in names of V.A on the channel interface.
+    /// The name of the axis in names of V.A on the channel interface.
     pub(in crate::simulator) name: CncString,
     /// Logical axis number, not 0.
     pub(in crate::simulator) number: u32,
@@ -68,7 +68,7 @@ pub(in crate::simulator) struct AxisModel {
 pub struct Settings {
     /// The edition of the manual that the CNC follows.
     pub edition: Option<Edition>,
-    /// The version that it claims to be.
+    /// The version that the CNC reports.
     pub version: Option<CncVersion>,
 }
 

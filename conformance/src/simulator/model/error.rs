@@ -1,4 +1,4 @@
-//! Errors of a data model, with their position.
+//! Errors in a data model, with their positions.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::text::{UTF16, is_utf16};
 /// use ads_cnc_conformance::simulator::Model;
 ///
 /// let error = Model::from_toml("[[channel]]\nnumber = 0\n", "mine.toml").unwrap_err();
-/// assert_eq!(error.to_string(), "mine.toml:2: channel numbers are 1 to 255, not 0");
+/// assert_eq!(error.to_string(), "mine.toml:2: expected a channel number from 1 to 255, found 0");
 /// assert_eq!(error.line(), Some(2));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -22,7 +22,7 @@ pub struct ModelError {
 }
 
 impl ModelError {
-    /// The line, from 1; `None` if the file cannot be read at all.
+    /// The line, from 1; `None` if the file cannot be read.
     pub const fn line(&self) -> Option<usize> {
         self.line
     }
@@ -36,7 +36,7 @@ impl ModelError {
     }
 }
 
-/// The file being parsed: makes errors from positions.
+/// The file that is being parsed; creates errors with positions.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
@@ -49,7 +49,7 @@ impl Source<'_> {
         ModelError { file: self.file.to_owned(), line, reason: reason.to_string() }
     }
 
-    /// The error for a file that is not UTF-8 from this offset on.
+    /// The error for a file that is not UTF-8 at this offset.
     pub(super) fn not_text(bytes: &[u8], at: usize, file: &str) -> ModelError {
         let byte = bytes.get(at).copied().unwrap_or_default();
         let reason = match is_utf16(bytes) {

@@ -1,4 +1,4 @@
-//! Objects and elements: a content with a type.
+//! Objects and elements: contents with types.
 
 use std::collections::HashMap;
 
@@ -25,9 +25,9 @@ impl Item {
 /// The source of a content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum Meaning {
-    /// The value written last.
+    /// The last written value.
     Value,
-    /// The logical number of the axis at the place, 0 without an axis. A write exchanges axes.
+    /// The logical number of the axis at the place; 0 without an axis. A write exchanges axes.
     AxisNumber,
 }
 
@@ -41,14 +41,14 @@ pub(in crate::simulator) struct Initial {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum InitialValues {
-    /// The same for all instances.
+    /// The same value for all instances.
     Same(Vec<u8>),
-    /// One for each instance; zeros for instances beyond.
+    /// One value for each instance; zeros for further instances.
     Each(Vec<Vec<u8>>),
 }
 
 impl Initial {
-    /// The value of an instance, from 0.
+    /// The value of an instance, counted from 0.
     pub(in crate::simulator) fn of(&self, instance: usize) -> Vec<u8> {
         match &self.values {
             InitialValues::Same(value) => value.clone(),
@@ -63,7 +63,7 @@ impl Initial {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Objects {
     pub(in crate::simulator) items: Vec<Item>,
-    /// Low part of each object's offset.
+    /// The low part of each object's offset.
     pub(in crate::simulator) elements: Vec<u32>,
     pub(super) by_element: HashMap<u32, usize>,
 }
@@ -78,9 +78,9 @@ impl Objects {
 /// The elements of each instance of a class.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Elements {
-    /// Name of an instance; `{}` in it is replaced by its number.
+    /// Name of an instance; `{}` is replaced by the number of the instance.
     pub(super) name: String,
-    /// From element 1 on.
+    /// The elements from element 1 on.
     pub(in crate::simulator) items: Vec<Item>,
 }
 

@@ -1,7 +1,7 @@
-//! The configuration of the simulated CNC, which no request changes.
+//! The configuration of the simulated CNC, which requests cannot change.
 //!
-//! It is read from TOML; the comments of the default model describe what it may contain:
-//! `ads-cnc serve --print-model` writes it out.
+//! The configuration is read from TOML. The comments of the default model, which
+//! `ads-cnc serve --print-model` prints, describe the format.
 
 #[allow(clippy::restriction)]
 mod build;
@@ -39,7 +39,7 @@ impl Model {
     /// The default model: [`DEFAULT_MODEL`].
     ///
     /// # Errors
-    /// None: a test reads it.
+    /// Never: a test parses the default model.
     pub fn default_model() -> Result<Self, ModelError> {
         Self::from_toml(DEFAULT_MODEL, "the default model")
     }
@@ -47,13 +47,13 @@ impl Model {
     /// Parses a model from TOML; `file` is its name in errors.
     ///
     /// # Errors
-    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do
-    /// not fit into the streams.
+    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do not
+    /// fit into the streams.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
         Self::with_settings(text, file, Settings::default())
     }
 
-    /// [`from_toml`](Self::from_toml) with settings that override those of the file.
+    /// Like [`from_toml`](Self::from_toml), with settings that override those of the file.
     ///
     /// # Errors
     /// Those of [`from_toml`](Self::from_toml).
@@ -61,10 +61,10 @@ impl Model {
         build::build(Source { file, text }, settings)
     }
 
-    /// [`with_settings`](Self::with_settings) for a file.
+    /// Like [`with_settings`](Self::with_settings), but reads a file.
     ///
     /// # Errors
-    /// Those of [`from_toml`](Self::from_toml), and a file that cannot be read.
+    /// Those of [`from_toml`](Self::from_toml), or if the file cannot be read.
     pub fn load(path: &Path, settings: Settings) -> Result<Self, ModelError> {
         let file = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| ModelError::of_file(&file, error))?;
@@ -74,12 +74,12 @@ impl Model {
         }
     }
 
-    /// The edition of the manual that it follows.
+    /// The edition of the manual that the CNC follows.
     pub const fn edition(&self) -> Edition {
         self.edition
     }
 
-    /// The version that it claims to be; `None` has all features.
+    /// The version that the CNC reports; with `None`, the CNC has all features.
     pub const fn version(&self) -> Option<CncVersion> {
         self.version
     }

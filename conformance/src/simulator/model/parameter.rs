@@ -1,4 +1,4 @@
-//! Dynamic parameters, and when they exist.
+//! Dynamic parameters, and the times at which they exist.
 
 use std::time::Duration;
 
@@ -10,15 +10,15 @@ use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 pub(in crate::simulator) struct Parameter {
     pub(in crate::simulator) kind: DynamicKind,
     pub(in crate::simulator) name: CncString,
-    /// The initial value each time it is created.
+    /// The initial value each time that the parameter is created.
     pub(in crate::simulator) value: DynamicValue,
-    /// It exists only while the content of this object of the channel is not 0.
+    /// The object of the channel whose content must not be 0 for the parameter to exist, if any.
     pub(in crate::simulator) needs: Option<usize>,
-    /// It exists only at these times.
+    /// The times at which the parameter exists.
     pub(in crate::simulator) times: Times,
 }
 
-/// When a parameter exists.
+/// The times at which a parameter exists.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::simulator) struct Times {
     comes: Duration,
@@ -35,13 +35,13 @@ impl Times {
     ) -> Result<Self, &'static str> {
         let end = goes.or(period);
         if goes.is_some_and(|goes| goes <= comes) {
-            return Err("it goes before it comes");
+            return Err("goes must be later than comes");
         }
         if period.is_some_and(|period| period < goes.unwrap_or(comes)) || end == Some(comes) {
-            return Err("it comes and goes within its period");
+            return Err("comes and goes must be within the period");
         }
         if comes.is_zero() && end == period && end.is_some() {
-            return Err("it is there all the period, so it does not come and go");
+            return Err("the parameter exists for the whole period, so it never goes");
         }
         Ok(Self { comes, goes, period })
     }
@@ -51,7 +51,8 @@ impl Times {
         *self == Self::default()
     }
 
-    /// How many times it was created before at a time; `None` if it does not exist then.
+    /// The number of times that the parameter was created before; `None` if it does not exist at this
+    /// time.
     pub(in crate::simulator) fn life(&self, now: Duration) -> Option<u128> {
         let (now, period) = (now.as_nanos(), self.period.map(|period| period.as_nanos()));
         let life = period.and_then(|period| now.checked_div(period)).unwrap_or(0);
@@ -71,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn a_life_begins_and_ends_on_time() {
+    fn a_parameter_exists_from_comes_to_goes() {
         let lives = |times: Times| {
             (0..9).map(|now| times.life(Duration::from_secs(now))).collect::<Vec<_>>()
         };
@@ -81,13 +82,13 @@ mod tests {
         assert_eq!(lives(times(0, Some(3), None).unwrap()), [a, a, a, no, no, no, no, no, no]);
         assert_eq!(lives(times(2, Some(5), None).unwrap()), [no, no, a, a, a, no, no, no, no]);
         assert_eq!(lives(times(1, Some(2), Some(4)).unwrap()), [no, a, no, no, no, b, no, no, no]);
-        // It exists until the end of the period and is deleted at the beginning of the next.
+        // The parameter exists until the end of the period and is deleted at the beginning of the next.
         assert_eq!(lives(times(1, None, Some(4)).unwrap()), [no, a, a, a, no, b, b, b, no]);
         assert_eq!(lives(times(0, Some(2), Some(3)).unwrap()), [a, a, no, b, b, no, c, c, no]);
     }
 
     #[test]
-    fn what_never_comes_or_never_goes_is_refused() {
+    fn invalid_times_are_rejected() {
         for (comes, goes, period) in [
             (2, Some(2), None),
             (2, Some(1), None),

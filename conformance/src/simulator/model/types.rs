@@ -1,4 +1,4 @@
-//! Types of values, and conversion of TOML values to bytes.
+//! Types of values, and the conversion of TOML values to bytes.
 
 use ads_cnc::{CncStr, VariableType};
 use toml::Value;
@@ -18,7 +18,7 @@ pub(super) enum ScalarType {
     Signed(usize),
     Real32,
     Real64,
-    /// Of the declared length, including a NUL.
+    /// Text of the declared length, including a NUL.
     String,
 }
 
@@ -85,7 +85,7 @@ pub(super) const OBJECT: &[NamedType] = &[
 pub(super) fn find(types: &'static [NamedType], name: &str) -> Result<&'static NamedType, String> {
     types.iter().find(|known| known.name == name).ok_or_else(|| {
         let known: Vec<&str> = types.iter().map(|known| known.name).collect();
-        format!("{name:?} is not a type; types: {}", known.join(" "))
+        format!("unknown type {name:?}; types: {}", known.join(" "))
     })
 }
 
@@ -95,7 +95,7 @@ pub(super) fn code(name: &str) -> VariableType {
     codes.into_iter().find(|code| code.name() == Some(name)).unwrap_or(VariableType::STRING)
 }
 
-/// Encodes one value of a type, or an array with this number of values, of `size` bytes each.
+/// Encodes one value of a type, or an array with `count` values, of `size` bytes each.
 pub(super) fn bytes(
     scalar: ScalarType,
     size: usize,
@@ -106,7 +106,7 @@ pub(super) fn bytes(
     let mut values = Vec::new();
     flatten(value, &mut values);
     if values.len() != count {
-        return Err(format!("{count} values expected, {} given", values.len()));
+        return Err(format!("expected {count} values, found {}", values.len()));
     }
     let mut bytes = Vec::new();
     for value in values {
@@ -131,7 +131,7 @@ fn one(scalar: ScalarType, size: usize, value: &Value) -> Result<Vec<u8>, String
             integer(*number, 0, unsigned_max(size), size)
         }
         (ScalarType::Signed(size), Value::Integer(number)) => {
-            // One bit less, for the sign.
+            // A signed number has one bit less.
             let max = unsigned_max(size) >> u32::from(size < 8);
             integer(*number, max.saturating_neg().saturating_sub(1), max, size)
         }
@@ -155,19 +155,19 @@ const fn unsigned_max(size: usize) -> i64 {
         1 => 0xFF,
         2 => 0xFFFF,
         4 => 0xFFFF_FFFF,
-        // The maximum of TOML.
+        // TOML has no larger numbers.
         _ => i64::MAX,
     }
 }
 
 fn integer(number: i64, min: i64, max: i64, size: usize) -> Result<Vec<u8>, String> {
     if number < min || number > max {
-        return Err(format!("{number} is not within {min} and {max}"));
+        return Err(format!("expected a number from {min} to {max}, found {number}"));
     }
     Ok(number.to_le_bytes().into_iter().take(size).collect())
 }
 
-/// Parsed by Rust, which rounds to the nearest.
+/// Parses a number; Rust rounds to the nearest value.
 fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
     let text = number.to_string();
     text.parse().map_err(|_| format!("{text} is not a number"))
@@ -184,7 +184,7 @@ fn string(text: &str, size: usize) -> Result<Vec<u8>, String> {
     }
     let length = bytes.len();
     if !bytes.contains(&0) && length >= size || length > size {
-        return Err(format!("{length} characters and a NUL do not fit into {size} bytes"));
+        return Err(format!("{length} characters and a NUL are more than {size} bytes"));
     }
     bytes.resize(size, 0);
     Ok(bytes)

@@ -1,4 +1,4 @@
-//! Variables, and parts of their values.
+//! Variables and parts of their values.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -12,20 +12,20 @@ use crate::simulator::to_len;
 /// A variable, or the V.A variable of every axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::simulator) struct Variable {
-    /// The name with its kind, without the axis's name.
+    /// The name with its kind, without the name of an axis.
     pub(in crate::simulator) name: CncString,
-    /// `None` if accessible by name only. For V.A it is that of place 0; each further place adds
-    /// 0x10000.
+    /// The handle; `None` if the variable is accessible by name only. For V.A, the handle at place 0;
+    /// each further place adds 0x10000.
     pub(in crate::simulator) handle: Option<Handle>,
     pub(in crate::simulator) var_type: VariableType,
     pub(in crate::simulator) access: VariableAccess,
     /// Number of elements in each dimension; empty for an elementary variable.
     pub(in crate::simulator) dimensions: Vec<u32>,
-    /// All elements, the last index running fastest.
+    /// All elements; the last index changes fastest.
     pub(in crate::simulator) initial: Initial,
-    /// V.E only.
+    /// The extended description; only for V.E.
     pub(in crate::simulator) extended: Option<ExtendedDescription>,
-    /// The variable of the Service Interface, if it is one.
+    /// The corresponding variable of the Service Interface, if any.
     pub(in crate::simulator) service: Option<ServiceVariable>,
 }
 
@@ -34,8 +34,8 @@ impl Variable {
         self.access == VariableAccess::READ_WRITE
     }
 
-    /// The byte range in the value: all of it without indices, one element with one index for each
-    /// dimension. `None` for another number of indices, or an index out of bounds.
+    /// The byte range in the value: the whole value without indices, or one element with one index for
+    /// each dimension. `None` for another number of indices, or an index out of bounds.
     pub(in crate::simulator) fn part(&self, indices: U32List<'_>) -> Option<Range<usize>> {
         if indices.is_empty() {
             return Some(0..self.initial.size);
@@ -56,13 +56,13 @@ impl Variable {
         Some(start..start.checked_add(size)?)
     }
 
-    /// Whether indices select a single STRING, which may be written shorter than declared.
+    /// Whether the indices select one STRING, for which a written value may be shorter.
     pub(in crate::simulator) fn is_text(&self, indices: U32List<'_>) -> bool {
         self.var_type == VariableType::STRING && indices.len() == self.dimensions.len()
     }
 }
 
-/// Variables with their names.
+/// Variables, with an index of their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Variables {
     pub(in crate::simulator) list: Vec<Variable>,
@@ -85,8 +85,8 @@ pub(in crate::simulator) enum VariableRef {
     Axis { place: usize, variable: usize },
 }
 
-/// The handle of an axis variable at a place (from 1) of a channel. Printed example: 0x0102001B at
-/// the second place of channel 1.
+/// The handle of an axis variable at a place (from 1) of a channel. The printed example for the second
+/// place of channel 1 is 0x0102001B.
 pub(in crate::simulator) fn handle_at(of_axis: Handle, channel: u8, place: u8) -> Handle {
     let channel = u32::from(channel).saturating_sub(1);
     Handle(of_axis.0 | u32::from(place) << 16 | channel << 8)
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_index_runs_fastest() {
+    fn the_last_index_changes_fastest() {
         let cube = cube();
         assert_eq!(cube.part(U32List::from(&[0, 0, 1])), Some(2..4));
         assert_eq!(cube.part(U32List::from(&[0, 1, 0])), Some(8..10));
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn indices_out_of_bounds_or_of_another_number_address_nothing() {
+    fn wrong_indices_have_no_part() {
         let cube = cube();
         for indices in [&[2, 0, 0][..], &[0, 3, 0], &[0, 0, 4], &[u32::MAX; 3], &[0], &[0; 4]] {
             assert_eq!(cube.part(U32List::from(indices)), None, "{indices:?}");

@@ -1,34 +1,34 @@
-//! The answers to requests of a script.
+//! The responses to requests of a script.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
 use ads_cnc::CncString;
 
-/// The answer to a request of a [`Script`](super::Script).
+/// The outcome of a request of a [`Script`](super::Script).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServiceAnswer {
-    /// Number of the request among all that were sent, from 1.
+    /// Number of the request among all sent requests, from 1.
     pub number: u64,
     /// Index of the request in the script.
     pub request: usize,
-    /// When the program continued.
+    /// The time at which the program continued.
     pub at: Duration,
     pub outcome: ServiceOutcome,
 }
 
-/// How a request ended.
+/// The outcome of a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ServiceOutcome {
     Response {
         state: u32,
         text: CncString,
     },
-    /// No answer within the maximum wait.
+    /// No response arrived within the maximum wait.
     TimedOut,
 }
 
-/// The latest answers, and the number of all.
+/// The latest outcomes, and the number of all.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     pub(super) kept: VecDeque<ServiceAnswer>,

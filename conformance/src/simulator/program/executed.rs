@@ -1,6 +1,6 @@
 //! The executed lines of a program.
 
-/// The executed lines of a program: counts and digest of all, text of the latest.
+/// The executed lines of a program: the number and digest of all, and the text of the latest.
 ///
 /// ```
 /// use std::time::Duration;
@@ -22,11 +22,11 @@ pub struct Executed {
     lines: u64,
     bytes: u64,
     digest: u64,
-    /// The latest lines, complete.
+    /// The latest complete lines.
     kept: Vec<u8>,
     kept_lines: u64,
-    /// Minimum number of stored bytes of the latest lines; at most twice as many plus a line are
-    /// stored.
+    /// Minimum number of stored bytes of the latest lines; the maximum is twice this number plus a
+    /// line.
     room: usize,
 }
 
@@ -55,12 +55,12 @@ impl Executed {
         &self.kept
     }
 
-    /// Number of the first stored line, from 1; one past the last if none is stored.
+    /// Number of the first stored line, from 1; if none is stored, the number of the next line.
     pub fn first_recent(&self) -> u64 {
         self.lines.saturating_sub(self.kept_lines).saturating_add(1)
     }
 
-    /// The latest lines without their ends.
+    /// The latest lines without their line ends.
     pub fn lines(&self) -> impl Iterator<Item = &[u8]> {
         lines(&self.kept).map(|line| line.strip_suffix(b"\r\n").unwrap_or(line))
     }
@@ -76,7 +76,7 @@ impl Executed {
         self.kept_lines = self.kept_lines.saturating_add(1);
     }
 
-    /// Drops lines beyond the limit.
+    /// Removes lines beyond the limit.
     fn forget(&mut self) {
         let mut surplus = 0_usize;
         while self.kept.len().saturating_sub(surplus) > self.room {
@@ -89,7 +89,7 @@ impl Executed {
     }
 }
 
-/// Splits bytes from the streaming interface into lines, with their ends.
+/// Splits bytes from the streaming interface into lines with their line ends.
 pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split_inclusive(|&byte| byte == b'\n')
 }

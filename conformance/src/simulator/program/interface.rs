@@ -1,12 +1,12 @@
-//! The CNC's end of data streaming.
+//! The CNC's side of data streaming.
 
 use std::fmt;
 
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, LineError, check_line_ends};
 
-/// The streaming interface of a CNC: a buffer of at most 4094 bytes that were written and not read
-/// yet.
+/// The streaming interface of a CNC: a buffer of at most 4094 bytes that were written but not yet
+/// read.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1, 4.1 and 4.2 (STM-3, STM-5, STM-6, STM-11, STM-12,
 /// STM-15).
@@ -21,7 +21,7 @@ use ads_cnc::streaming::{Ack, LineError, check_line_ends};
 /// assert_eq!(interface.read()?, b"N10 G0 X0\r\nN20 M30\r\n");
 /// assert!(interface.is_empty());
 ///
-/// // A line end that is missing shows when the CNC reads: error 21476.
+/// // The CNC detects a missing line end when it reads the line: error 21476.
 /// assert_eq!(interface.write(b"N30 G0 X0\n"), Ack::Accepted);
 /// assert_eq!(
 ///     interface.read().unwrap_err().to_string(),
@@ -36,16 +36,16 @@ pub struct StreamingInterface {
 }
 
 impl StreamingInterface {
-    /// An empty interface.
+    /// Creates an empty interface.
     pub const fn new() -> Self {
         Self { bytes: [0; STREAM_MAX], len: 0 }
     }
 
-    /// Appends all bytes of a write to those that are buffered, or none of them (STM-15).
+    /// Appends all bytes of a write to the buffer, or none of them (STM-15).
     ///
-    /// [`Ack::Rejected`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Busy`],
-    /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is
-    /// assumed). The bytes are not checked here.
+    /// Returns [`Ack::Rejected`] for more than 992 bytes and for no bytes (STM-4), and [`Ack::Busy`],
+    /// with warning 11012 of the CNC, if the bytes do not fit now (STM-6). These causes are assumed.
+    /// The bytes are not checked here.
     pub fn write(&mut self, data: &[u8]) -> Ack {
         if data.is_empty() || data.len() > STREAM_PACKET_MAX {
             return Ack::Rejected;
@@ -59,12 +59,12 @@ impl StreamingInterface {
         Ack::Accepted
     }
 
-    /// Takes all buffered bytes, in the order of the writes, whose boundaries are lost (STM-12).
-    /// Empty if the buffer is: motion stops until more is written (STM-16).
+    /// Removes and returns all buffered bytes in the order of the writes, without the boundaries of
+    /// the writes (STM-12). If the buffer is empty, motion stops until the next write (STM-16).
     ///
     /// # Errors
-    /// The first line, counted in the buffer, that does not end in CR LF: CNC error 21476 (STM-5).
-    /// The buffer is emptied all the same (assumed).
+    /// The first line in the buffer that does not end in CR LF: CNC error 21476 (STM-5). This also
+    /// empties the buffer (assumed).
     pub fn read(&mut self) -> Result<&[u8], LineError> {
         let bytes = self.bytes.get(..self.len).unwrap_or_default();
         self.len = 0;
@@ -80,7 +80,7 @@ impl StreamingInterface {
         self.len
     }
 
-    /// Whether the buffer is empty. After a program end, the next program has to wait for this
+    /// Whether the buffer is empty. After a program end, the next program must wait for this
     /// (STM-17).
     pub const fn is_empty(&self) -> bool {
         self.len == 0
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_text_is_not_shown() {
+    fn debug_does_not_show_the_text() {
         let mut interface = StreamingInterface::default();
         assert_eq!(format!("{interface:?}"), "StreamingInterface(0 of 4094 bytes)");
         assert_eq!(interface.write(b"N10\r\n"), Ack::Accepted);

@@ -7,9 +7,9 @@
 //! - [`StreamingInterface`], [`service`]: the interfaces themselves, and a single request of a
 //!   program.
 //!
-//! The programs use no thread, clock or socket. Before each access the caller passes the time since
-//! any fixed point, which must never decrease, and the program executes all steps that are due. The
-//! result does not depend on how often that is done.
+//! The programs use no threads, clocks or sockets. Before each access, the caller passes the time
+//! since any fixed point, which must never decrease, and the program executes all steps that are due.
+//! The result does not depend on the number of these calls.
 //!
 //! ```
 //! use std::time::Duration;

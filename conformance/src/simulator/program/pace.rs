@@ -35,9 +35,9 @@ impl Pace {
     }
 }
 
-/// A text is not a [`Pace`].
+/// The text is not a [`Pace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a number of lines a second from 1 on, `4000 bytes/s`, `fast` or `hold`")]
+#[error("expected a number of lines per second from 1, `4000 bytes/s`, `fast` or `hold`")]
 pub struct ParsePaceError;
 
 /// Parses a number of lines with or without `lines/s`, a number of bytes with `bytes/s`, `fast` or
@@ -56,7 +56,7 @@ impl std::str::FromStr for Pace {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let (number, unit) = text.split_once(' ').unwrap_or((text, "lines/s"));
-        // The parser of numbers accepts a sign too.
+        // The parser of numbers would accept a sign.
         let number = Some(number).filter(|number| !number.starts_with('+'));
         let number = number.and_then(|number| number.parse().ok());
         let pace = match (text, unit) {
@@ -73,7 +73,7 @@ impl std::str::FromStr for Pace {
 impl std::fmt::Display for Pace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Fast => f.write_str("as fast as it can"),
+            Self::Fast => f.write_str("as fast as possible"),
             Self::Lines(lines) => write!(f, "{lines} lines/s"),
             Self::Bytes(bytes) => write!(f, "{bytes} bytes/s"),
             Self::Hold => f.write_str("on hold"),
@@ -81,8 +81,8 @@ impl std::fmt::Display for Pace {
     }
 }
 
-/// Calculates when a line has been executed. Counts from a start, so that rounding errors do not
-/// add up.
+/// Calculates the time at which a line has been executed, always from the start, so that rounding
+/// errors do not accumulate.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LineClock {
     since: Duration,
@@ -91,7 +91,7 @@ pub(super) struct LineClock {
 }
 
 impl LineClock {
-    /// Starts with a line now.
+    /// Starts the clock with the current line.
     pub(super) fn begin(now: Duration) -> Self {
         Self { since: now, units: 0 }
     }
@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pace_is_read_as_it_is_written() {
+    fn a_formatted_pace_is_parsed_again() {
         for (text, pace) in [
             ("1", Pace::lines_per_second(1)),
             ("500 lines/s", Pace::lines_per_second(500)),

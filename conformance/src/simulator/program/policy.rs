@@ -1,4 +1,4 @@
-//! Behaviour of NC programs and the streaming interface that defects and variants change.
+//! The behaviour of NC programs and the streaming interface that defects and variants can change.
 
 use std::fmt;
 
@@ -14,19 +14,19 @@ pub(crate) struct Policy {
     pub(crate) buffer: fn() -> Box<dyn Buffer>,
     /// Checks lines that were read together.
     pub(crate) segment: fn(&mut Checker, &[u8]) -> ProgramSegment,
-    /// Events that start the streaming program, besides an explicit start.
+    /// Events that start the streaming program, in addition to an explicit start.
     pub(crate) starts: &'static [ProgramEvent],
-    /// Events that end it, besides a program end.
+    /// Events that end the streaming program, in addition to a program end.
     pub(crate) ends: &'static [ProgramEvent],
     /// Events that empty the streaming interface.
     pub(crate) clears: &'static [ProgramEvent],
-    /// Error number of a line without CR LF.
+    /// Error number for a line without CR LF.
     pub(crate) line_end_error: u32,
     /// Whether a script also writes REQUEST_STATE before all other variables.
     pub(crate) state_first: bool,
     /// Whether a script waits for RESPONSE_STATE before it reads RESPONSE.
     pub(crate) awaits_response: bool,
-    /// Whether a script gives up after its maximum wait.
+    /// Whether a script stops waiting after the maximum wait.
     pub(crate) times_out: bool,
 }
 
@@ -57,15 +57,15 @@ impl Policy {
     };
 }
 
-/// A streaming interface: it buffers written data until it is read.
+/// A streaming interface, which buffers written data until it is read.
 pub(crate) trait Buffer: fmt::Debug + Send {
     /// Accepts all bytes of a write, or none.
     fn write(&mut self, data: &[u8]) -> Ack;
 
-    /// Takes lines from the buffer.
+    /// Removes and returns lines from the buffer.
     ///
     /// # Errors
-    /// A line without CR LF.
+    /// If a line does not end in CR LF.
     fn read(&mut self) -> Result<Vec<u8>, LineError>;
 
     fn len(&self) -> usize;

@@ -15,11 +15,11 @@ use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServ
 pub struct ScriptConfig {
     /// The requests in their order; may be empty.
     pub requests: Vec<ServiceRequest>,
-    /// How often the list is repeated.
+    /// The number of repetitions of the list.
     pub repeat: Repeat,
-    /// Parses requests per second; returns the time between two.
+    /// The pause between a response and the next request.
     pub pause: Duration,
-    /// The time for each write or read of a variable; at least a microsecond.
+    /// The time between two steps, each of which writes or reads a variable; at least a microsecond.
     pub cycle: Duration,
 }
 
@@ -31,17 +31,17 @@ pub struct ServiceRequest {
     pub text: CncString,
     /// The request state; not 0.
     pub state: u32,
-    /// How the program waits for the response.
+    /// The way in which the program waits for the response.
     pub wait: Wait,
 }
 
-/// How a program waits for a response.
+/// The way in which a program waits for a response.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wait {
-    /// Without the cycle: it looks at RESPONSE_STATE until that is not 0 (SVC-6).
+    /// Without the cycle: the program reads RESPONSE_STATE until it is not 0 (SVC-6).
     #[default]
     Loop,
-    /// By the cycle SysServiceWait with these parameters (SVC-8).
+    /// With the cycle SysServiceWait and these parameters (SVC-8).
     Cycle {
         /// @P1: the response state for which the cycle keeps waiting.
         p1: Option<u32>,
@@ -52,24 +52,24 @@ pub enum Wait {
     },
 }
 
-/// How often the list of requests is repeated.
+/// The number of repetitions of the list of requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
     /// Without end.
     Endless,
-    /// This number of times.
+    /// The list is executed this number of times.
     Times(u32),
 }
 
 impl ScriptConfig {
-    /// The manual's example: the square root of 3, and then that of a negative number, each from
-    /// the service with this UUID, every second.
+    /// The manual's example: each second, a request for the square root of 3 or of a negative number,
+    /// in turn, to the service with this UUID.
     ///
-    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). That it is asked for both,
-    /// and how often, is not printed.
+    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). The manuals do not print that a
+    /// program requests both, or the interval.
     ///
     /// # Errors
-    /// None: text and UUID fit.
+    /// Never: text and UUID are valid.
     pub fn square_root() -> Result<Self, Error> {
         let uuid = ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?;
         let request = |text| {
@@ -85,7 +85,7 @@ impl ScriptConfig {
     }
 }
 
-/// Why a script is invalid.
+/// The reason why a script is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("request {} of the script: {error}", request.saturating_add(1))]
 pub struct ScriptError {
@@ -97,25 +97,25 @@ pub struct ScriptError {
 /// The state of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScriptState {
-    /// It writes this request, by index.
+    /// The script writes the request with this index.
     Asking(usize),
-    /// It waits for the response to this request, or reads it.
+    /// The script waits for the response to this request, or reads the response.
     Waiting(usize),
-    /// It has the response, and waits before the next request.
+    /// The script has read the response and pauses before the next request.
     Pausing,
-    /// It has sent all requests.
+    /// The script has sent all requests.
     Finished,
 }
 
 /// An NC program that sends requests to services through the Service Interface of its channel.
 ///
-/// It executes one step per cycle, so that a service sees the intermediate states: it writes UUID,
-/// REQUEST and REQUEST_STATE, reads RESPONSE_STATE each cycle until there is a response, and then
-/// reads RESPONSE.
+/// The script executes one step per cycle, so that a service sees the intermediate states: it writes
+/// UUID, REQUEST and REQUEST_STATE, reads RESPONSE_STATE in each cycle until a response exists, and
+/// then reads RESPONSE.
 ///
-/// It has to be [advanced](Self::advance) before each access of others to the interface; then the
-/// result is the same as if it ran continuously. The number of steps executed at a time is limited:
-/// after a long time the remaining ones are dropped.
+/// [Advance](Self::advance) the script before each access of others to the interface; then the result
+/// is the same as if the script ran continuously. The number of steps executed at a time is limited:
+/// after a long time, the remaining steps are dropped.
 ///
 /// ```
 /// use std::time::Duration;
@@ -155,15 +155,15 @@ pub enum ScriptState {
 /// Manual: `service-en` and `service-de` 1.03, section 2; `service-en`, section 3.
 #[derive(Clone, Debug)]
 pub struct Script {
-    /// Each in its initial state.
+    /// The requests, each in its initial state.
     requests: Vec<ServiceCall>,
     pause: Duration,
     cycle: Duration,
     repeat: Repeat,
     passes: u32,
-    /// The current request with its index; `None` after the last.
+    /// The current request with its index; `None` after the last request.
     present: Option<(usize, ServiceCall)>,
-    /// When the next step is due; `None` before the first, which is due at once.
+    /// The time at which the next step is due; `None` before the first step, which is due at once.
     due: Option<Duration>,
     pausing: bool,
     answers: Answers,
@@ -174,15 +174,14 @@ impl Script {
     /// Number of stored answers.
     pub const ANSWERS_MAX: usize = Answers::STORED_MAX;
 
-    /// Maximum number of overdue steps executed at a time. Polls without a response are not
-    /// counted.
+    /// Maximum number of overdue steps executed at a time; polls without a response do not count.
     const STEPS: u32 = 100_000;
 
-    /// A program that begins when it is first [advanced](Self::advance).
+    /// Creates a program that begins when it is first [advanced](Self::advance).
     ///
     /// # Errors
-    /// [`ScriptError`]: a request of more than 128 bytes with its NUL, a request state of 0, @P2
-    /// without @P3.
+    /// [`ScriptError`] for a request of more than 128 bytes including its NUL, a request state of 0, or
+    /// @P2 without @P3.
     pub fn new(config: ScriptConfig) -> Result<Self, ScriptError> {
         let calls = config.requests.iter().enumerate();
         let calls = calls.map(|(at, request)| {
@@ -209,7 +208,7 @@ impl Script {
         Self { policy, ..self }
     }
 
-    /// Restarts with the first request, as after an NC reset and a start. The answers are kept.
+    /// Restarts with the first request, as after an NC reset and a start. Keeps the outcomes.
     pub fn restart(&mut self) {
         (self.passes, self.due, self.pausing) = (0, None, false);
         let any = self.repeat != Repeat::Times(0);
@@ -225,8 +224,8 @@ impl Script {
             }
             self.step(due, interface);
             if let Some(CallStep::Wait { until }) = self.next_step() {
-                // RESPONSE_STATE does not change before `now`, so polls until then are skipped, up
-                // to the timeout.
+                // RESPONSE_STATE does not change before `now`, so skip polls until then, but at most
+                // until the timeout.
                 let next = until.filter(|until| *until <= now);
                 let next = next.unwrap_or(now.saturating_add(NANOSECOND));
                 self.due = Some(self.cycle_at(due, next));
@@ -235,14 +234,14 @@ impl Script {
         self.due = self.due.map(|due| due.max(now));
     }
 
-    /// Executes one step now, whether it is due or not.
+    /// Executes one step now, even if it is not due.
     pub fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
         self.pausing = false;
         self.due = Some(now.saturating_add(self.cycle));
         let Some((at, call)) = &mut self.present else { return };
         call.poll();
         let time = if self.policy.times_out { now } else { Duration::ZERO };
-        // The values of a call always fit the interface; otherwise the step would be repeated.
+        // The values of a call are always valid for the interface; if not, the step is repeated.
         match call.step() {
             CallStep::Write(variable, value) => {
                 let first = self.policy.state_first && variable == Uuid;
@@ -278,7 +277,7 @@ impl Script {
         self.present.as_ref().map(|(_, call)| call.step())
     }
 
-    /// Its state at the last `advance`.
+    /// The state after the last `advance`.
     pub fn state(&self) -> ScriptState {
         match (&self.present, self.next_step()) {
             (Some(_), _) if self.pausing => ScriptState::Pausing,
@@ -288,12 +287,12 @@ impl Script {
         }
     }
 
-    /// The latest answers, in their order.
+    /// The latest outcomes in their order.
     pub fn answers(&self) -> impl DoubleEndedIterator<Item = &ServiceAnswer> {
         self.answers.kept.iter()
     }
 
-    /// Number of all answers, including timeouts.
+    /// Number of all outcomes, including timeouts.
     pub fn answer_count(&self) -> u64 {
         self.answers.count
     }
@@ -303,7 +302,7 @@ impl Script {
         self.answers.timed_out
     }
 
-    /// Continues with the request after this one.
+    /// Continues with the next request.
     fn go_on(&mut self, at: usize, now: Duration) {
         let mut next = at.saturating_add(1);
         if next >= self.requests.len() {

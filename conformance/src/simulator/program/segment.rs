@@ -1,4 +1,4 @@
-//! Lines that a decoder has read together and executes one by one.
+//! Lines that a decoder has read together and then executes one by one.
 
 use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, ProgramEnd};
 
@@ -16,9 +16,9 @@ pub(crate) struct ProgramSegment {
 
 #[derive(Clone, Copy, Debug)]
 enum SegmentEnd {
-    /// After this line: the lines after it are not executed.
+    /// Execution ends after this line.
     End { end: ProgramEnd, line: u32 },
-    /// In place of its line.
+    /// Execution ends before the line of this error.
     Fault(Diagnostic),
 }
 
@@ -31,13 +31,13 @@ pub(super) enum Next<'a> {
 }
 
 impl ProgramSegment {
-    /// Lines that follow those the checker has seen.
+    /// Checks lines that follow those that the checker has already processed.
     pub(crate) fn new(checker: &mut Checker, read: &[u8]) -> Self {
         let number = checker.lines().saturating_add(1);
         Self::with_findings(read, number, checker.check(read))
     }
 
-    /// Lines from this number on, with their findings in order.
+    /// Lines beginning with this number, with their findings in order.
     pub(crate) fn with_findings(
         read: &[u8],
         number: u32,
@@ -46,7 +46,7 @@ impl ProgramSegment {
         let (mut end, mut fault) = (None, None);
         for found in found {
             match found {
-                // Lines after a program end are not executed.
+                // Ignore findings after a program end, whose lines are not executed.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
                     fault = Some(SegmentEnd::Fault(finding));
@@ -73,7 +73,7 @@ impl ProgramSegment {
         }
     }
 
-    /// The next line has been executed.
+    /// Marks the next line as executed.
     pub(super) fn pass(&mut self) {
         if let Next::Line(line) = self.next() {
             self.at = self.at.saturating_add(line.len());

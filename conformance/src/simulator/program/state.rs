@@ -7,15 +7,15 @@ use ads_cnc::streaming::{Diagnostic, LineError, ProgramEnd};
 /// The state of a streaming program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
-    /// Not started yet, or ended by an NC reset (STM-11, STM-14).
+    /// The program has not been started, or was ended by an NC reset (STM-11, STM-14).
     Stopped,
-    /// It has lines to run.
+    /// The program has lines to execute.
     Running,
-    /// It has executed all lines. Motion stops until more is written (STM-16).
+    /// The program has executed all lines. Motion stops until the next write (STM-16).
     Dry,
     /// The program has ended, and with it streaming mode (STM-10).
     Ended(ProgramEnd),
-    /// An error has aborted streaming mode (STM-5, STM-8). Only an NC reset ends this state.
+    /// An error aborted streaming mode (STM-5, STM-8). Only an NC reset ends this state.
     Aborted(Message),
 }
 
@@ -25,7 +25,7 @@ pub struct Message {
     /// Error number; `None` for loops and backward jumps, whose numbers are not documented.
     pub number: Option<u32>,
     pub file: String,
-    /// The line since the start of the program, from 1.
+    /// The line number since the start of the program, from 1.
     pub line: u32,
     /// The column, from 1.
     pub column: u32,
@@ -33,7 +33,7 @@ pub struct Message {
 }
 
 impl Message {
-    /// The message for a line without CR LF, read after this number of lines.
+    /// The message for a line without CR LF that was read after `before` lines.
     pub(super) fn of_line_end(file: &str, number: u32, before: u32, error: &LineError) -> Self {
         Self {
             number: Some(number),
@@ -66,7 +66,7 @@ impl fmt::Display for Message {
     }
 }
 
-/// Why a streaming program cannot be started.
+/// The reason why a streaming program cannot be started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {
     /// Streaming is disabled without a name (STM-13).
@@ -74,7 +74,7 @@ pub enum StartError {
     NoName,
     #[error("the streaming program is running")]
     Running,
-    /// It was aborted; an NC reset is required first (assumed).
+    /// The program was aborted; an NC reset is required first (assumed).
     #[error("the streaming program was aborted: NC reset expected")]
     Aborted,
 }

@@ -14,10 +14,10 @@ use super::state::{Message, StartError, State};
 /// The streaming configuration of a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProgramConfig {
-    /// Name of the streaming program, P-CHAN-00158 `streaming_prog_file`. Empty disables streaming
-    /// (STM-13), which is the default of a CNC, but not here.
+    /// Name of the streaming program, P-CHAN-00158 `streaming_prog_file`. An empty name disables
+    /// streaming (STM-13); this is the default of a CNC, but not of this type.
     pub name: String,
-    /// When the program is started.
+    /// The events that start the program.
     pub start: Start,
     /// Speed of execution; 1000 lines/s by default (assumed).
     pub pace: Pace,
@@ -25,48 +25,48 @@ pub struct ProgramConfig {
     pub kept: usize,
 }
 
-/// When a streaming program is started (STM-14). No ADS function that starts one is documented.
+/// The events that start a streaming program (STM-14). No ADS function that starts one is documented.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// By [`StreamingProgram::start`].
+    /// Only [`StreamingProgram::start`].
     ByHand,
-    /// At the beginning, once.
+    /// Power-on, only once.
     #[default]
     Once,
-    /// At the beginning, and again after each end.
+    /// Power-on, and each end of the program.
     Again,
 }
 
 impl Default for ProgramConfig {
-    /// Started at the beginning and after each end.
+    /// A program that starts once, at power-on.
     fn default() -> Self {
         let pace = Pace::lines_per_second(1000).unwrap_or(Pace::Fast);
         Self { name: "streaming.nc".to_owned(), start: Start::Once, pace, kept: 1 << 20 }
     }
 }
 
-/// The program that gets its lines through the streaming interface of a channel.
+/// The NC program that receives its lines through the streaming interface of a channel.
 ///
-/// - Writes go to the [`StreamingInterface`](super::StreamingInterface); what it cannot take now is refused, with warning 11012
-///   (STM-3, STM-6).
-/// - The decoder, when it has run all lines it has, reads everything that is there at once
-///   (STM-12), and runs it line by line. A line counts as run when its time at the [`Pace`] is
-///   over. Before the decoder was started, and after an end or an error, nothing is read: writes
-///   fill the interface (assumed).
-/// - If there is nothing to read, motion stops until the next write (STM-16).
-/// - A line without CR LF aborts when it is read; nothing of what was read with it is run
-///   (assumed). A word of a loop and a jump back abort in place of their line; the lines above are
-///   run (STM-8; the moment is assumed). See [`Checker`] for what those are.
-/// - After a program end, what was read with it is discarded; what is still in the interface
-///   stays for the next start (STM-10).
+/// - Writes are stored in the [`StreamingInterface`](super::StreamingInterface). A write that does not
+///   fit now is rejected with warning 11012 (STM-3, STM-6).
+/// - When the decoder has executed all its lines, it reads all bytes of the interface at once (STM-12)
+///   and executes them line by line. A line counts as executed when its time at the [`Pace`] is over.
+///   Before its start, and after an end or an error, the decoder reads nothing, so writes fill the
+///   interface (assumed).
+/// - If the interface is empty, motion stops until the next write (STM-16).
+/// - A line without CR LF aborts streaming when it is read; no line that was read with it is executed
+///   (assumed). A loop or a backward jump aborts streaming instead of executing its line; the lines
+///   before it are executed (STM-8; the time is assumed). [`Checker`] defines these lines.
+/// - At a program end, the other lines that were read with it are discarded. The bytes in the interface
+///   remain for the next start (STM-10).
 /// - An NC reset ends streaming mode and empties the interface (STM-11).
 ///
-/// The lines are not interpreted: branches are not taken and jumps not followed, each line is run
-/// once, in its order. `L` calls a subroutine, which is a file with its own M17 or M29: the call
-/// returns at once and the stream goes on (STM-18).
+/// The lines are not interpreted: each line is executed once, in order, without branches and jumps. `L`
+/// calls a subroutine, which is a file with its own M17 or M29; the call returns at once and the stream
+/// continues (STM-18).
 ///
-/// Memory: the interface, as much again for what was read, the labels that a [`Checker`] knows and
-/// the lines that are kept.
+/// Memory: the interface, the same amount for read lines, the labels of the [`Checker`], and the stored
+/// executed lines.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3, 3 and 4.
 #[derive(Debug)]
@@ -85,17 +85,17 @@ pub struct StreamingProgram {
 #[derive(Debug)]
 enum ProgramPhase {
     Started(ProgramSegment),
-    /// Streaming mode is not active, for the reason in the state.
+    /// Streaming mode is not active; the state contains the reason.
     Over(State),
 }
 
 impl StreamingProgram {
-    /// A channel at power-on.
+    /// Creates the program at power-on of the channel.
     pub fn new(config: ProgramConfig) -> Self {
         Self::with_policy(config, Policy::DEFAULT)
     }
 
-    /// A channel at power-on, with another policy.
+    /// Creates the program at power-on of the channel, with another policy.
     pub(crate) fn with_policy(config: ProgramConfig, policy: Policy) -> Self {
         let mut program = Self {
             policy,
@@ -137,11 +137,11 @@ impl StreamingProgram {
         self.run();
     }
 
-    /// Starts the streaming program, as main program or as global subroutine (STM-14). Its lines
-    /// are counted from 1 again.
+    /// Starts the streaming program, as main program or global subroutine (STM-14), and counts its lines
+    /// from 1 again.
     ///
     /// # Errors
-    /// [`StartError`]: it has no name, it runs, or it was aborted.
+    /// [`StartError`], if the program has no name, is running, or was aborted.
     pub fn start(&mut self, now: Duration) -> Result<(), StartError> {
         self.advance(now);
         if self.config.name.is_empty() {
@@ -159,8 +159,8 @@ impl StreamingProgram {
         Ok(())
     }
 
-    /// NC reset: ends streaming mode and empties the interface (STM-11). The record of executed
-    /// lines is kept.
+    /// NC reset: ends streaming mode and empties the interface (STM-11). Keeps the record of executed
+    /// lines.
     pub fn reset(&mut self, now: Duration) {
         self.advance(now);
         self.clear_at(ProgramEvent::Reset);
@@ -178,7 +178,7 @@ impl StreamingProgram {
         }
     }
 
-    /// Changes the speed of execution; the current line starts again.
+    /// Changes the speed of execution, and starts the time of the current line again.
     pub fn set_pace(&mut self, pace: Pace, now: Duration) {
         self.advance(now);
         self.config.pace = pace;
@@ -186,7 +186,7 @@ impl StreamingProgram {
         self.run();
     }
 
-    /// Its state at the last access.
+    /// The state at the last access.
     pub fn state(&self) -> State {
         match &self.phase {
             ProgramPhase::Over(state) => state.clone(),
@@ -221,7 +221,7 @@ impl StreamingProgram {
         self.refusals
     }
 
-    /// Its configuration.
+    /// The configuration.
     pub fn config(&self) -> &ProgramConfig {
         &self.config
     }
@@ -276,8 +276,8 @@ impl StreamingProgram {
     }
 }
 
-/// The ADS error for a write: 0 for accepted, 0x706 for busy, 0x705 for rejected (STM-6; the
-/// numbers are assumed).
+/// The ADS error for an acknowledgement: 0 for accepted, 0x706 for busy, 0x705 for rejected (STM-6;
+/// the numbers are assumed).
 ///
 /// ```
 /// use ads_cnc::streaming::Ack;

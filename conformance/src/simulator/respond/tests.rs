@@ -32,7 +32,7 @@ fn ask(command: Command, port: u16, data: &[u8]) -> (AmsHeader, Vec<u8>) {
 }
 
 #[test]
-fn a_response_goes_back_where_the_request_came_from() {
+fn a_response_has_the_addresses_of_the_request_swapped() {
     let (header, data) = ask(Command::READ_WRITE, 552, COUNT);
     let expected = AmsHeader {
         target: CLIENT,
@@ -46,7 +46,7 @@ fn a_response_goes_back_where_the_request_came_from() {
 }
 
 #[test]
-fn errors_are_answers_too() {
+fn invalid_requests_are_answered_with_errors() {
     // The error number, and the length 0 in place of data.
     let refused = |error: u8| vec![error, 7, 0, 0, 0, 0, 0, 0];
     assert_eq!(ask(Command::READ_WRITE, 553, COUNT).1, refused(2));
@@ -66,7 +66,7 @@ fn errors_are_answers_too() {
 }
 
 #[test]
-fn it_says_what_it_is() {
+fn device_info_and_state_are_answered() {
     for port in [551, 552, 553] {
         let info = ask(Command::READ_DEVICE_INFO, port, &[]).1;
         assert_eq!(info[..8], [0, 0, 0, 0, 0, 1, 0, 0]);
@@ -79,7 +79,7 @@ fn it_says_what_it_is() {
 }
 
 #[test]
-fn answers_are_gathered() {
+fn replies_are_appended() {
     let cnc = Cnc::with_default_model().unwrap();
     let frame = FrameRef::new(request(Command::READ_WRITE, 552, COUNT), COUNT).unwrap();
     let mut answers = vec![0xAA; 3];
@@ -92,7 +92,7 @@ fn answers_are_gathered() {
 }
 
 #[test]
-fn who_is_not_there_has_no_data() {
+fn ams_errors_have_no_data() {
     let (header, data) = ask(Command::READ_WRITE, 851, COUNT);
     assert_eq!((header.error, data.len()), (AdsError::TARGET_PORT_NOT_FOUND, 0));
 

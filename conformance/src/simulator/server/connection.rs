@@ -1,5 +1,5 @@
-//! A connection: receives frames in any pieces, sends replies, several at a time if several
-//! requests have arrived.
+//! A connection: receives frames in pieces of any size, and sends the replies to all complete
+//! requests together.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -10,16 +10,16 @@ use ads_cnc::ads::{AmsNetId, FrameRef};
 use super::ServerOptions;
 use crate::simulator::{DATA_MAX, FRAME_MAX, Responder};
 
-/// Buffer size: the longest frame and some bytes after it.
+/// Buffer size: the longest frame and some following bytes.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
 
-/// Replies are sent once they exceed this size; the last one may be longer.
+/// Size at which gathered replies are sent; the last reply may exceed it.
 const GATHERED_MAX: usize = 32 * 1024;
 
 /// Maximum number of bytes buffered by a connection.
 pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 
-/// The buffer of a connection: received bytes that are not answered yet.
+/// The buffer of a connection, with received bytes that are not yet answered.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::{Cnc, NET_ID, Received};
@@ -54,7 +54,7 @@ impl Default for Received {
 
 impl Received {
     pub fn new() -> Self {
-        // The system allocates pages of zeros when they are first written to.
+        // The system allocates pages of zeros at the first write to them.
         Self {
             bytes: vec![0; RECEIVED_MAX],
             buffered: 0,
@@ -62,7 +62,7 @@ impl Received {
         }
     }
 
-    /// The buffer for the next bytes; never empty.
+    /// The free part of the buffer for the next bytes; never empty.
     pub fn room(&mut self) -> &mut [u8] {
         self.bytes.get_mut(self.buffered..).unwrap_or_default()
     }
@@ -72,16 +72,16 @@ impl Received {
         self.buffered
     }
 
-    /// Maximum number of bytes that were ever buffered, replies included.
+    /// Maximum number of bytes that were buffered so far, including replies.
     pub fn capacity(&self) -> usize {
         self.bytes.capacity().saturating_add(self.answers.capacity())
     }
 
-    /// Answers all frames that are complete after `count` more bytes, in order and several at a
-    /// time; returns the bytes of these frames.
+    /// Answers all frames that are complete after `count` more bytes, in order; returns the number of
+    /// bytes of these frames.
     ///
     /// # Errors
-    /// An invalid frame, because the beginning of the next one is unknown, and those of `send`.
+    /// For an invalid frame, because the beginning of the next frame is unknown, and those of `send`.
     pub fn take(
         &mut self,
         count: usize,
@@ -106,7 +106,7 @@ impl Received {
                 self.answers.clear();
             }
         };
-        // Requests before the invalid frame are answered.
+        // Send the replies to requests before an invalid frame.
         if !self.answers.is_empty() {
             send(&self.answers)?;
             self.answers.clear();
@@ -121,8 +121,8 @@ impl Received {
     }
 }
 
-/// Answers frames in order until the client closes the connection, is silent for too long, or sends
-/// an invalid frame, after which the beginning of the next one is unknown.
+/// Answers frames in order until the client closes the connection, is idle for too long, or sends an
+/// invalid frame, after which the beginning of the next frame is unknown.
 pub(super) fn serve(
     cnc: &dyn Responder,
     options: &ServerOptions,
@@ -177,10 +177,10 @@ struct Limit<'a> {
     set: Option<Option<Duration>>,
 }
 
-/// What a connection waits for.
+/// The frame that a connection waits for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Awaited {
-    /// Its first frame, or the rest of it.
+    /// The first frame, or the rest of it.
     First,
     /// Another frame.
     Next,
@@ -193,7 +193,7 @@ impl<'a> Limit<'a> {
         Self { options, awaited: Awaited::First, since: Instant::now(), set: None }
     }
 
-    /// Complete frames were received; `part`: followed by an incomplete one.
+    /// Notes that complete frames were received; `part` if an incomplete one follows.
     fn request_received(&mut self, part: bool) {
         self.awaited = Awaited::Next;
         if part {
@@ -201,7 +201,7 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Bytes of an incomplete frame were received. They do not extend the limit.
+    /// Notes that bytes of an incomplete frame were received, which do not extend the limit.
     fn received(&mut self) {
         if self.awaited == Awaited::Next {
             self.request_received(true);
@@ -219,7 +219,7 @@ impl<'a> Limit<'a> {
     /// Limits the next read to the remaining time.
     fn set(&mut self, stream: &TcpStream) -> io::Result<()> {
         let mut left = self.time();
-        // Without a system call if the previous timeout still applies.
+        // Avoid a system call if the previous timeout still applies.
         if self.awaited != Awaited::Next {
             let passed = self.since.elapsed();
             left = left.map(|time| time.saturating_sub(passed));
@@ -240,7 +240,7 @@ impl<'a> Limit<'a> {
         let what = match self.awaited {
             Awaited::First => "no first request",
             Awaited::Next => "no request",
-            Awaited::Rest => "a frame without its end",
+            Awaited::Rest => "incomplete frame",
         };
         io::Error::new(io::ErrorKind::TimedOut, format!("{what} for {seconds} s"))
     }

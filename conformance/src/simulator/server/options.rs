@@ -1,4 +1,4 @@
-//! How a server of the simulated CNC is set up.
+//! The options of a server.
 
 use std::time::Duration;
 
@@ -9,13 +9,12 @@ use crate::gate::NET_ID;
 #[derive(Clone, Copy, Debug)]
 pub struct ServerOptions {
     pub net_id: AmsNetId,
-    /// Time without a complete request after which a connection is closed; `None` for no limit.
-    /// Otherwise vanished clients would block connections.
+    /// Time without a complete request after which a connection is closed; `None` for no limit. Without
+    /// a limit, vanished clients occupy connections.
     pub idle: Option<Duration>,
-    /// Time without the first complete request, or with an incomplete request, after which a
-    /// connection is closed; `None` for no limit. Clients that only connect, or send half a
-    /// request, do not block others for longer. Clients that have sent a request are subject to
-    /// `idle`, and those that read slowly may do so.
+    /// Time without the first complete request, or with an incomplete request, after which a connection
+    /// is closed; `None` for no limit. This limits the time for which clients that only connect, or
+    /// send a part of a request, occupy connections. After a complete request, only `idle` applies.
     pub frame: Option<Duration>,
 }
 
@@ -23,7 +22,7 @@ impl ServerOptions {
     /// Ten minutes: long enough for a user who enters requests by hand.
     pub const IDLE: Duration = Duration::from_secs(600);
 
-    /// Ten seconds: a client writes a frame at once.
+    /// Ten seconds, because a client sends a frame at once.
     pub const FRAME: Duration = Duration::from_secs(10);
 }
 

@@ -74,7 +74,7 @@ fn ends(mut stream: &TcpStream) {
 }
 
 #[test]
-fn frames_come_in_any_pieces() {
+fn frames_may_arrive_in_any_pieces() {
     let server = server();
     for size in [1, 5, 6, 7, 37, 38, 39, 57] {
         let mut stream = client(&server);
@@ -89,7 +89,7 @@ fn frames_come_in_any_pieces() {
 }
 
 #[test]
-fn pipelined_requests_are_answered_in_their_order() {
+fn pipelined_requests_are_answered_in_order() {
     let server = server();
     let mut stream = client(&server);
     let ids = || 0..=255;
@@ -99,7 +99,7 @@ fn pipelined_requests_are_answered_in_their_order() {
 
 /// An invalid frame in the same segment does not prevent the replies to the requests before it.
 #[test]
-fn what_was_asked_before_a_malformed_frame_is_answered() {
+fn requests_before_a_malformed_frame_are_answered() {
     let cnc = Cnc::with_default_model().unwrap();
     let (mut received, mut answers) = (Received::new(), Vec::<u8>::new());
     let bytes = [COUNT, COUNT, b"GET / HTTP/1.1\r\n\r\n and more than a header"].concat();
@@ -113,7 +113,7 @@ fn what_was_asked_before_a_malformed_frame_is_answered() {
 }
 
 #[test]
-fn a_malformed_frame_ends_its_own_connection_only() {
+fn a_malformed_frame_only_ends_its_own_connection() {
     let server = server();
     let other = client(&server);
     works(&other);
@@ -133,7 +133,7 @@ fn a_malformed_frame_ends_its_own_connection_only() {
 }
 
 #[test]
-fn garbage_is_no_end_of_the_server() {
+fn the_server_survives_garbage() {
     let server = server();
     let mut state = 0x2545_F491_4F6C_DD1D_u64;
     for _ in 0..20 {
@@ -162,12 +162,12 @@ fn two_clients_do_not_wait_for_each_other() {
 }
 
 #[test]
-fn one_connection_too_many_is_closed() {
+fn connections_beyond_the_maximum_are_closed() {
     let server = server();
     let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| client(&server)).collect();
     clients.iter().for_each(works);
     ends(&client(&server));
-    // A client that has closed makes room for another.
+    // After a client has disconnected, another one can connect.
     clients.pop();
     let deadline = Instant::now() + Duration::from_secs(5);
     loop {
@@ -182,7 +182,7 @@ fn one_connection_too_many_is_closed() {
 }
 
 #[test]
-fn dropping_it_ends_all_connections() {
+fn dropping_the_server_ends_all_connections() {
     let server = server();
     let (idle, busy) = (client(&server), client(&server));
     works(&busy);
@@ -195,7 +195,7 @@ fn dropping_it_ends_all_connections() {
 }
 
 #[test]
-fn a_frame_of_the_longest_length_is_taken_and_one_longer_is_not() {
+fn frames_up_to_the_maximum_length_are_accepted() {
     let server = server();
     let frame = |data: u32| {
         let mut frame = COUNT[..38].to_vec();
@@ -220,7 +220,7 @@ fn a_frame_of_the_longest_length_is_taken_and_one_longer_is_not() {
 }
 
 #[test]
-fn other_commands_are_answered_between() {
+fn other_commands_are_answered_in_order() {
     let server = server();
     let mut stream = client(&server);
     let command = |command: u8| {
@@ -243,7 +243,7 @@ fn other_commands_are_answered_between() {
 }
 
 #[test]
-fn who_asks_nothing_is_let_go_and_makes_room() {
+fn idle_connections_are_closed() {
     let server = serving(idle(300));
     let silent: Vec<_> = (0..CONNECTIONS_MAX).map(|_| client(&server)).collect();
     silent.iter().for_each(ends);
@@ -251,7 +251,7 @@ fn who_asks_nothing_is_let_go_and_makes_room() {
 }
 
 #[test]
-fn a_byte_now_and_then_is_no_request() {
+fn single_bytes_do_not_extend_the_idle_limit() {
     let server = serving(idle(800));
     let (mut slow, begun) = (client(&server), Instant::now());
     let gone = COUNT.iter().any(|byte| {
@@ -275,7 +275,7 @@ fn hasty(millis: u64) -> ServerOptions {
 /// The idle limit is ten minutes, so only the limit for the first frame can end the connection in
 /// time.
 #[test]
-fn connections_without_a_first_request_lock_nobody_out() {
+fn connections_without_a_first_request_are_closed() {
     let server = serving(hasty(500));
     let mut open: Vec<_> = (0..CONNECTIONS_MAX).map(|_| client(&server)).collect();
     for (count, stream) in open.iter_mut().enumerate() {
@@ -286,11 +286,11 @@ fn connections_without_a_first_request_lock_nobody_out() {
 }
 
 #[test]
-fn a_frame_without_its_end_ends_its_connection() {
+fn an_incomplete_frame_ends_its_connection() {
     let server = serving(hasty(1000));
     let mut half = client(&server);
     works(&half);
-    // The next frame may begin later, but must then be completed in time.
+    // The next frame may begin later, but must be complete in time after that.
     thread::sleep(Duration::from_millis(1200));
     half.write_all(&COUNT[..50]).unwrap();
     // The same for the beginning of a frame that follows a complete one.
@@ -303,7 +303,7 @@ fn a_frame_without_its_end_ends_its_connection() {
 
 /// Further bytes do not extend the limit of a frame.
 #[test]
-fn a_frame_in_drops_ends_its_connection() {
+fn single_bytes_do_not_extend_the_frame_limit() {
     let server = serving(hasty(1000));
     let (mut slow, begun) = (client(&server), Instant::now());
     works(&slow);
@@ -315,9 +315,9 @@ fn a_frame_in_drops_ends_its_connection() {
     ends(&slow);
 }
 
-/// After its first request a connection may be silent up to the idle limit.
+/// After its first request, a connection may be idle up to the idle limit.
 #[test]
-fn who_has_asked_may_be_silent() {
+fn a_connection_may_be_idle_after_a_request() {
     let server = serving(hasty(1000));
     let stream = client(&server);
     works(&stream);
@@ -344,7 +344,7 @@ fn many_clients_are_served_at_once() {
 }
 
 #[test]
-fn it_answers_for_the_net_id_it_is_given() {
+fn the_server_answers_for_its_net_id() {
     let options = ServerOptions { net_id: AmsNetId([10, 0, 0, 1, 1, 1]), ..Default::default() };
     let server = serving(options);
     let mut stream = client(&server);

@@ -1,4 +1,4 @@
-//! A channel with services, a program and the five variables between them.
+//! A channel with services, an NC program and the five variables between them.
 
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ pub(crate) fn millis(millis: u64) -> Duration {
     Duration::from_millis(millis)
 }
 
-/// The interface of a channel, with a record of what was written to it.
+/// The interface of a channel, with a record of the writes to it.
 #[derive(Default)]
 pub(crate) struct Channel {
     pub(crate) interface: ServiceInterface,
@@ -39,7 +39,7 @@ impl Channel {
         self.written.push((variable, value.to_vec()));
     }
 
-    /// One request, as a program writes it.
+    /// Writes a request as an NC program does.
     pub(crate) fn ask(&mut self, uuid: &str, request: &str) {
         self.write(Uuid, format!("{uuid}\0").as_bytes());
         self.write(Request, format!("{request}\0").as_bytes());
@@ -47,7 +47,7 @@ impl Channel {
         self.written.clear();
     }
 
-    /// Does a step that is no service, and says what it was.
+    /// Executes a step other than serving, and returns its kind.
     pub(crate) fn step(&mut self, host: &mut Host<'_>) -> Did {
         match host.step() {
             HostStep::Read(variable) => {
@@ -67,7 +67,7 @@ impl Channel {
         }
     }
 
-    /// Steps until one is not a read.
+    /// Executes steps up to the first that is not a read.
     pub(crate) fn skip_reads(&mut self, host: &mut Host<'_>) -> Did {
         for _ in 0..50 {
             match host.step() {
@@ -80,7 +80,7 @@ impl Channel {
         panic!("reads and reads: {:?}", host.step());
     }
 
-    /// Steps until this is to be written.
+    /// Executes steps until the next step writes this variable.
     pub(crate) fn reach(&mut self, host: &mut Host<'_>, variable: ServiceVariable) {
         let there = (0..50).any(|_| {
             let there = self.skip_reads(host) == Did::Write(variable);
@@ -92,12 +92,13 @@ impl Channel {
         assert!(there, "{variable} is not written: {:?}", host.step());
     }
 
-    /// Steps until there is nothing to do.
+    /// Executes steps until the host waits.
     pub(crate) fn rest(&mut self, host: &mut Host<'_>) {
         assert!((0..50).any(|_| self.step(host) == Did::Wait), "{:?}", host.step());
     }
 
-    /// Looks for a request, serves it, and goes on to the next wait; says whether there was one.
+    /// Polls for a request, serves it and continues to the next wait; returns whether there was a
+    /// request.
     pub(crate) fn serve(
         &mut self,
         host: &mut Host<'_>,
@@ -114,7 +115,7 @@ impl Channel {
         true
     }
 
-    /// Steps of the program that are no waits; says how it ended, if it did.
+    /// Executes the steps of the program up to a wait or the end; returns the outcome, if it ended.
     pub(crate) fn run(
         &mut self,
         call: &mut ServiceCall,

@@ -1,4 +1,4 @@
-//! The examples of the manuals, and who is asked.
+//! The examples of the manuals, and the selection of a service.
 
 use std::time::Duration;
 
@@ -44,15 +44,15 @@ fn square_root_example() {
                     (ResponseState, state.to_le_bytes().to_vec()),
                 ]
             );
-            // It is answered once.
+            // The request is answered only once.
             assert!(!channel.serve(&mut host, square_root));
         }
     }
 }
 
-/// E-21: with a digit too few, as the NC program of the example has it, nobody is asked.
+/// E-21: the UUID in the NC program of the example lacks a digit, so no service is selected.
 #[test]
-fn the_uuid_of_the_example_with_a_digit_too_few() {
+fn the_printed_uuid_without_a_digit_selects_no_service() {
     const SHORT: &str = "560AACBF-6335-44a9-895A-B27F3ED5E47";
     assert_eq!(
         Fault::of(ServiceId::new(SHORT).unwrap_err()),
@@ -67,7 +67,7 @@ fn the_uuid_of_the_example_with_a_digit_too_few() {
     assert!(channel.serve(&mut host, square_root));
 }
 
-/// SVC-8: the example of the cycle, which waits for 5 seconds at most.
+/// SVC-8: the example of the cycle, which waits for at most 5 seconds.
 #[test]
 fn sys_service_wait_example() {
     let program = || call(COMMAND, "some-command", [None, Some(5000), Some(1)]);
@@ -76,7 +76,7 @@ fn sys_service_wait_example() {
     let answer = Some(Ok((7, "did some-command".to_string())));
     let start = millis(1_000_000);
 
-    // In time, and with the last look.
+    // In time, including a response that the last read finds.
     for (answered, looked) in [(1, 2), (4999, 5000), (5000, 5000), (5000, 9000)] {
         let (mut channel, mut program) = (Channel::default(), program());
         assert_eq!(channel.run(&mut program, start), None);
@@ -95,7 +95,7 @@ fn sys_service_wait_example() {
     assert_eq!(channel.run(&mut program, start + millis(5001)), Some(Err(())));
 }
 
-/// SVC-8: which parameters there are, and what they are without a value.
+/// SVC-8: the parameters and their default values.
 #[test]
 fn parameters_of_the_cycle() {
     let wait = SysServiceWait::from_parameters;
@@ -113,7 +113,7 @@ fn parameters_of_the_cycle() {
         assert_eq!(error.to_string(), "sys-service-wait: @P3 at offset 8: missing");
     }
 
-    // A longest wait of 0 looks once; one to the end of time ends.
+    // A maximum wait of 0 reads once; the longest possible wait ends.
     let mut channel = Channel::default();
     let mut program = call(COMMAND, "", [None, Some(0), Some(1)]);
     assert_eq!(channel.run(&mut program, millis(9)), Some(Err(())));
@@ -125,8 +125,8 @@ fn parameters_of_the_cycle() {
     assert_eq!(waiting.step(), WaitStep::Wait { until: Some(Duration::MAX) });
 }
 
-/// SVC-8 and SVC-3: as a request sets RESPONSE_STATE to 0, another @P1 than 0 does not wait for the
-/// service; it does if the service has set that state in the meantime.
+/// SVC-8 and SVC-3: because a request sets RESPONSE_STATE to 0, a @P1 other than 0 does not wait for
+/// the service, unless the service has already set that state.
 #[test]
 fn a_keep_waiting_code_other_than_0() {
     let mut channel = Channel::default();
@@ -143,9 +143,9 @@ fn a_keep_waiting_code_other_than_0() {
     assert_eq!(waiting.step(), WaitStep::Done { state: 6 });
 }
 
-/// SVC-6, E-20: the program waits for RESPONSE_STATE; a response without it ends no wait.
+/// SVC-6, E-20: the program waits for RESPONSE_STATE; a response alone does not end the wait.
 #[test]
-fn a_response_alone_ends_no_wait() {
+fn a_response_alone_does_not_end_the_wait() {
     let mut channel = Channel::default();
     let mut program = call(ROOT, "3", [None; 3]);
     assert_eq!(channel.run(&mut program, millis(0)), None);
@@ -155,8 +155,8 @@ fn a_response_alone_ends_no_wait() {
     assert_eq!(channel.run(&mut program, millis(2)), Some(Ok((1, "1.732051".to_string()))));
 }
 
-/// SVC-2: without REQUEST_STATE nothing is served; any value but 0 is a request, and the service
-/// is told which.
+/// SVC-2: without REQUEST_STATE, nothing is served; any value except 0 is a request, and is passed to
+/// the service.
 #[test]
 fn only_a_request_state_starts_a_service() {
     let mut channel = Channel::default();
@@ -181,7 +181,7 @@ fn only_a_request_state_starts_a_service() {
     assert_eq!(zero, CallError::State);
 }
 
-/// SVC-2: several services on one channel, of one host or of two; each answers its own requests.
+/// SVC-2: several services on one channel, of one or two hosts; each answers its own requests.
 #[test]
 fn two_services_on_one_channel() {
     let both = [id(ROOT), id(COMMAND)];
@@ -208,7 +208,7 @@ fn two_services_on_one_channel() {
         assert_eq!(served, (uuid == ROOT, uuid == COMMAND));
     }
 
-    // Nobody's service; none at all.
+    // An unknown UUID, and an empty one.
     channel.ask("00000000-0000-0000-0000-000000000000", "3");
     assert!(!channel.serve(&mut first, square_root));
     channel.ask(ROOT, "3");

@@ -1,4 +1,4 @@
-//! What happens when something goes wrong, or comes late.
+//! Failed steps and late responses.
 
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
@@ -7,9 +7,9 @@ use ads_cnc_conformance::simulator::program::service::*;
 use super::channel::*;
 use crate::square_root::square_root;
 
-/// A write that failed may have arrived: the host looks, and writes what is missing, no more.
+/// A failed write may have arrived: the host reads the variables and only writes what is missing.
 #[test]
-fn writes_that_fail() {
+fn failed_writes_are_completed() {
     let ids = [id(ROOT)];
     for variable in [Response, RequestState, ResponseState] {
         for arrives in [false, true] {
@@ -31,17 +31,17 @@ fn writes_that_fail() {
             assert_eq!(host.outcome(), Some(Outcome::Answered), "{variable}");
             let answer = Some(Ok((1, "x".to_string())));
             assert_eq!(channel.run(&mut program, millis(1)), answer);
-            // Only a response that arrived is written again: that does no harm.
+            // Only RESPONSE may be written again, which is harmless.
             let times = channel.written.iter().filter(|(one, _)| *one == variable).count();
             assert_eq!(times, if arrives && variable == Response { 2 } else { 1 }, "{variable}");
         }
     }
 }
 
-/// RESPONSE_STATE arrived though its write failed, and the program has asked again: that request is
-/// served like any, and not answered with what was the answer before.
+/// RESPONSE_STATE arrived although its write failed, and the program has sent another request: the
+/// request is served, and not answered with the previous response.
 #[test]
-fn a_write_that_failed_does_not_answer_the_next_request() {
+fn a_failed_write_does_not_answer_the_next_request() {
     let ids = [id(ROOT)];
     let mut channel = Channel::default();
     let mut program = call(ROOT, "3", [None; 3]);
@@ -61,11 +61,12 @@ fn a_write_that_failed_does_not_answer_the_next_request() {
     assert_eq!(channel.run(&mut program, millis(4)), Some(Ok((1, "second".to_string()))));
 }
 
-/// The write of RESPONSE_STATE failed, and what stands there now is another's: nothing is written.
+/// The write of RESPONSE_STATE failed, and the variables now belong to another service: nothing is
+/// written.
 #[test]
-fn a_write_that_failed_is_not_repeated_over_what_is_anothers() {
+fn a_failed_write_is_not_repeated_over_another_service() {
     let ids = [id(ROOT)];
-    // Another service has answered; another is asked and has not answered yet.
+    // Another service has answered, or has a request that it has not answered yet.
     for (response_state, uuid) in [(2, ROOT), (0, COMMAND)] {
         let mut channel = Channel::default();
         channel.ask(ROOT, "3");
@@ -82,10 +83,10 @@ fn a_write_that_failed_is_not_repeated_over_what_is_anothers() {
     }
 }
 
-/// What [`Host`] says of two on one channel: a state that arrived though its write failed is written
-/// again, and the program takes it for the answer to what it asks meanwhile.
+/// The documented limit of [`Host`] with two hosts on one channel: a state that arrived although its
+/// write failed is written again, and the program takes it for the response to its next request.
 #[test]
-fn of_two_hosts_one_may_end_a_request_that_nobody_served() {
+fn two_hosts_may_end_an_unserved_request() {
     let (own, others) = ([id(ROOT)], [id(COMMAND)]);
     let (mut host, mut other) = (Host::new(&own), Host::new(&others));
     let mut channel = Channel::default();
@@ -119,9 +120,9 @@ fn of_two_hosts_one_may_end_a_request_that_nobody_served() {
     assert_eq!(channel.run(&mut program, millis(6)), Some(Ok((1, "other".to_string()))));
 }
 
-/// A failed step that is no write, and calls out of turn, change nothing.
+/// A failed step that is not a write, and calls in the wrong order, have no effect.
 #[test]
-fn calls_out_of_turn_do_nothing() {
+fn calls_in_the_wrong_order_do_nothing() {
     let ids = [id(ROOT)];
     let mut host = Host::new(&ids);
     host.failed();
@@ -158,10 +159,10 @@ fn calls_out_of_turn_do_nothing() {
     assert_eq!(program.step(), CallStep::Read(ResponseState));
 }
 
-/// The program has given up and asks something else, of the same service or of another: the answer
-/// that comes late is dropped, and nothing of it written.
+/// The program has timed out and sent another request, to the same or another service: the late
+/// response is dropped, and no part of it is written.
 #[test]
-fn a_late_answer_is_dropped() {
+fn a_late_response_is_dropped() {
     let ids = [id(ROOT)];
     for (uuid, request, ours) in [(ROOT, "4", true), (COMMAND, "3", false)] {
         let mut channel = Channel::default();
@@ -177,14 +178,14 @@ fn a_late_answer_is_dropped() {
         assert_eq!(channel.serve(&mut host, |_| ("x".to_string(), 1)), ours);
         let last = if ours { Outcome::Answered } else { Outcome::Abandoned };
         assert_eq!(host.outcome(), Some(last));
-        // While the next answer is on its way, the last one's end is no more.
+        // During the next response, the end of the previous one is discarded.
         channel.ask(ROOT, "5");
         host.poll();
         assert_eq!(channel.skip_reads(&mut host), Did::Serve);
         host.answer(text("x"), 1).unwrap();
         assert_eq!(host.outcome(), None);
     }
-    // The same text with another state is another request too.
+    // The same text with another state is another request.
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     let mut host = Host::new(&ids);
@@ -195,8 +196,8 @@ fn a_late_answer_is_dropped() {
     assert_eq!((host.outcome(), channel.written.len()), (Some(Outcome::Abandoned), 0));
 }
 
-/// SVC-2: the program goes on to another service between two reads of a host; that host does not
-/// take the request of before for its own.
+/// SVC-2: the program continues with another service between two reads of a host; the host does not
+/// serve that request.
 #[test]
 fn a_request_is_read_twice() {
     let ids = [id(COMMAND)];
@@ -219,9 +220,10 @@ fn a_request_is_read_twice() {
     assert_eq!(request, "some-command");
 }
 
-/// The CNC is reset at any step of an answer: the host goes on, and the next program gets its own.
+/// The CNC is reset at any step of a response: the host continues, and the next program receives its
+/// own response.
 #[test]
-fn a_reset_in_the_middle() {
+fn a_reset_during_a_response() {
     let ids = [id(ROOT)];
     for steps in 0..24 {
         for told in [false, true] {
@@ -253,9 +255,9 @@ fn a_reset_in_the_middle() {
     }
 }
 
-/// What was served and not answered is served again after a restart.
+/// A request that was served but not answered is served again after a restart of the host.
 #[test]
-fn a_restart_serves_again() {
+fn a_restarted_host_serves_again() {
     let ids = [id(ROOT)];
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");

@@ -1,5 +1,4 @@
-//! The Service Interface: the examples of the manuals, the order of what is written, the limits,
-//! and what happens when something goes wrong.
+//! The Service Interface: the examples of the manuals, the order of writes, the limits, and failures.
 
 mod channel;
 mod examples;
@@ -8,7 +7,7 @@ mod values;
 
 use ads_cnc::{Error, ErrorKind};
 
-/// An error in the parts that tests compare.
+/// The parts of an error that tests compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) kind: ErrorKind,
@@ -30,7 +29,7 @@ impl Fault {
     }
 }
 
-/// A fault as a person writes it down; of the numbers, the one expected comes first.
+/// Creates an expected error; the expected number precedes the found one.
 pub(crate) fn fault(
     kind: ErrorKind,
     field: &'static str,

@@ -1,4 +1,4 @@
-//! What the five variables can hold, and what resets what.
+//! The values of the five variables, and their limits.
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
@@ -8,8 +8,8 @@ use ads_cnc_conformance::simulator::program::service::*;
 use super::channel::*;
 use super::{Fault, fault};
 
-/// SVC-1: 128 bytes with the NUL, of each text and on each side; what is longer is refused before
-/// anything is written.
+/// SVC-1: each text has at most 128 bytes including the NUL, on each side; longer texts are rejected
+/// before a write.
 #[test]
 fn texts_have_128_bytes() {
     let wait = SysServiceWait::default();
@@ -17,7 +17,7 @@ fn texts_have_128_bytes() {
         let (fits, over) = (letter.repeat(127), letter.repeat(128));
         let too_long = |field| fault(TooLong, field, 0, (128, 129));
 
-        // The program's request, and a text that is 127 bytes with its NUL.
+        // The program's request, and a text of 127 bytes including its NUL.
         let shorter = &letter.repeat(126);
         assert!(ServiceCall::new(id(ROOT), text(shorter), wait).is_ok());
         let mut program = ServiceCall::new(id(ROOT), text(&fits), wait).unwrap();
@@ -25,7 +25,7 @@ fn texts_have_128_bytes() {
         let CallError::Text(error) = error else { panic!("{error}") };
         assert_eq!(Fault::of(error), too_long("request"));
 
-        // It reaches the service, and the longest response the program.
+        // The request reaches the service, and the longest response the program.
         let mut channel = Channel::default();
         assert_eq!(channel.run(&mut program, millis(0)), None);
         let ids = [id(ROOT)];
@@ -57,9 +57,9 @@ fn texts_have_128_bytes() {
     }
 }
 
-/// A request that is longer than its field is none; the next one is.
+/// A request that is longer than its variable is rejected; the next one is served.
 #[test]
-fn a_request_longer_than_its_field_is_refused() {
+fn a_too_long_request_is_rejected() {
     let mut channel = Channel::default();
     let ids = [id(ROOT)];
     let mut host = Host::new(&ids);
@@ -75,21 +75,21 @@ fn a_request_longer_than_its_field_is_refused() {
     assert_eq!(host.step(), HostStep::Wait);
     host.poll();
     reach(&mut channel, &mut host);
-    // Padding is no text.
+    // Padding is not part of the text.
     host.read(&[&b"3\0"[..], &[0; 300]].concat()).unwrap();
     assert_eq!(channel.skip_reads(&mut host), Did::Serve);
     let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
     assert_eq!(request, "3");
-    // And when the answer is there, it is another request.
+    // When the response is ready, the request is a different one.
     host.answer(text("x"), 1).unwrap();
     reach(&mut channel, &mut host);
     host.read(&[b'3'; 128]).unwrap();
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
-/// SVC-5, E-35: a response state of 0 is refused; another answer to the same request is not.
+/// SVC-5, E-35: a response state of 0 is rejected; another response to the same request is accepted.
 #[test]
-fn a_response_state_of_0_is_refused() {
+fn a_response_state_of_0_is_rejected() {
     let mut channel = Channel::default();
     let ids = [id(ROOT)];
     let mut host = Host::new(&ids);
@@ -104,7 +104,7 @@ fn a_response_state_of_0_is_refused() {
     assert_eq!(channel.interface.read(ResponseState), [0xFF; 4]);
 }
 
-/// A state of not just four bytes is an error, and no state.
+/// A state that does not have exactly four bytes is an error.
 #[test]
 fn states_have_four_bytes() {
     let cut = |field| fault(Truncated, field, 0, (4, 3));
@@ -116,7 +116,7 @@ fn states_have_four_bytes() {
     host.poll();
     assert_eq!(Fault::of(host.read(&[0; 5]).unwrap_err()), long("request_state"));
 
-    // With an answer at hand it is read again.
+    // While a response is ready, the state is read again.
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     host.poll();

@@ -8,10 +8,10 @@ use ads_cnc_vectors::{Given, Pieces, Sequence, SequenceExpect};
 
 use crate::target::{Check, Failed, Target};
 
-/// The class of a fault, and its step.
+/// The class of an error, and its step.
 type Fault<'c> = Option<(&'static str, &'c str)>;
 
-/// Plays a sequence up to the fault that it states, or to its end.
+/// Plays a sequence up to its expected error, or to its end.
 pub(crate) fn play(target: &Target, sequence: &Sequence) -> Check {
     let found = match &sequence.given {
         Given::Streaming(given) => streaming::play(target, given)?,

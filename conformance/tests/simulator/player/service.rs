@@ -16,7 +16,7 @@ use crate::services::{read_variable, write_variable};
 use crate::square_root::square_root;
 use crate::target::{Check, Target};
 
-/// Plays the steps up to the first fault, on channels whose interfaces are empty.
+/// Plays the steps up to the first error, on channels with empty interfaces.
 pub(super) fn play<'c>(target: &Target, given: &'c ServiceSequence) -> Check<Fault<'c>> {
     let channels = target.channels();
     for &channel in &channels {
@@ -167,7 +167,7 @@ impl Player<'_, '_> {
         match step.actor.as_str() {
             "other" => {
                 let is_taken = write_variable(self.target, channel, variable, &value)?;
-                // The error number does not show the class of the fault, so it is derived from the
+                // The error number does not determine the class of the error, so derive it from the
                 // bytes.
                 let error = ServiceInterface::new().write(variable, &value).err();
                 let fault = error.map_or("outcome", |error| fault_class(error.kind()));

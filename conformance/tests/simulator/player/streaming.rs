@@ -16,7 +16,7 @@ use crate::target::{Check, Target};
 /// The channel that streams.
 const CHANNEL: u8 = 1;
 
-/// Plays the steps up to the first fault, on a channel whose program is started by the sequence.
+/// Plays the steps up to the first error, on a channel whose program the sequence starts.
 pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>> {
     let config =
         ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..ProgramConfig::default() };
@@ -89,8 +89,8 @@ fn write(
     })
 }
 
-/// Whether a rejection means "busy" or "rejected" is taken from the sequence: the meaning of the error
-/// numbers is assumed.
+/// The sequence determines whether a rejection means "busy" or "rejected", because the meaning of the
+/// error numbers is assumed.
 fn acknowledged(target: &Target, data: &[u8], stated: StreamAck, step: &StreamStep) -> Check<Ack> {
     let channel = Channel::new(CHANNEL.into())?;
     let held = held(target)?;

@@ -1,4 +1,5 @@
-//! Replies that depend on how a CNC is configured: any are right that suit the request and stay the same.
+//! Replies that depend on the configuration of a CNC: any reply is correct that matches the request
+//! and does not change.
 
 use std::collections::BTreeMap;
 
@@ -9,21 +10,21 @@ use ads_cnc::{Decode as _, ExtendedReply};
 
 use crate::rules::element_type;
 
-/// Which differences of replies count.
+/// The differences between replies that count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::selftest::detection) enum Compare {
-    /// All.
+    /// All differences.
     Bytes,
-    /// Not those by which the CNC may be configured: names, types and units of elements, extended
-    /// descriptions, and in a mode without writes the write flags of elements and the contents of
-    /// objects.
+    /// Differences that no configuration of the CNC explains. Configurable are names, types and units
+    /// of elements, extended descriptions and, in a mode without writes, the write flags of elements
+    /// and the contents of objects.
     Configured,
 }
 
 /// The numbers of the channels of the default model, by rank.
 const NUMBERS: [u8; 3] = [1, 2, 6];
 
-/// What a reply is of: function, group by number, offset, data of the request.
+/// The request of a reply: function, group by number, offset, data.
 type Key = (Function, IndexGroup, IndexOffset, Vec<u8>);
 
 /// The configurable replies, and the lengths of the elements.
@@ -34,7 +35,7 @@ pub(super) struct ConfigurableReplies {
 }
 
 impl ConfigurableReplies {
-    /// What counts of a reply in place of its data; `None` if all of it does.
+    /// The text to compare instead of the data of a reply; `None` to compare the data.
     pub(super) fn marker(&mut self, call: &Call<'_>, data: &[u8], writes: bool) -> Option<String> {
         let request = call.dispatch().ok()?;
         let text = || Some(ElementText::decode(data).ok()?.text.text.to_string());
@@ -64,7 +65,7 @@ impl ConfigurableReplies {
         let group = by_number(call.index_group);
         let key = (request.function(), group, call.index_offset, call.data.to_vec());
         let known = self.known.entry(key).or_insert_with(|| data.to_vec());
-        // A reply may be cut by the read length.
+        // The read length may truncate a reply.
         let len = known.len().min(data.len());
         (known.get(..len) == data.get(..len)).then_some(marker)
     }
@@ -74,7 +75,7 @@ fn element_key(element: ElementAddress) -> (IndexGroup, IndexOffset) {
     (by_number(element.class_group().index_group()), element.index_offset())
 }
 
-/// The group with the number of the channel in place of its rank.
+/// The group by the number of the channel instead of its rank.
 pub(super) fn by_number(group: IndexGroup) -> IndexGroup {
     let number = |rank: u8| {
         let number = usize::from(rank).checked_sub(1).and_then(|rank| NUMBERS.get(rank));

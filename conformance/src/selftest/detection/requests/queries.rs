@@ -1,4 +1,4 @@
-//! Queries of all listed values, and of names, indices and addresses near them.
+//! Queries of all listed values, and of similar names, indices and addresses.
 
 use ads_cnc::address::{
     Addressing, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -27,7 +27,8 @@ use crate::values::until_nul;
 const LISTED_MAX: u32 = 150;
 /// Numbers whose low byte or low half is a small number.
 const WIDE: [u32; 3] = [0x101, 0x1_0001, u32::MAX];
-/// Names that no list contains: by name only, of the Service Interface, and unknown ones.
+/// Names that no list contains: variables that are accessible by name only, those of the Service
+/// Interface, and unknown names.
 const NAMES: [&str; 12] = [
     "V.CYC.count",
     "V.CYC.matrix",
@@ -82,8 +83,8 @@ impl AnswerRecorder<'_> {
         }
     }
 
-    /// Reads by name, by the handle of the name and by the described handle, the whole value and
-    /// parts.
+    /// Reads the whole value and parts of it: by name, by the handle of the name and by the described
+    /// handle.
     fn variable(&mut self, variable: &Variable) {
         let Variable { channel, name, handle, dimensions, .. } = variable;
         let text = name.to_string();
@@ -97,7 +98,7 @@ impl AnswerRecorder<'_> {
         let by_name = by_name.and_then(|op| self.ask(op)).and_then(|data| number(&data));
         let handles = [by_name.map(Handle), *handle].into_iter().flatten();
         for (first, handle) in handles.enumerate() {
-            // Usually both handles are equal: the parts are read once.
+            // The handles are usually equal: read the parts once.
             let parts =
                 if first == 0 || by_name.map(Handle) != Some(handle) { &parts[..] } else { &[] };
             for part in [&[][..]].into_iter().chain(parts.iter().map(Vec::as_slice)) {
@@ -289,7 +290,7 @@ impl AnswerRecorder<'_> {
         }
     }
 
-    /// The same request to GEO.
+    /// Sends the request to GEO.
     fn of_geo<'a>(&mut self, request: impl Into<Request<'a>>) {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];

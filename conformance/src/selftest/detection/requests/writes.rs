@@ -16,7 +16,7 @@ use super::configurable::by_number;
 use super::{AXES, AnswerRecorder, ContentAddress, Variable, brackets, number, parts};
 
 impl AnswerRecorder<'_> {
-    /// Writes to each writable value: two other values and the original.
+    /// Writes two other values and then the original one to each writable value.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {
             if variable.writable {
@@ -75,7 +75,7 @@ impl AnswerRecorder<'_> {
         }
     }
 
-    /// Whether it is the address of a place for an axis that the suite does not write to.
+    /// Whether the address belongs to an axis index that the suite does not write to.
     fn is_unwritten(&self, group: IndexGroup, offset: IndexOffset) -> bool {
         let instance = match by_number(group).parts() {
             Some(Group::Com(com)) if com.table == ComTable::Channel => com.instance,
@@ -115,7 +115,7 @@ impl AnswerRecorder<'_> {
         }
     }
 
-    /// Reads a variable after a write: whole, by name and by handle, and in all other channels.
+    /// Reads a whole variable after a write, by name and by handle, and also in all other channels.
     fn read_back(&mut self, channel: Channel, name: &str, handle: Option<Handle>) {
         let others = [Channel::new(1).ok(), Channel::new(2).ok()].into_iter().flatten();
         for channel in [channel].into_iter().chain(others) {
@@ -180,7 +180,7 @@ impl AnswerRecorder<'_> {
     }
 }
 
-/// Values to write in place of this one: all bits inverted, and each byte changed.
+/// Two other values of the same size: all bits inverted, and each byte changed.
 fn others(value: &[u8]) -> [Vec<u8>; 2] {
     [value.iter().map(|byte| !byte).collect(), value.iter().map(|byte| byte ^ 1).collect()]
 }

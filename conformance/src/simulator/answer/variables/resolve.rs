@@ -15,7 +15,7 @@ use crate::simulator::to_len;
 /// The result of resolving a name on the channel interface.
 pub(super) enum Resolved {
     Variable(VariableRef),
-    /// A V.P, V.L or V.S, in editions that have them here.
+    /// A V.P, V.L or V.S parameter, in editions in which variables include these.
     Parameter,
 }
 
@@ -78,8 +78,8 @@ impl AnsweringCnc<'_> {
         at.copied().ok_or(AdsError::INVALID_DATA)
     }
 
-    /// Resolves a name on the channel interface to a variable and the indices of an element. If the
-    /// CNC is too old for the function, the offset is invalid.
+    /// Resolves a name on the channel interface to a variable and the indices of an element. On a CNC
+    /// that is too old for the function, the offset is invalid.
     pub(super) fn named<'n>(
         &self,
         function: Function,
@@ -126,7 +126,7 @@ impl AnsweringCnc<'_> {
         Some(VariableRef::Axis { place, variable })
     }
 
-    /// Resolves a name on the axis interface, for the axis at a place.
+    /// Resolves a name on the axis interface, for the axis at a place of the channel.
     pub(super) fn of_axis<'n>(
         &self,
         function: Function,
@@ -155,7 +155,7 @@ impl AnsweringCnc<'_> {
         variable.ok_or(AdsError::INVALID_DATA)
     }
 
-    /// The name, with the axis's name appended for an axis variable.
+    /// The name; for an axis variable, with the name of the axis at the end.
     pub(super) fn name(&self, channel: usize, at: VariableRef) -> Result<CncString, AdsError> {
         let variable = self.variable(channel, at)?;
         let VariableRef::Axis { place, .. } = at else { return Ok(variable.name.clone()) };

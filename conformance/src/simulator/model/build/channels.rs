@@ -1,4 +1,4 @@
-//! Channels.
+//! Builds and checks channels.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -13,8 +13,8 @@ use super::variables::{self, handle_span};
 use super::{items, parameters, programs};
 use crate::edition::{CncVersion, Feature};
 
-/// Maximum number of platform axes, spindles and axes of a channel that fits into index groups and
-/// handles.
+/// Maximum number of platform axes, of spindles and of axes of a channel; more do not fit into index
+/// groups and handles.
 pub(super) const INSTANCES_MAX: usize = 255;
 
 /// Inputs for building channels.
@@ -32,15 +32,15 @@ impl Channels<'_> {
         let (mut taken, mut handles) = (BTreeSet::new(), BTreeSet::new());
         for table in tables {
             let number = self.number(table)?;
-            // Checked before anything is derived from the number, such as handles.
+            // Check this before handles are derived from the number.
             if channels.contains_key(&number) {
-                let why = format!("channel {number} is there twice");
+                let why = format!("channel {number} is configured twice");
                 return Err(self.source.error(&table.number.span(), why));
             }
             channels.insert(number, self.channel(number, table, &mut taken, &mut handles)?);
         }
         if channels.is_empty() {
-            return Err(self.source.error(&(0..0), "no channel is configured"));
+            return Err(self.source.error(&(0..0), "expected at least one channel"));
         }
         Ok(channels.into_values().collect())
     }
@@ -48,7 +48,7 @@ impl Channels<'_> {
     fn number(&self, table: &ChannelTable) -> Result<u8, ModelError> {
         let number = *table.number.get_ref();
         u8::try_from(number).ok().filter(|&number| number > 0).ok_or_else(|| {
-            let why = format!("channel numbers are 1 to 255, not {number}");
+            let why = format!("expected a channel number from 1 to 255, found {number}");
             self.source.error(&table.number.span(), why)
         })
     }
@@ -64,13 +64,13 @@ impl Channels<'_> {
         let places = self.places(table, taken)?;
         let objects = items::objects(source, &table.objects, None)?;
         for (row, &element) in table.objects.iter().zip(&objects.elements) {
-            // The first channel has the platform's objects in its own group too (COM-4).
+            // The group of the first channel also contains the platform's objects (COM-4).
             if self.platform.at(element).is_some() {
-                let why = format!("an object of the platform is at offset {element:#x}");
+                let why = format!("an object of the platform has the offset {element:#x}");
                 return Err(source.error(&row.offset.span(), why));
             }
             if let Some(values) = &row.values {
-                let why = "values are for what there is more than one of";
+                let why = "values is only for items with several instances; expected value";
                 return Err(source.error(&values.span(), why));
             }
         }
@@ -88,7 +88,7 @@ impl Channels<'_> {
             if !free {
                 let span = table.variables.get(place).map_or(span.clone(), handle_span);
                 let handle = variable.handle.map_or(0, |handle| handle.0);
-                let why = format!("{} has the handle {handle:#x} of another", variable.name);
+                let why = format!("{} has the same handle {handle:#x} as another", variable.name);
                 return Err(source.error(&span, why));
             }
         }
@@ -99,8 +99,10 @@ impl Channels<'_> {
                     handle.is_none_or(|handle| take(handle, VariableRef::Axis { place, variable }));
                 if !free {
                     let handle = handle.map_or(0, |handle| handle.0);
-                    let why =
-                        format!("at place {at} {} has the handle {handle:#x} of another", of.name);
+                    let why = format!(
+                        "{} at place {at} has the same handle {handle:#x} as another",
+                        of.name
+                    );
                     return Err(source.error(&span, why));
                 }
             }
@@ -148,7 +150,7 @@ impl Channels<'_> {
             let (number, error) =
                 (*at.get_ref(), |why: String| Err(self.source.error(&at.span(), why)));
             if places.len() >= INSTANCES_MAX {
-                return error("a channel has at most 255 places".to_owned());
+                return error("expected at most 255 places".to_owned());
             }
             if number == 0 {
                 places.push(None);
@@ -160,7 +162,7 @@ impl Channels<'_> {
             };
             if !taken.insert(axis) {
                 return error(format!(
-                    "the axis with the logical number {number} is at another place"
+                    "the axis with the logical number {number} already has another place"
                 ));
             }
             if !names.insert(&model.name) {

@@ -1,4 +1,4 @@
-//! Objects and elements.
+//! Builds and checks objects and elements.
 
 use ads_cnc::address::Class;
 use ads_cnc::limits::TEXT_MAX;
@@ -13,15 +13,15 @@ use super::super::{ModelError, class_place};
 use super::parse::text;
 use crate::simulator::to_len;
 
-/// Maximum size of a content in bytes, so that it fits into a frame after result and length.
+/// Maximum size of a content in bytes, so that it fits into a frame with result and length.
 const CONTENT_MAX: usize = 0xFFF8;
 
 /// Size of a STRING without a declared size (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;
 
-/// Offsets of objects must be lower: from here on they belong to axes.
+/// Offsets of objects must be smaller, because offsets from here on belong to axes.
 const OFFSET_OF_AXES: u32 = 0x1_0000;
-/// Element numbers must be lower: from here on they belong to the next axis.
+/// Element numbers must be smaller, because numbers from here on belong to the next axis.
 const HLD_AXIS_STRIDE: usize = 0x1000;
 
 /// A declared value of an object, element or variable.
@@ -47,22 +47,22 @@ impl DeclaredValue<'_> {
         let each = match (scalar.size(), self.size) {
             (Some(size), None) => size,
             (Some(_), Some(size)) => {
-                let why = format!("size is for a STRING; {name} has its own");
+                let why = format!("size is only for a STRING; {name} has a fixed size");
                 return Err(self.source.error(&size.span(), why));
             }
             (None, None) => to_len(STRING_DEFAULT),
             (None, Some(size)) if *size.get_ref() == 0 => {
-                return Err(self.source.error(&size.span(), "a STRING has a NUL at least"));
+                return Err(self.source.error(&size.span(), "the size of a STRING includes a NUL"));
             }
             (None, Some(size)) => to_len(*size.get_ref()),
         };
         let size = each.saturating_mul(self.count.unwrap_or(1));
         if size > self.max {
-            return Err(error(format!("{size} bytes of value, at most {} fit", self.max)));
+            return Err(error(format!("{size} bytes of value; the maximum is {}", self.max)));
         }
         let values = match (self.value, self.values) {
             (Some(_), Some(values)) => {
-                return Err(self.source.error(&values.span(), "either value or values"));
+                return Err(self.source.error(&values.span(), "expected either value or values"));
             }
             (None, None) => InitialValues::Same(vec![0; size]),
             (Some(value), None) => {
@@ -88,7 +88,7 @@ impl DeclaredValue<'_> {
     }
 }
 
-/// The meaning that `is` declares; `of` is the permitted one.
+/// The meaning that `is` declares; `of` is the allowed meaning.
 fn meaning(
     source: Source<'_>,
     is: Option<&Spanned<String>>,
@@ -98,12 +98,12 @@ fn meaning(
     let Some(is) = is else { return Ok(Meaning::Value) };
     let error = |why: &str| Err(source.error(&is.span(), why));
     match (is.get_ref().as_str(), of) {
-        ("axis-number", None) => error("axis-number is for what each axis has"),
+        ("axis-number", None) => error("axis-number is only for objects and elements of axes"),
         ("axis-number", Some("number")) if writable => {
-            error("axes are exchanged between places of channels, not on the platform")
+            error("not writable: axes are exchanged in channels, not on the platform")
         }
         ("axis-number", Some(_)) => Ok(Meaning::AxisNumber),
-        _ => error("the one thing that a content can be is axis-number"),
+        _ => error("expected axis-number"),
     }
 }
 
@@ -117,10 +117,10 @@ fn holds_numbers(
     if item.meaning == Meaning::Value || whole && item.initial.size >= 2 {
         return Ok(());
     }
-    Err(source.error(&span.span(), "an axis-number has an integer type of two bytes or more"))
+    Err(source.error(&span.span(), "axis-number needs an integer type of at least two bytes"))
 }
 
-/// The objects of a list; `of` is the meaning that an axis number may have here.
+/// The objects of a list; `of` is the allowed meaning of an axis number.
 pub(super) fn objects(
     source: Source<'_>,
     rows: &[ObjectRow],
@@ -149,13 +149,15 @@ pub(super) fn objects(
         holds_numbers(source, &item, &row.r#type)?;
         let (element, span) = (*row.offset.get_ref(), row.offset.span());
         if element >= OFFSET_OF_AXES {
-            return Err(source.error(&span, "offsets from 0x10000 on are those of axes"));
+            return Err(source.error(&span, "offsets from 0x10000 on belong to axes"));
         }
         if let (Some(id), Some(_)) = (&row.id, of) {
-            return Err(source.error(&id.span(), "what each axis has has an ID on each"));
+            return Err(
+                source.error(&id.span(), "no id: each axis has its own object with its own ID")
+            );
         }
         if objects.by_element.insert(element, objects.items.len()).is_some() {
-            return Err(source.error(&span, format!("two objects are at offset {element:#x}")));
+            return Err(source.error(&span, format!("two objects have the offset {element:#x}")));
         }
         objects.items.push(item);
         objects.elements.push(element);
@@ -178,7 +180,7 @@ pub(super) fn classes(
         (Class::Spindle, &tables.spindle.each, &none),
     ];
     for (class, channel, axis) in parts {
-        // A platform axis has a fixed place, so that axes cannot be exchanged there.
+        // Platform axes have fixed places, so they cannot be exchanged.
         let on_platform = matches!(class, Class::PositionController | Class::Hld);
         let of = Some(if on_platform { "number" } else { "place" });
         let max = if class == Class::Hld { HLD_AXIS_STRIDE } else { 0x1_0000 };
@@ -200,17 +202,18 @@ fn elements(
     let mut elements = Elements::default();
     if let Some(name) = &table.name {
         text(source, name)?;
-        // The number of the instance must still fit.
+        // Leave room for the number of the instance.
         if name.get_ref().chars().count() > 200 {
-            return Err(source.error(&name.span(), "an instance's name has at most 200 characters"));
+            return Err(source.error(&name.span(), "expected at most 200 characters"));
         }
         elements.name.clone_from(name.get_ref());
     }
     for row in &table.elements {
         if elements.items.len() >= max - 1 {
-            return Err(
-                source.error(&row.name.span(), "an element further would be another axis's")
-            );
+            return Err(source.error(
+                &row.name.span(),
+                "too many elements: this number belongs to another axis",
+            ));
         }
         elements.items.push(element(source, row, of)?);
     }
@@ -227,7 +230,7 @@ fn element(
     let (unit, unit_span) = unit.unwrap_or_default();
     for (text, span) in [(&name, row.name.span()), (&unit, unit_span)] {
         if text.as_bytes().len() >= TEXT_MAX {
-            return Err(source.error(&span, "at most 255 characters and a NUL"));
+            return Err(source.error(&span, "expected at most 255 characters"));
         }
     }
     let (type_name, initial) = DeclaredValue {

@@ -1,4 +1,4 @@
-//! The lists of COM objects with their IDs and addresses.
+//! Builds the lists of COM objects with their IDs and addresses.
 
 use std::collections::BTreeSet;
 
@@ -13,10 +13,10 @@ use super::super::item::{Item, Objects};
 use super::super::{ChannelModel, Model, ModelError};
 use crate::simulator::to_u32;
 
-/// Maximum number of objects in a list, so that all fit into one reply.
+/// Maximum number of objects in a list, so that all descriptors fit into one reply.
 pub(super) const OBJECTS_MAX: usize = 780;
 
-/// Makes all lists of a model.
+/// Builds all lists of a model.
 pub(super) fn fill(
     source: Source<'_>,
     document: &Document,
@@ -37,7 +37,7 @@ pub(super) fn fill(
         list.extend(&platform);
         if list.len() > OBJECTS_MAX {
             let span = table.map(|table| table.number.span()).unwrap_or_default();
-            let why = format!("{} objects in a list, at most {OBJECTS_MAX} fit", list.len());
+            let why = format!("{} objects in a list; the maximum is {OBJECTS_MAX}", list.len());
             return Err(source.error(&span, why));
         }
         channel.list_of_first = list.into_iter().collect();
@@ -47,10 +47,12 @@ pub(super) fn fill(
     if model.platform_axis.items.len() > OBJECTS_MAX {
         let rows = document.platform_axis.objects.get(OBJECTS_MAX);
         let span = rows.map(|row| row.name.span()).unwrap_or_default();
-        return Err(source.error(&span, format!("at most {OBJECTS_MAX} objects fit into a list")));
+        return Err(
+            source.error(&span, format!("expected at most {OBJECTS_MAX} objects in a list"))
+        );
     }
     let axes = (1_u32..).zip(&model.axes).map(|(place, _)| {
-        // With the place in the offset, as in the example, not as in the table (E-04).
+        // The axis is in the offset, as in the manual's example, not as in its table (E-04).
         let group = content(ComTable::Axis, 0);
         of_axis(&model.platform_axis, group, place, &mut ids)
             .collect::<Result<Descriptors, Error>>()
@@ -59,7 +61,7 @@ pub(super) fn fill(
     Ok(())
 }
 
-/// Assigns the IDs that are not declared, from 1 on.
+/// Assigns the IDs that are not declared, from 1.
 struct IdAllocator {
     taken: BTreeSet<u32>,
     next: u32,
@@ -148,7 +150,7 @@ fn of_axis(
     })
 }
 
-/// The group of the contents of a channel, of the platform (0), or of the platform's axes.
+/// The group of the contents of a channel, of the platform (0), or of the platform axes.
 fn content(table: ComTable, instance: u8) -> IndexGroup {
     let (addressing, access) = (Addressing::Logical, Access::Element);
     ComGroup { addressing, access, table, instance }.index_group()

@@ -23,9 +23,9 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
     let document: Document = toml::from_str(source.text).map_err(|error| {
         // An error without a position, such as a missing table.
         let reason = match error.message() {
-            // In the words of TOML.
+            // Explain the error in the words of TOML.
             "invalid type: map, expected a sequence" => {
-                "a list of tables is needed: its name in double brackets, as [[channel]]"
+                "expected a list of tables, with the name in double brackets: [[channel]]"
             }
             reason => reason,
         };
@@ -46,7 +46,7 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
     };
     let spindles = match &document.spindles {
         Some(count) if to_len(*count.get_ref()) > INSTANCES_MAX => {
-            return Err(source.error(&count.span(), "there are at most 255 spindles"));
+            return Err(source.error(&count.span(), "expected at most 255 spindles"));
         }
         Some(count) => to_len(*count.get_ref()),
         None => 0,
@@ -89,19 +89,19 @@ fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, Mode
     for (place, table) in (1_u32..).zip(tables) {
         let span = table.name.span();
         if axes.len() >= INSTANCES_MAX {
-            return Err(source.error(&span, "there are at most 255 platform axes"));
+            return Err(source.error(&span, "expected at most 255 platform axes"));
         }
         let name = text(source, &table.name)?;
         let apart = |byte: &u8| b".[]".contains(byte);
         if name.as_bytes().is_empty() || name.as_bytes().iter().any(apart) {
-            return Err(source.error(&span, "an axis's name has a character, and none of . [ ]"));
+            return Err(source.error(&span, "expected a name of an axis, without . [ ]"));
         }
         let (number, span) = match &table.number {
             Some(number) => (*number.get_ref(), number.span()),
             None => (place, span),
         };
         if number == 0 {
-            return Err(source.error(&span, "the logical axis number 0 is that of no axis"));
+            return Err(source.error(&span, "expected a logical axis number greater than 0"));
         }
         if !numbers.insert(number) {
             return Err(source.error(&span, format!("two axes have the logical number {number}")));

@@ -1,4 +1,4 @@
-//! Dynamic parameters.
+//! Builds and checks dynamic parameters.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use super::super::item::Objects;
 use super::super::{ModelError, Parameter, Times};
 use super::parse::{text, time};
 
-/// The parameters of a channel with these objects.
+/// Builds the parameters of a channel with these objects.
 pub(super) fn of_channel(
     source: Source<'_>,
     rows: &[ParameterRow],
@@ -28,12 +28,12 @@ pub(super) fn of_channel(
             let named = |item: &&super::super::Item| item.name.to_string() == *object.get_ref();
             let place = objects.items.iter().position(|item| named(&item));
             place.ok_or_else(|| {
-                let why = format!("the channel has no object {:?} of its own", object.get_ref());
+                let why = format!("the channel has no own object {:?}", object.get_ref());
                 source.error(&object.span(), why)
             })
         });
         if !names.insert(name.clone()) {
-            return Err(source.error(&span, format!("{name} is there twice")));
+            return Err(source.error(&span, format!("{name} is configured twice")));
         }
         let (value, needs) = (DynamicValue::from(row.value), needs.transpose()?);
         let times = times(source, row)?;
@@ -58,7 +58,7 @@ fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
 pub(in crate::simulator) fn kind(name: &CncString) -> Result<DynamicKind, String> {
     if name.as_bytes().len() >= DYNAMIC_NAME_MAX {
         return Err(format!(
-            "a parameter's name has at most {DYNAMIC_NAME_MAX} bytes with its NUL"
+            "expected a name of at most {DYNAMIC_NAME_MAX} bytes, including a NUL"
         ));
     }
     if let Some(rest) = name.as_bytes().strip_prefix(b"P")
@@ -70,5 +70,5 @@ pub(in crate::simulator) fn kind(name: &CncString) -> Result<DynamicKind, String
         let path = VariablePath::from_text(name.as_cnc_str());
         path.is_ok_and(|path| path.kind().text().to_string() == kind.to_string())
     });
-    kind.ok_or_else(|| "a parameter's name begins with P, V.L., V.P. or V.S.".to_owned())
+    kind.ok_or_else(|| "expected a name that begins with P, V.L., V.P. or V.S.".to_owned())
 }

@@ -1,4 +1,4 @@
-//! Texts of a file, parsed.
+//! Parses texts of a file.
 
 use std::time::Duration;
 

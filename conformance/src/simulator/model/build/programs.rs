@@ -1,5 +1,5 @@
-//! NC programs of a channel: the streaming program, and the program that sends requests to
-//! services.
+//! Builds the NC programs of a channel: the streaming program, and the program that sends requests
+//! to services.
 
 use std::time::Duration;
 
@@ -15,8 +15,8 @@ use crate::simulator::program::{
 };
 use crate::text::some_time;
 
-/// The streaming program. Without a configuration it restarts after each end, because no ADS
-/// function starts it.
+/// The streaming program. Without a configuration, it restarts after each end, because no ADS
+/// function can start it.
 pub(super) fn streaming(
     source: Source<'_>,
     table: &StreamingTable,
@@ -31,7 +31,7 @@ pub(super) fn streaming(
             "once" => Start::Once,
             "by-hand" => Start::ByHand,
             other => {
-                let why = format!("{other:?} is not one of again, once and by-hand");
+                let why = format!("expected again, once or by-hand, found {other:?}");
                 return Err(source.error(&start.span(), why));
             }
         };
@@ -57,11 +57,11 @@ pub(super) fn service(
 ) -> Result<ScriptConfig, ModelError> {
     let rows = table.requests.get_ref();
     if rows.is_empty() {
-        return Err(source.error(&table.requests.span(), "no request is configured"));
+        return Err(source.error(&table.requests.span(), "expected at least one request"));
     }
     let repeat = match &table.times {
         Some(times) if *times.get_ref() == 0 => {
-            return Err(source.error(&times.span(), "requests are made once at least"));
+            return Err(source.error(&times.span(), "expected at least 1"));
         }
         Some(times) => Repeat::Times(*times.get_ref()),
         None => Repeat::Endless,
@@ -97,7 +97,7 @@ fn request(source: Source<'_>, row: &RequestRow) -> Result<ServiceRequest, Model
         cycle: Duration::ZERO,
     };
     if let Err(invalid) = Script::new(alone) {
-        // The position of the parameter that the error is about.
+        // Find the position of the parameter with the error.
         let timer = wait.is_some_and(|wait| wait.p2.is_some() && wait.p3.is_none());
         let span = match (&row.state, &row.wait) {
             (Some(state), _) if *state.get_ref() == 0 => state.span(),

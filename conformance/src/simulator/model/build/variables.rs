@@ -1,4 +1,4 @@
-//! Variables.
+//! Builds and checks variables.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ use super::items::DeclaredValue;
 use super::parse::text;
 use crate::simulator::{to_len, to_u32};
 
-/// Maximum length of an axis's name, which follows that of the variable.
+/// Maximum length of the name of an axis, which follows the name of the variable.
 const AXIS_NAME_MAX: usize = 64;
 
 /// Builds and checks a variable.
@@ -30,14 +30,14 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
     let path = VariablePath::from_text(name.as_cnc_str());
     let path = path.map_err(|error| source.error(&span, error))?;
     if !path.elements().is_empty() {
-        return Err(source.error(&span, "an index at the end is an element's, not the variable's"));
+        return Err(source.error(&span, "expected the name of a variable, not of an element"));
     }
     let dimensions = row.dimensions.as_ref().map(|of| of.get_ref().clone()).unwrap_or_default();
     let mut count = dimensions.iter().map(|&elements| to_len(elements));
     let count = count.try_fold(1_usize, |count, elements| count.checked_mul(elements));
     let Some(count) = count.filter(|&count| count > 0) else {
         let of = row.dimensions.as_ref().map(Spanned::span).unwrap_or(span);
-        return Err(source.error(&of, "every dimension has an element, and they can be counted"));
+        return Err(source.error(&of, "a dimension is 0, or there are too many elements"));
     };
     let (type_name, initial) = DeclaredValue {
         source,
@@ -62,7 +62,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         service: None,
         name,
     };
-    // The codec checks name and dimensions.
+    // The codec checks the name and the dimensions.
     encodes(&description(&variable)).map_err(|why| source.error(&span, why))?;
     Ok(variable)
 }
@@ -78,7 +78,7 @@ fn description(variable: &Variable) -> DescriptionRef<'_> {
     }
 }
 
-/// The extended description, V.E only; by default that of the printed example.
+/// The extended description, only for V.E; by default that of the printed example.
 fn extended(
     source: Source<'_>,
     row: &VariableRow,
@@ -86,19 +86,19 @@ fn extended(
 ) -> Result<Option<ExtendedDescription>, ModelError> {
     if !external {
         return match row.synchronisation.as_ref().or(row.validity.as_ref()) {
-            Some(given) => Err(source.error(&given.span(), "only V.E has an extended description")),
+            Some(given) => Err(source.error(&given.span(), "only V.E has extended descriptions")),
             None => Ok(None),
         };
     }
     let unknown = |given: &Spanned<String>, names: &str| {
-        source.error(&given.span(), format!("{:?} is not one of {names}", given.get_ref()))
+        source.error(&given.span(), format!("expected {names}, found {:?}", given.get_ref()))
     };
     let synchronisation = match &row.synchronisation {
         None => Synchronisation::SYNCHRONIZED,
         Some(given) => match given.get_ref().as_str() {
             "NO_SYNC" => Synchronisation::NO_SYNC,
             "SYNCHRONIZED" => Synchronisation::SYNCHRONIZED,
-            _ => return Err(unknown(given, "NO_SYNC and SYNCHRONIZED")),
+            _ => return Err(unknown(given, "NO_SYNC or SYNCHRONIZED")),
         },
     };
     let validity = match &row.validity {
@@ -106,28 +106,28 @@ fn extended(
         Some(given) => match given.get_ref().as_str() {
             "CHANNEL" => Validity::CHANNEL,
             "GLOBAL" => Validity::GLOBAL,
-            _ => return Err(unknown(given, "CHANNEL and GLOBAL")),
+            _ => return Err(unknown(given, "CHANNEL or GLOBAL")),
         },
     };
     Ok(Some(ExtendedDescription { synchronisation, validity }))
 }
 
-/// The variables of V.A, which every axis has.
+/// Builds the variables of V.A, which every axis has.
 pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variables, ModelError> {
     let mut variables = Variables::default();
     for (number, row) in (0_u32..).zip(rows) {
         let span = row.name.span();
         let mut variable = variable(source, row)?;
         if !starts_with(&variable.name, "V.A.") {
-            return Err(source.error(&span, "what each axis has is V.A"));
+            return Err(source.error(&span, "expected a V.A variable"));
         }
         if variable.name.as_bytes().len() > NAME_MAX - AXIS_NAME_MAX {
-            let why = format!("its name and that of an axis exceed {NAME_MAX} characters");
+            let why = format!("with the name of an axis, the name exceeds {NAME_MAX} characters");
             return Err(source.error(&span, why));
         }
         let handle = variable.handle.unwrap_or(Handle(0xC000_0000 | number));
         if handle.0 & 0x00FF_FF00 != 0 {
-            let why = "the bits 8 to 23 of an axis variable's handle are place and channel";
+            let why = "expected 0 in bits 8 to 23, which are the place and the channel";
             return Err(source.error(&handle_span(row), why));
         }
         variable.handle = Some(handle);
@@ -136,7 +136,7 @@ pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variab
     Ok(variables)
 }
 
-/// V.E, V.G and V.CYC of a channel, and the five variables of its Service Interface.
+/// Builds V.E, V.G and V.CYC of a channel, and the five variables of its Service Interface.
 pub(super) fn of_channel(
     source: Source<'_>,
     number: u8,
@@ -151,13 +151,15 @@ pub(super) fn of_channel(
         let named = |kind| starts_with(&variable.name, kind);
         let (external, global, cyclic) = (named("V.E."), named("V.G."), named("V.CYC."));
         if !(external || global || cyclic) {
-            let why = "a channel's variables are V.E, V.G and V.CYC; V.A are what each axis has, \
-                       V.P, V.L and V.S parameters";
+            let why = "expected V.E, V.G or V.CYC; V.A variables belong to axes, and V.P, \
+                       V.L and V.S are parameters";
             return Err(source.error(&span, why));
         }
         if cyclic {
             if let Some(handle) = &row.handle {
-                return Err(source.error(&handle.span(), "V.CYC is by name only"));
+                return Err(
+                    source.error(&handle.span(), "no handle: V.CYC is accessible by name only")
+                );
             }
         } else {
             let index = of_kinds.entry(global).or_insert(0_u32);
@@ -166,7 +168,7 @@ pub(super) fn of_channel(
         }
         if let Some(values) = &row.values {
             return Err(
-                source.error(&values.span(), "values are for what there is more than one of")
+                source.error(&values.span(), "values is only for items with several instances")
             );
         }
         if service
@@ -174,7 +176,7 @@ pub(super) fn of_channel(
                 .iter()
                 .any(|one| variable.name.as_bytes() == one.name().as_bytes())
         {
-            return Err(source.error(&span, "the Service Interface has its variables of itself"));
+            return Err(source.error(&span, "the variables of the Service Interface are built in"));
         }
         add(source, row, &mut variables, variable)?;
     }
@@ -187,7 +189,7 @@ pub(super) fn of_channel(
     Ok(variables)
 }
 
-/// The default handle, unique unless another variable is declared with it.
+/// The default handle, which is unique unless another variable declares it.
 fn handle(channel: u8, global: bool, index: u32) -> Handle {
     let kind: u32 = if global { 0x8000_0000 } else { 0x4000_0000 };
     Handle(kind | u32::from(channel) << 22 | index)
@@ -217,15 +219,17 @@ fn add(
     variable: Variable,
 ) -> Result<(), ModelError> {
     let size = variable.initial.size;
-    // The whole value must be writable by name, with the name in the same request.
+    // The whole value must be writable by name in one request that also contains the name.
     let most = NAME_VALUE_MAX.saturating_sub(variable.name.as_bytes().len()).min(HANDLE_VALUE_MAX);
     if row.writable && variable.dimensions.is_empty() && size > most {
-        let why = format!("{size} bytes of value, at most {most} can be written");
+        let why = format!("{size} bytes of value; at most {most} can be written");
         return Err(source.error(&row.name.span(), why));
     }
     let place = variables.list.len();
     if variables.by_name.insert(variable.name.as_bytes().to_vec(), place).is_some() {
-        return Err(source.error(&row.name.span(), format!("{} is there twice", variable.name)));
+        return Err(
+            source.error(&row.name.span(), format!("{} is configured twice", variable.name))
+        );
     }
     variables.list.push(variable);
     Ok(())

@@ -1,4 +1,4 @@
-//! The NC program's side.
+//! The NC program's side of the Service Interface.
 
 use std::fmt;
 use std::time::Duration;
@@ -8,11 +8,11 @@ use ads_cnc::{CncStr, Error, ErrorKind};
 
 use super::{NoTimer, SysServiceWait, WaitStep, Waiting, text_value, value_of};
 
-/// A CNC program's request to a service: it writes UUID, REQUEST and, last, REQUEST_STATE, waits
+/// An NC program's request to a service: it writes UUID, REQUEST and finally REQUEST_STATE, waits
 /// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
 ///
-/// A step is unchanged until the caller reports it as done, so that a failed one can be repeated.
-/// Exception: writing REQUEST_STATE twice sends the request twice, and discards a response (SVC-3).
+/// The step does not change until the caller reports it as done, so that a failed step can be
+/// repeated. But writing REQUEST_STATE twice sends the request twice and discards a response (SVC-3).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -75,16 +75,16 @@ pub enum CallStep<'a> {
     Write(ServiceVariable, &'a [u8]),
     /// Wait, then call [`ServiceCall::poll`].
     Wait {
-        /// When the maximum wait ends: polling later than that is not needed.
+        /// The time at which the maximum wait ends; `None` without a limit. Poll no later.
         until: Option<Duration>,
     },
-    /// The service has answered.
+    /// The service has responded.
     Done { state: u32, response: CncStr<'a> },
-    /// No response within the maximum wait. The variables keep the request until the next one.
+    /// No response arrived within the maximum wait. The variables keep the request until the next one.
     TimedOut,
 }
 
-/// Why a request cannot be sent.
+/// The reason why a request cannot be sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallError {
     /// The request is too long.
@@ -133,10 +133,10 @@ impl fmt::Display for CallError {
 impl std::error::Error for CallError {}
 
 impl ServiceCall {
-    /// A request to a service, with the request state 1 of the examples.
+    /// Creates a request with the request state 1, as in the examples of the manual.
     ///
     /// # Errors
-    /// [`CallError::Text`] for a request of more than 128 bytes with its NUL.
+    /// [`CallError::Text`] for a request of more than 128 bytes including its NUL.
     pub fn new(
         id: ServiceId,
         request: CncStr<'_>,
@@ -145,10 +145,10 @@ impl ServiceCall {
         Self::with_state(id, request, 1, wait)
     }
 
-    /// A request with another request state.
+    /// Creates a request with another request state.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), [`CallError::State`] for a state of 0.
+    /// Those of [`new`](Self::new), and [`CallError::State`] for a state of 0.
     pub fn with_state(
         id: ServiceId,
         request: CncStr<'_>,
@@ -168,7 +168,7 @@ impl ServiceCall {
         })
     }
 
-    /// The next step; unchanged until it is done.
+    /// The next step; it does not change until it is reported as done.
     pub fn step(&self) -> CallStep<'_> {
         match &self.phase {
             CallPhase::Uuid => CallStep::Write(ServiceVariable::Uuid, &self.uuid),
@@ -177,7 +177,7 @@ impl ServiceCall {
             CallPhase::Waiting(waiting) => match waiting.step() {
                 WaitStep::Read(variable) => CallStep::Read(variable),
                 WaitStep::Wait { until } => CallStep::Wait { until },
-                // With a response the next step is to read it.
+                // This phase has no response, because the step after a response is to read it.
                 WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
             },
             CallPhase::Response(_) => CallStep::Read(ServiceVariable::Response),
@@ -190,7 +190,7 @@ impl ServiceCall {
         ServiceVariable::Response.text(&self.response).unwrap_or(CncStr::EMPTY)
     }
 
-    /// Reports a write, and when it was done: the wait begins after the last one. Ignored if the
+    /// Reports that a write was done at `now`; the wait begins after the last write. Ignored if the
     /// step is not a write.
     pub fn written(&mut self, now: Duration) {
         match self.phase {
@@ -201,11 +201,11 @@ impl ServiceCall {
         }
     }
 
-    /// Reports the value that was read, and when; ignored if the step is not a read.
+    /// Reports the value that was read at `now`; ignored if the step is not a read.
     ///
     /// # Errors
-    /// A state that does not have exactly four bytes, or a response of more than 128 bytes with its
-    /// NUL; the step is to be repeated.
+    /// For a state that does not have exactly four bytes, or a response of more than 128 bytes including
+    /// its NUL; then the step must be repeated.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         match &mut self.phase {
             CallPhase::Waiting(waiting) => {

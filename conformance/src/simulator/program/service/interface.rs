@@ -1,18 +1,18 @@
-//! The Service Interface in the CNC.
+//! The Service Interface of the CNC.
 
 use ads_cnc::Error;
 use ads_cnc::service::ServiceVariable;
 
 use super::text_value;
 
-/// The Service Interface of one channel: the behaviour of its five variables.
+/// The Service Interface of a channel, with the behaviour of its five variables.
 ///
-/// - A write to REQUEST_STATE, of any value, sets RESPONSE_STATE to 0 (SVC-3). The manuals state
-///   that for the NC program; that it applies to other writers and to 0 is assumed.
+/// - A write of any value to REQUEST_STATE sets RESPONSE_STATE to 0 (SVC-3). The manuals state this
+///   for the NC program; for other writers and for the value 0, this is assumed.
 /// - When the service has finished, REQUEST_STATE becomes 0 (SVC-4). The event that causes this is
-///   assumed: see [`Clears`].
-/// - Initially all five are empty or 0, which is assumed. That UUID has 128 bytes like the other
-///   texts is assumed too.
+///   assumed, see [`Clears`].
+/// - Initially, all five variables are empty or 0 (assumed). UUID has 128 bytes like the other texts
+///   (assumed).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -41,8 +41,8 @@ pub struct ServiceInterface {
     clears: Clears,
 }
 
-/// The event that makes the interface set REQUEST_STATE to 0 (SVC-4). It is not documented; a
-/// [`Host`] works with either.
+/// The event at which the interface sets REQUEST_STATE to 0 (SVC-4). The event is not documented; a
+/// [`Host`] works with all of them.
 ///
 /// [`Host`]: ads_cnc::service::Host
 ///
@@ -58,20 +58,20 @@ pub struct ServiceInterface {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Clears {
-    /// When RESPONSE_STATE is written, which ends the service's answer.
+    /// A write to RESPONSE_STATE, which completes the response of the service.
     #[default]
     OnResponseState,
-    /// Never: the service does it.
+    /// Never: the service sets REQUEST_STATE to 0.
     Never,
 }
 
 impl ServiceInterface {
-    /// An interface in its initial state.
+    /// Creates an interface in its initial state.
     pub fn new() -> Self {
         Self::with(Clears::OnResponseState)
     }
 
-    /// An interface that sets REQUEST_STATE to 0 at this event.
+    /// Creates an interface that sets REQUEST_STATE to 0 at this event.
     pub fn with(clears: Clears) -> Self {
         Self {
             uuid: vec![0],
@@ -83,7 +83,7 @@ impl ServiceInterface {
         }
     }
 
-    /// The value of a variable: a text with its NUL, or the four bytes of a state.
+    /// The value of a variable: a text including its NUL, or the four bytes of a state.
     pub fn read(&self, variable: ServiceVariable) -> &[u8] {
         match variable {
             ServiceVariable::Uuid => &self.uuid,
@@ -94,12 +94,12 @@ impl ServiceInterface {
         }
     }
 
-    /// Writes a variable, with the effects on the others.
+    /// Writes a variable, with the effects on other variables.
     ///
     /// # Errors
-    /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes with its NUL,
-    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
-    /// for a state that does not have exactly four bytes; nothing is written.
+    /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes including its NUL;
+    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) or [`Trailing`](ads_cnc::ErrorKind::Trailing)
+    /// for a state that does not have exactly four bytes. Then nothing is written.
     pub fn write(&mut self, variable: ServiceVariable, value: &[u8]) -> Result<(), Error> {
         match variable {
             ServiceVariable::Uuid => self.uuid = text_value(value, variable)?,

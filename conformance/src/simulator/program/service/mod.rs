@@ -1,13 +1,13 @@
 //! The CNC's side of the Service Interface: the interface, and the NC program that sends requests.
 //!
-//! | | |
+//! | item | type |
 //! |---|---|
 //! | the five variables of a channel | [`ServiceInterface`] |
-//! | the NC program that asks a service | [`ServiceCall`] |
-//! | its wait for a response, as the cycle SysServiceWait has it | [`SysServiceWait`] |
+//! | a request of an NC program to a service | [`ServiceCall`] |
+//! | the wait for a response by the cycle SysServiceWait | [`SysServiceWait`] |
 //!
-//! The service's side is [`Host`](ads_cnc::service::Host). All are state machines without I/O and
-//! clock. The codec's tests of that host include this module by its path, so it uses only
+//! The service's side is [`Host`](ads_cnc::service::Host). All types are state machines without I/O
+//! or clock. The codec's tests of the host include this module by its path, so it uses only
 //! [`ads_cnc`] and `std`.
 //!
 //! ```
@@ -35,7 +35,7 @@
 //!         }
 //!         CallStep::Wait { .. } => program.poll(),
 //!         CallStep::Done { response, .. } => break response.to_string(),
-//!         CallStep::TimedOut => unreachable!("it has no longest wait"),
+//!         CallStep::TimedOut => unreachable!("there is no maximum wait"),
 //!     }
 //!     // … and the service's.
 //!     match host.step() {
@@ -66,7 +66,7 @@ pub use call::{CallError, CallStep, ServiceCall};
 pub use interface::{Clears, ServiceInterface};
 pub use wait::{LongestWait, NoTimer, SysServiceWait, WaitStep, Waiting};
 
-/// The value of a variable: the text and one NUL.
+/// The value of a variable with this text: the text and one NUL.
 fn value_of(text: CncStr<'_>) -> Vec<u8> {
     text.bytes().chain([0]).collect()
 }

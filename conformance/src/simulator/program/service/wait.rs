@@ -6,18 +6,18 @@ use std::time::Duration;
 use ads_cnc::Error;
 use ads_cnc::service::ServiceVariable;
 
-/// The parameters of the cycle SysServiceWait: how a CNC program waits for a response (SVC-8).
+/// The parameters of the cycle SysServiceWait, with which an NC program waits for a response (SVC-8).
 ///
-/// | parameter | | here |
+/// | parameter | meaning | field |
 /// |---|---|---|
-/// | @P1 | response state that means: keep waiting; 0 if it is not given | `keep_waiting` |
-/// | @P2 | longest wait in milliseconds; for ever if it is not given | [`LongestWait::time`] |
-/// | @P3 | ID of the timer; must be given with @P2 | [`LongestWait::timer`] |
+/// | @P1 | response state for which the cycle keeps waiting; default 0 | `keep_waiting` |
+/// | @P2 | maximum wait in milliseconds; no limit by default | [`LongestWait::time`] |
+/// | @P3 | ID of the timer; required with @P2 | [`LongestWait::timer`] |
 ///
-/// A request sets RESPONSE_STATE to 0 (SVC-3). So a @P1 other than 0 ends the wait at once, unless
-/// a service has already set that state.
+/// A request sets RESPONSE_STATE to 0 (SVC-3). Therefore, a @P1 other than 0 ends the wait at once,
+/// unless a service has already set that state.
 ///
-/// Assumed: all three are UNS32; with a @P2 of 0 the cycle reads once; @P3 without @P2 has no
+/// Assumed: all parameters are UNS32; with a @P2 of 0, the cycle reads once; @P3 without @P2 has no
 /// effect.
 ///
 /// Manual: `service-en`, section 3; `service-de` 1.03 does not have the cycle.
@@ -43,7 +43,8 @@ pub struct SysServiceWait {
     pub longest: Option<LongestWait>,
 }
 
-/// The maximum wait of the cycle SysServiceWait: its @P2 and @P3; example at [`SysServiceWait`].
+/// The maximum wait of the cycle SysServiceWait: @P2 and @P3; for an example, see
+/// [`SysServiceWait`].
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::service::SysServiceWait;
@@ -73,7 +74,7 @@ impl fmt::Display for NoTimer {
 impl std::error::Error for NoTimer {}
 
 impl SysServiceWait {
-    /// The cycle with these values of @P1, @P2 and @P3.
+    /// Creates the cycle with these values of @P1, @P2 and @P3.
     ///
     /// # Errors
     /// [`NoTimer`] for @P2 without @P3.
@@ -92,14 +93,14 @@ impl SysServiceWait {
         Ok(Self { keep_waiting: p1.unwrap_or(0), longest })
     }
 
-    /// Begins to wait. `now` is measured from any fixed point and never decreases.
+    /// Starts the wait. `now` is the time since any fixed point and must never decrease.
     pub fn start(self, now: Duration) -> Waiting {
         let deadline = self.longest.map(|longest| now.saturating_add(longest.time));
         Waiting { keep_waiting: self.keep_waiting, deadline, phase: WaitPhase::Read }
     }
 }
 
-/// A wait that has begun.
+/// A wait that has started.
 ///
 /// Manual: `service-en`, section 3 (SVC-6, SVC-8).
 ///
@@ -136,7 +137,7 @@ enum WaitPhase {
     TimedOut,
 }
 
-/// The next step of a wait; example at [`Waiting`].
+/// The next step of a wait; for an example, see [`Waiting`].
 ///
 /// Manual: `service-en`, section 3.
 ///
@@ -145,7 +146,7 @@ enum WaitPhase {
 ///
 /// use ads_cnc_conformance::simulator::program::service::{SysServiceWait, WaitStep};
 ///
-/// // For ever, if there is no @P2.
+/// // Without @P2, the wait has no limit.
 /// let mut waiting = SysServiceWait::default().start(Duration::ZERO);
 /// waiting.read(&[0, 0, 0, 0], Duration::ZERO)?;
 /// assert_eq!(waiting.step(), WaitStep::Wait { until: None });
@@ -160,14 +161,14 @@ pub enum WaitStep {
         /// When the maximum wait ends: polling later than that is not needed.
         until: Option<Duration>,
     },
-    /// A response with this state.
+    /// A response with this state exists.
     Done { state: u32 },
-    /// No response within the maximum wait.
+    /// No response arrived within the maximum wait.
     TimedOut,
 }
 
 impl Waiting {
-    /// The next step; unchanged until it is done.
+    /// The next step; it does not change until it is reported as done.
     pub const fn step(&self) -> WaitStep {
         match self.phase {
             WaitPhase::Read => WaitStep::Read(ServiceVariable::ResponseState),
@@ -177,14 +178,14 @@ impl Waiting {
         }
     }
 
-    /// Reports the value that was read, and when; ignored if the step is not a read.
+    /// Reports the value that was read at `now`; ignored if the step is not a read.
     ///
-    /// The wait times out only after a read of the value for which the cycle keeps waiting: a
-    /// response that is present counts.
+    /// The wait times out only after reading the value for which the cycle keeps waiting, so a response
+    /// that exists after the maximum wait is still valid.
     ///
     /// # Errors
-    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
-    /// for a state that does not have exactly four bytes; the step is to be repeated.
+    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) or [`Trailing`](ads_cnc::ErrorKind::Trailing)
+    /// for a state that does not have exactly four bytes; then the step must be repeated.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         if let WaitPhase::Read = self.phase {
             let state = ServiceVariable::ResponseState.state(value)?;
