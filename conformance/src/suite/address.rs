@@ -96,17 +96,15 @@ fn same_by_rank(probe: &mut Probe<'_>, clause: ClauseId, rank: Channel, number: 
     for (logical, by_index) in known_by(number)?.into_iter().zip(known_by(rank)?) {
         let function = logical.function().spec().name;
         let is_object = matches!(logical, Request::ReadDescriptors(_));
-        let Some(answer) = probe.try_ask(logical)? else { continue };
+        let Some(by_number) = probe.try_ask(logical)? else { continue };
         let exchange = probe.send(by_index)?;
-        let found = exchange.success();
-        let rules = rules_by_index(clause, logical, by_index, found.is_some())?;
-        let logical = answer;
-        let same = found.is_some_and(|found| {
-            found == logical || is_object && same_object(&logical, found, rank)
-        });
+        let same = exchange
+            .success()
+            .map(|found| found == by_number || is_object && same_object(&by_number, found, rank));
+        let rules = rules_by_index(probe, clause, logical, by_index, same)?;
         let by = number.number();
-        let expected = || format!("{function}: {}, the answer of channel {by}", spaced(&logical));
-        probe.check_reply(&rules, same, &logical, expected, &exchange);
+        let expected = || format!("{function}: {}, the answer of channel {by}", spaced(&by_number));
+        probe.check_reply(&rules, same == Some(true), &by_number, expected, &exchange);
     }
     let items = ChannelItems::read(probe, number)?;
     let mut steady = Steady::default();

@@ -178,7 +178,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             let kind = name.get(..4).unwrap_or_default();
             [head, kind, last, &[0]].concat()
         })),
-    on("cnc.var.name-dashes", &[VAR_20],
+    on("cnc.var.name-dashes", &[VAR_9, VAR_20],
         "structures are divided by a colon, V.E.struct:array_uns32, not by a dot",
         NAMED, |cnc, call| {
             let head = call.data.get(..4).unwrap_or_default();

@@ -104,10 +104,13 @@ impl Steady {
             |probe, _| probe.try_ask(by_index),
             |before, read| before == read,
         )?;
-        let is_answered = !matches!(compared, Compared::NoAnswer);
-        let rules = rules_by_index(clause, logical, by_index, is_answered)?;
-        self.judge(probe, &rules, &what, compared, |probe, _, (before, read, _)| {
-            probe.check(clause, false, || format!("{} of {what}", Hex(before)), || Hex(read));
+        let outcome = match compared {
+            Compared::NoAnswer => None,
+            _ => Some(!matches!(compared, Compared::Differs(..))),
+        };
+        let rules = rules_by_index(probe, clause, logical, by_index, outcome)?;
+        self.judge(probe, &rules, &what, compared, |probe, rules, (before, read, _)| {
+            probe.check(rules, false, || format!("{} of {what}", Hex(before)), || Hex(read));
         });
         Ok(())
     }
@@ -146,13 +149,17 @@ impl Steady {
     }
 }
 
-/// The clauses that a request by index is judged by: an error for an index that equals the logical number
-/// shows that the function is not answered by index at all.
+/// The clauses by which a request by index is judged. `found`: whether its reply is the expected one;
+/// `None` for an error.
+///
+/// An error for an index that equals the logical number shows that the function has no base without the
+/// logical bit (ADR-12); other errors and replies show the instance that the index addresses.
 pub(crate) fn rules_by_index(
+    probe: &mut Probe<'_>,
     clause: ClauseId,
     logical: Request<'_>,
     by_index: Request<'_>,
-    is_answered: bool,
+    found: Option<bool>,
 ) -> Step<Vec<ClauseId>> {
     let instance = |request| -> Step<Option<u8>> {
         Ok(RawCall::new(request)?.index_group.parts().map(|group| match group {
@@ -160,8 +167,16 @@ pub(crate) fn rules_by_index(
             Group::Class(class) => class.instance,
         }))
     };
-    let is_same = instance(logical)? == instance(by_index)?;
-    Ok(if is_same && !is_answered { vec![ADR_12] } else { vec![clause, ADR_12] })
+    let function = logical.function();
+    let without_base = &mut probe.target.without_base;
+    if found.is_none() && instance(logical)? == instance(by_index)? {
+        without_base.insert(function);
+    }
+    Ok(match found {
+        Some(true) => vec![clause, ADR_12],
+        None if without_base.contains(&function) => vec![ADR_12],
+        _ => vec![clause],
+    })
 }
 
 /// The result of `act` between two equal readings of a guard; `None` if the guard changed or could

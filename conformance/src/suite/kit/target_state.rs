@@ -1,8 +1,8 @@
 //! The state of a target during a run, shared by all cases.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
-use ads_cnc::operation::Service;
+use ads_cnc::operation::{Function, Service};
 
 use crate::client::Client;
 use crate::deadline::Deadline;
@@ -36,6 +36,8 @@ pub struct TargetState {
     pub frames: usize,
     /// Services to which the target has replied.
     pub(in crate::suite) answered: Vec<Service>,
+    /// The functions that reject a request by index even if the index equals the logical number.
+    pub(in crate::suite) without_base: HashSet<Function>,
     /// Whether any reply was a success.
     pub(in crate::suite) any_success: bool,
     /// An error that came with data.
@@ -79,6 +81,7 @@ impl TargetState {
             instances: None,
             frames: 0,
             answered: Vec::new(),
+            without_base: HashSet::new(),
             any_success: false,
             error_with_data: None,
             silences: 0,
