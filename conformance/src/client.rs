@@ -20,7 +20,7 @@ use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
 use crate::gate::{Gate, Permit};
 use crate::net::{LocalPeers, Wire};
 use crate::process::progress;
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 use crate::wire_service::{decode_reply, service_of};
 
 pub use inquiry::{Inquired, Inquiry, InquiryReply};
@@ -264,7 +264,10 @@ impl Client {
             came = self.exchange(permit, header, received, violations, &mut strays);
         }
         if let Some(more) = strays.checked_sub(STRAYS_MAX).filter(|more| *more > 0) {
-            let what = format!("{more} more answers to other invoke IDs; {STRAYS_MAX} are shown");
+            let what = format!(
+                "{} to other invoke IDs; {STRAYS_MAX} are shown",
+                plural(more, "more answer")
+            );
             violations.push(Violation { requirement: ADS_5, what });
         }
         Ok(came)
@@ -344,8 +347,10 @@ impl Client {
                         violations.push(Violation::of_invoke_id(id, asked_id));
                     }
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
-                        let what =
-                            format!("{more} bytes after the answer that no request asked for");
+                        let what = format!(
+                            "{} after the answer that no request asked for",
+                            plural(more, "byte")
+                        );
                         violations.push(Violation { requirement: ADS_5, what });
                         self.disconnect();
                     }

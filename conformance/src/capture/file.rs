@@ -7,6 +7,7 @@ use pcap_parser::traits::PcapNGPacketBlock as _;
 use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 use super::time::Time;
+use crate::text::plural;
 
 /// Initial size of the read buffer in bytes.
 const BUFFER: usize = 0x1_0000;
@@ -94,7 +95,10 @@ pub(super) fn packets(
             Err(PcapError::UnexpectedEof) => {
                 let left = reader.data().len();
                 let whole = if left == 0 { "inside a record" } else { "in the middle of a record" };
-                return Ok(FileEnd::Cut(format!("it ends {whole}, {left} bytes into it")));
+                return Ok(FileEnd::Cut(format!(
+                    "it ends {whole}, {} into it",
+                    plural(left, "byte")
+                )));
             }
             Err(error) => {
                 let what = match error {

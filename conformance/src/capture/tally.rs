@@ -111,7 +111,7 @@ impl CaptureTally {
             _ => None,
         };
         let gaps = (self.gaps > 0).then(|| {
-            let gaps = of_number(self.gaps, "gap");
+            let gaps = plural(self.gaps, "gap");
             format!("{gaps}: what they touch is inconclusive")
         });
         cut.into_iter().chain(gaps).collect()
@@ -120,14 +120,13 @@ impl CaptureTally {
     /// One line for each group of counters: what the capture has, and which part of it was not
     /// judged.
     pub fn lines(&self) -> Vec<String> {
-        let number = of_number;
         let mut lines = vec![format!(
             "{}, {} in {}, {}, {} with an answer",
-            number(self.packets, "packet"),
-            number(self.segments, "TCP segment"),
-            number(self.connections, "connection"),
-            number(self.frames, "frame"),
-            number(self.exchanges, "request"),
+            plural(self.packets, "packet"),
+            plural(self.segments, "TCP segment"),
+            plural(self.connections, "connection"),
+            plural(self.frames, "frame"),
+            plural(self.exchanges, "request"),
         )];
         // What is counted, and what is said of it.
         let told = [
@@ -155,7 +154,7 @@ impl CaptureTally {
             (self.unreadable, "packet", " with headers cut or wrong, not judged"),
         ];
         let told = told.into_iter().filter(|(number, ..)| *number > 0);
-        lines.extend(told.map(|(number, noun, what)| of_number(number, noun) + what));
+        lines.extend(told.map(|(number, noun, what)| plural(number, noun) + what));
         lines.extend(unjudged("link types", &self.links));
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
         lines.extend(unjudged("AMS commands", &self.commands));
@@ -278,15 +277,10 @@ fn decoded(exchange: &Exchange, data: &[u8]) -> Option<String> {
 fn bytes_of(data: &[u8]) -> String {
     match data.get(..VALUE_MAX) {
         Some(start) if data.len() > VALUE_MAX => {
-            format!("{} … ({} bytes)", spaced(start), data.len())
+            format!("{} … ({})", spaced(start), plural(data.len(), "byte"))
         }
         _ => spaced(data),
     }
-}
-
-/// A counter and what it counts.
-fn of_number(number: u64, noun: &str) -> String {
-    plural(usize::try_from(number).unwrap_or(usize::MAX), noun)
 }
 
 /// The counters of a map as text, the first of them only.

@@ -16,7 +16,7 @@ use crate::objects::{
     WalkResult, channels_of, columns, csv, table, walk,
 };
 use crate::session::{Session, ToolError};
-use crate::text::{hex, json};
+use crate::text::{hex, json, plural};
 use crate::values::plain;
 
 /// Maximum number of characters of a value in a table; CSV and JSON have all.
@@ -134,7 +134,12 @@ impl Browse {
         let mut progress = ProgressLine::new();
         let mut found = walk(&mut session, &options, &mut |seen| {
             progress.update(|| {
-                format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
+                format!(
+                    "{}: {} found, {}",
+                    seen.list,
+                    seen.objects,
+                    plural(seen.requests, "request")
+                )
             });
         })?;
         let contents = if self.content {
@@ -243,7 +248,7 @@ fn read_all(
         let size = object.size();
         let content = match size {
             0..=CONTENT_MAX => session.read(&object.address),
-            _ => Err(ToolError::Unable(format!("{size} bytes; get reads them"))),
+            _ => Err(ToolError::Unable(format!("{}; get reads them", plural(size, "byte")))),
         };
         contents.push(match content {
             Ok(content) => {

@@ -15,7 +15,7 @@ use crate::edition::Edition;
 use crate::judge::{Case, Exit, Selection};
 use crate::process::progress;
 use crate::report::{self, About, Detail, Report, SubjectReport, TargetReport};
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
 /// The heading of these options in the help.
 const TRAFFIC: &str = "Traffic";
@@ -240,7 +240,7 @@ impl CheckArguments {
         };
         let files = vectors.write(Path::new(place))?;
         let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        Ok(vec![format!("{} vectors: {}", vectors.len(), files.join(", "))])
+        Ok(vec![format!("{}: {}", plural(vectors.len(), "vector"), files.join(", "))])
     }
 
     fn write(&self, report: &Report, checked: &Checked, extracted: &[String]) -> Exit {
@@ -264,7 +264,11 @@ impl CheckArguments {
                 .exchanges
                 .saturating_sub(u64::try_from(listed.len().min(most)).unwrap_or(u64::MAX));
             if more > 0 {
-                writeln!(out, "  and {more} more exchanges (-v shows the first 10000)")?;
+                writeln!(
+                    out,
+                    "  and {} (-v shows the first 10000)",
+                    plural(more, "more exchange")
+                )?;
             }
             writeln!(out)?;
             unjudged(report).try_for_each(|line| writeln!(out, "note: {line}\n"))?;

@@ -15,7 +15,7 @@ use crate::explain::type_by_name;
 use crate::named::{Lookup, by_name_alone};
 use crate::objects::{Object, Options, Pattern, channels_of, walk};
 use crate::session::ToolError;
-use crate::text::nearest;
+use crate::text::{nearest, plural};
 
 /// Which value is meant.
 #[derive(Args, Clone, Debug)]
@@ -201,10 +201,7 @@ pub(super) fn headline(object: &Object) -> String {
     if !object.ty.name.is_empty() {
         parts.push(object.ty.to_string());
     }
-    parts.extend(object.ty.size.map(|size| match size {
-        1 => "1 byte".to_owned(),
-        size => format!("{size} bytes"),
-    }));
+    parts.extend(object.ty.size.map(|size| plural(size, "byte")));
     let unit = object.unit.as_ref().map(ToString::to_string);
     parts.extend(unit.filter(|unit| !unit.is_empty() && unit != "-"));
     parts.push(object.access.to_string());

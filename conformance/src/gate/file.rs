@@ -18,6 +18,7 @@ use serde::de::{Deserializer, Error as _};
 use toml::value::Datetime;
 
 use super::{Allowed, AllowedList, Entry, Moment};
+use crate::text::plural;
 use crate::text::utf8;
 
 /// An error in the file of `--allow-write`.
@@ -252,6 +253,6 @@ fn text(text: &str, max: usize) -> Result<CncString, String> {
     let name: CncString = text.parse().map_err(|error: ads_cnc::Error| error.to_string())?;
     match name.as_bytes().len() {
         len if (1..=max).contains(&len) => Ok(name),
-        _ => Err(format!("a name has 1 to {max} characters")),
+        _ => Err(format!("a name has 1 to {}", plural(max, "character"))),
     }
 }

@@ -2,6 +2,7 @@
 
 use ads_cnc::operation::Function;
 
+use crate::text::plural;
 use crate::values::ValueFormat;
 
 /// The bytes of an exchange, as a report shows them.
@@ -57,7 +58,8 @@ impl Evidence {
             if whole.len() > EVIDENCE_MAX {
                 // A truncated stream would be shown as a faulty one.
                 *stream = None;
-                let note = format!(" (of {} bytes the first {EVIDENCE_MAX} are kept)", whole.len());
+                let note =
+                    format!(" (the first {EVIDENCE_MAX} of {})", plural(whole.len(), "byte"));
                 self.result.push_str(&note);
             }
         }

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{RunningCommand, interrupt};
-use crate::text::escape_lines;
+use crate::text::{escape_lines, plural};
 
 /// Maximum length of a line. The longest valid answer has some thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
@@ -223,7 +223,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
         line.pop();
     }
     if line.len() > most {
-        return Some(Err(format!("a line of more than {most} bytes")));
+        return Some(Err(format!("a line of more than {}", plural(most, "byte"))));
     }
     Some(Ok(line))
 }

@@ -345,7 +345,12 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
         writeln!(out, "wrote     {written} ({end})")?;
     }
     let (cases, code) = (plural(cases, "case"), report.exit_code);
-    writeln!(out, "{cases}{left_out}, {checks} checks, {frames} frames; exit code {code}")?;
+    writeln!(
+        out,
+        "{cases}{left_out}, {}, {}; exit code {code}",
+        plural(*checks, "check"),
+        plural(*frames, "frame")
+    )?;
     last_line(report, display, out)
 }
 

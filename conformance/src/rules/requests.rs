@@ -10,6 +10,7 @@ use ads_cnc_vectors::requirement;
 use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::judge::{Checks as _, Rule, assumed, online};
+use crate::text::plural;
 use crate::values::until_nul;
 use crate::wire_service;
 
@@ -160,7 +161,8 @@ fn documented(
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
         let mut record = records.on(Topic::ClientServices, observation);
-        let expected = || format!("a read length of {least} bytes, which the reply needs");
+        let expected =
+            || format!("a read length of {}, which the reply needs", plural(least, "byte"));
         let found = || format!("at most {asked} asked for");
         record.check(rule, asked >= least, expected, found);
     }

@@ -12,6 +12,7 @@ use super::kit::{
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed, online};
 use crate::objects::ValueAddress;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -97,8 +98,12 @@ fn of_address(
         if data.len() != value.len() && !sizes.contains(&data.len()) {
             sizes.push(data.len());
             let sent = WrongSizeWrite { at, watched: &whole, is_text, value: &value, other: &data };
-            let what =
-                format!("{} bytes for {} of {}", data.len(), value.len(), variable.name.text);
+            let what = format!(
+                "{} for {} of {}",
+                plural(data.len(), "byte"),
+                value.len(),
+                variable.name.text
+            );
             sent.judge(probe, &what)?;
         }
     }

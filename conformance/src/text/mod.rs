@@ -1,5 +1,7 @@
 //! Text: hex, escapes, times, JSON. Without I/O; imports no other module of this crate.
 
+use std::fmt::Display;
+
 mod duration;
 mod escape;
 pub mod hex;
@@ -36,9 +38,16 @@ pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
     Ok(text.strip_prefix('\u{FEFF}').map(str::to_owned).unwrap_or(text))
 }
 
-/// A number and its noun, with an s unless it is one.
-pub(crate) fn plural(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+/// A number and its noun, in the plural unless the number is one.
+pub(crate) fn plural<N: Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
+    let (stem, end) = match noun {
+        _ if number == N::from(1) => (noun, ""),
+        _ if noun.ends_with("index") => (noun.trim_end_matches("ex"), "ices"),
+        _ if noun.ends_with("axis") => (noun.trim_end_matches("is"), "es"),
+        _ if noun.ends_with('y') => (noun.trim_end_matches('y'), "ies"),
+        _ => (noun, "s"),
+    };
+    format!("{number} {stem}{end}")
 }
 
 /// The lines of a text, broken at spaces. A longer word has a line of its own.
@@ -71,3 +80,15 @@ macro_rules! named {
     };
 }
 pub(crate) use named;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nouns_are_in_the_plural_unless_there_is_one() {
+        let all = [(1, "byte"), (0, "byte"), (2, "reply"), (2, "index"), (2, "platform axis")];
+        let all = all.map(|(number, noun): (u32, &str)| plural(number, noun));
+        assert_eq!(all, ["1 byte", "0 bytes", "2 replies", "2 indices", "2 platform axes"]);
+    }
+}

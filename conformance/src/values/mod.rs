@@ -16,7 +16,7 @@ use std::fmt;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
-use crate::text::escape;
+use crate::text::{escape, plural};
 
 /// The text of a STRING up to the first NUL.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
@@ -113,7 +113,10 @@ impl Type {
             let needed = dimensions.len();
             return Err(match needed {
                 0 => format!("{self} is not an array and has no element {given}"),
-                _ => format!("{given} is not an element of {self}, which has {needed} indices"),
+                _ => format!(
+                    "{given} is not an element of {self}, which has {}",
+                    plural(needed, "index")
+                ),
             });
         }
         for (index, &len) in indices.iter().zip(dimensions) {

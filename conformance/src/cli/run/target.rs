@@ -19,7 +19,7 @@ use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState, Unwritable};
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
 impl Run {
     pub(super) fn device(
@@ -203,7 +203,10 @@ fn print_forecast(discovery: &Discovery, plan: &Plan) {
     } else {
         String::new()
     };
-    print_error(format_args!("the queries of the cases: about {requests} requests{time}"));
+    print_error(format_args!(
+        "the queries of the cases: about {}{time}",
+        plural(requests, "request")
+    ));
 }
 
 /// Whether the case writes and has been executed.

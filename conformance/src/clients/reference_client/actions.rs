@@ -18,6 +18,7 @@ use super::wire::Connection;
 use super::{ClientFault, service, streaming};
 use crate::clients::Action;
 use crate::clients::message::DONE;
+use crate::text::plural;
 use crate::values::{self, Type};
 
 /// Maximum number of descriptors in one request.
@@ -94,7 +95,8 @@ fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, ActionEr
             other => other,
         });
     }
-    values::value_of(&ty, bytes).ok_or_else(|| format!("{} bytes are no {ty}", bytes.len()).into())
+    values::value_of(&ty, bytes)
+        .ok_or_else(|| format!("{} cannot be {ty}", plural(bytes.len(), "byte")).into())
 }
 
 pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, ActionError> {

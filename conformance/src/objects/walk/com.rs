@@ -8,6 +8,7 @@ use ads_cnc::operation::ObjectList;
 use super::super::List;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
 use crate::session::ToolError;
+use crate::text::plural;
 
 type AddressSet = BTreeSet<(IndexGroup, IndexOffset)>;
 
@@ -45,7 +46,10 @@ impl Walk<'_> {
         }
         let all = self.objects_of(objects, count.min(OBJECTS_MAX), RANGE)?;
         if u32::try_from(all.len()) != Ok(count) {
-            self.note(list, format_args!("{} of {count} objects were described", all.len()));
+            self.note(
+                list,
+                format_args!("{} listed, {} described", plural(count, "object"), all.len()),
+            );
         }
         let addresses = all.iter().filter_map(|object| object.address.content()).collect();
         for object in all.into_iter().filter(|_| is_selected) {

@@ -12,6 +12,7 @@ use super::super::error::Source;
 use super::super::item::{Item, Objects};
 use super::super::{ChannelModel, Model, ModelError};
 use crate::simulator::to_u32;
+use crate::text::plural;
 
 /// Maximum number of objects in a list, so that all fit into one reply.
 pub(super) const OBJECTS_MAX: usize = 780;
@@ -37,7 +38,8 @@ pub(super) fn fill(
         list.extend(&platform);
         if list.len() > OBJECTS_MAX {
             let span = table.map(|table| table.number.span()).unwrap_or_default();
-            let why = format!("{} objects in a list, at most {OBJECTS_MAX} fit", list.len());
+            let why =
+                format!("{} in a list, at most {OBJECTS_MAX} fit", plural(list.len(), "object"));
             return Err(source.error(&span, why));
         }
         channel.list_of_first = list.into_iter().collect();
