@@ -293,7 +293,7 @@ fn a_bad_file_of_waivers_is_refused_with_its_line() {
         ("no-reason", good.replace("known", " "), "a waiver needs a reason"),
         ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "a day alone"),
         ("never", good.replace("2030-01-01", "2030-02-30"), "line 6"),
-        ("missing", good.replace("expires", "# expires"), "missing field `expires`"),
+        ("missing", good.replace("expires", "# expires"), "the key expires is missing"),
         ("twice", format!("{good}{good}"), "line 7: a second waiver of VAR-8 in a"),
     ];
     for (name, text, why) in cases {

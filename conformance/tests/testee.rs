@@ -257,7 +257,7 @@ mod shell {
                 "both ok and unsupported are there",
             ),
             (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
-            (r#"{"seq":1,"reject":{},"reject":{}}"#, "duplicate field"),
+            (r#"{"seq":1,"reject":{},"reject":{}}"#, "the key reject appears twice"),
             (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is there"),
             (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
         ] {

@@ -87,5 +87,5 @@ fn read(file: &Path) -> Result<Report, String> {
     };
     read.map_err(|error| failed(error.to_string()))?;
     let text = utf8(bytes).map_err(failed)?;
-    Report::from_json(&text).map_err(|error| failed(format!("no report: {error}")))
+    Report::from_json(&text).map_err(|error| failed(format!("not a report: {error}")))
 }

@@ -8,7 +8,7 @@ use super::message::{
 };
 use super::{Action, ClientUnderTest};
 use crate::deadline::Deadline;
-use crate::process::{GRACE, LineProcess, START, Subprocess, cut, not_json};
+use crate::process::{GRACE, LineProcess, START, Subprocess, not_json};
 use crate::text::did_you_mean;
 
 /// The name of the scenario that asks for hello.
@@ -106,7 +106,7 @@ impl ClientUnderTest for ClientProcess {
         let line = self.recv(START.max(self.process.timeout))?;
         let hello = serde_json::from_str::<ClientHello>(&line)
             .map_err(|error| {
-                ClientReaction::Garbled(format!("{error} in the hello {}", cut(&line)))
+                ClientReaction::Garbled(format!("the answer to hello: {}", not_json(&line, &error)))
             })
             .and_then(|hello| match hello.protocol {
                 PROTOCOL => known_actions(&hello).map(|()| hello),

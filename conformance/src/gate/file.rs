@@ -18,8 +18,7 @@ use serde::de::{Deserializer, Error as _};
 use toml::value::Datetime;
 
 use super::{Allowed, AllowedList, Entry, Moment};
-use crate::text::plural;
-use crate::text::utf8;
+use crate::text::{plural, toml_error, utf8};
 
 /// An error in the file of `--allow-write`.
 #[derive(Clone, Debug)]
@@ -57,11 +56,8 @@ impl Allowed {
     /// The line and what is wrong in it: unknown or missing keys, values out of range, an address
     /// that is not written to.
     pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
-        let file: AllowListFile = toml::from_str(text).map_err(|error| {
-            // `Display` quotes the line; `message` has no line number.
-            let why = error.to_string().trim_end().to_owned();
-            AllowFileError { file: None, why }
-        })?;
+        let file: AllowListFile = toml::from_str(text)
+            .map_err(|error| AllowFileError { file: None, why: toml_error(&error) })?;
         let AllowListFile {
             target,
             address,

@@ -28,7 +28,7 @@ use toml::Spanned;
 use toml::value::{Date, Datetime};
 
 use super::{CaseOutcome, LeftOut, Verdict};
-use crate::text::Moment;
+use crate::text::{Moment, toml_error};
 
 /// Known failures.
 #[derive(Clone, Debug, Default)]
@@ -130,10 +130,7 @@ impl Waivers {
     /// exist, a verdict that cannot be waived, no reason, no date, or a duplicate waiver.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
-        let file: WaiverFile = toml::from_str(text).map_err(|error| {
-            // `Display` quotes the line; `message` has no line number.
-            failed(error.to_string().trim_end().to_owned())
-        })?;
+        let file: WaiverFile = toml::from_str(text).map_err(|error| failed(toml_error(&error)))?;
         let mut known = HashSet::new();
         for waiver in &file.waiver {
             let Waiver { test, requirement, .. } = waiver.get_ref();

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{RunningCommand, interrupt};
-use crate::text::{escape_lines, plural};
+use crate::text::{escape_lines, json_error, plural};
 
 /// Maximum length of a line. The longest valid answer has some thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
@@ -262,7 +262,7 @@ fn wait(
 pub(crate) fn not_json(line: &str, error: &serde_json::Error) -> String {
     let shown = cut(line);
     if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
-        format!("{error}: {shown}")
+        format!("{}: {shown}", json_error(line, error))
     } else {
         format!("the line is not JSON: {shown}; stdout is for answers alone, print to stderr")
     }

@@ -10,6 +10,7 @@ use serde_json::Value;
 use super::{BytesReport, DeviceReport, FoundReport};
 use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
 use crate::text::hex::compact;
+use crate::text::json_error;
 
 /// Version of this structure.
 pub const FORMAT: u32 = 1;
@@ -245,12 +246,21 @@ impl Report {
             format: u32,
         }
         let FormatNumber { format } =
-            serde_json::from_str(text).map_err(|error| error.to_string())?;
+            serde_json::from_str(text).map_err(|error| in_file(text, &error))?;
         if format != FORMAT {
             return Err(format!("a report of format {format}; this version reads {FORMAT}"));
         }
-        let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let report: Self = serde_json::from_str(text).map_err(|error| in_file(text, &error))?;
         Ok(report.escaped())
+    }
+}
+
+/// What is wrong with a report, with its place.
+fn in_file(text: &str, error: &serde_json::Error) -> String {
+    let words = json_error(text, error);
+    match error.is_data() {
+        true => format!("line {}, column {}: {words}", error.line(), error.column()),
+        false => words,
     }
 }
 

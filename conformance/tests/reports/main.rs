@@ -157,7 +157,7 @@ fn what_is_no_report_is_refused() {
     let folder = Folder::new("odd");
     let odd = folder.path("odd.json");
     for (text, why) in [
-        ("", "EOF while parsing a value at line 1"),
+        ("", "the JSON ends too early, at line 1"),
         ("{\"format\":2}", "a report of format 2; this version reads 1"),
         ("{\"format\":1,\n\"suit\":1}", "line 2"),
     ] {
