@@ -15,10 +15,10 @@ use ads_cnc::operation::{WriteElement, WriteObject};
 use ads_cnc::{CncString, streaming};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
-use toml::value::Datetime;
+use toml::Value;
 
 use super::{Allowed, AllowedList, Entry, Moment};
-use crate::text::{plural, toml_error, utf8};
+use crate::text::{found, plural, toml_error, utf8};
 
 /// An error in the file of `--allow-write`.
 #[derive(Clone, Debug)]
@@ -116,8 +116,14 @@ fn address<'de, D: Deserializer<'de>>(value: D) -> Result<Option<IpAddr>, D::Err
 }
 
 fn moment<'de, D: Deserializer<'de>>(value: D) -> Result<Moment, D::Error> {
-    let lacking = "a date and a time with an offset from UTC, as 2026-05-04T17:30:00+02:00";
-    Moment::from_datetime(Datetime::deserialize(value)?).ok_or_else(|| D::Error::custom(lacking))
+    let value = Value::deserialize(value)?;
+    value.as_datetime().and_then(|datetime| Moment::from_datetime(*datetime)).ok_or_else(|| {
+        D::Error::custom(format!(
+            "expected a date and a time with an offset from UTC and without quotes, such as \
+             2026-05-04T17:30:00+02:00, found {}",
+            found(&value)
+        ))
+    })
 }
 
 #[derive(Deserialize)]

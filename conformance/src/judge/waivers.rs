@@ -24,11 +24,11 @@ use std::path::Path;
 use ads_cnc_vectors::requirement;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize};
-use toml::Spanned;
 use toml::value::{Date, Datetime};
+use toml::{Spanned, Value};
 
 use super::{CaseOutcome, LeftOut, Verdict};
-use crate::text::{Moment, toml_error};
+use crate::text::{Moment, found, toml_error};
 
 /// Known failures.
 #[derive(Clone, Debug, Default)]
@@ -231,10 +231,11 @@ fn waivable<'de, D: Deserializer<'de>>(value: D) -> Result<Verdict, D::Error> {
 }
 
 fn day<'de, D: Deserializer<'de>>(value: D) -> Result<Date, D::Error> {
-    let odd =
-        || D::Error::custom("a day alone, as 2027-01-31: the first on which it does not hold");
-    match Datetime::deserialize(value)? {
-        Datetime { date: Some(date), time: None, offset: None } => Ok(date),
-        _ => Err(odd()),
+    match Value::deserialize(value)? {
+        Value::Datetime(Datetime { date: Some(date), time: None, offset: None }) => Ok(date),
+        other => Err(D::Error::custom(format!(
+            "expected a day as YYYY-MM-DD without quotes, such as 2027-01-31, found {}",
+            found(&other)
+        ))),
     }
 }

@@ -14,7 +14,7 @@ pub(crate) use duration::{duration, shown_time, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};
-pub(crate) use parse_error::{in_words, json_error, toml_error};
+pub(crate) use parse_error::{found, in_words, json_error, toml_error};
 
 /// A text, or its first `most` characters with an ellipsis.
 pub(crate) fn shorten(text: &str, most: usize) -> String {

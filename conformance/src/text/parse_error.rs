@@ -10,6 +10,17 @@ pub(crate) fn toml_error(error: &toml::de::Error) -> String {
     format!("{place}{}", in_words(error.message(), "table"))
 }
 
+/// A value of TOML that is not of the expected type.
+pub(crate) fn found(value: &toml::Value) -> String {
+    match value {
+        toml::Value::String(text) => format!("the text {text:?}"),
+        toml::Value::Integer(number) => format!("the number {number}"),
+        toml::Value::Boolean(value) => value.to_string(),
+        toml::Value::Datetime(datetime) => datetime.to_string(),
+        other => format!("a {}", other.type_str()),
+    }
+}
+
 /// What is wrong with a text of JSON: the key and the reason.
 pub(crate) fn json_error(text: &str, error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
@@ -44,6 +55,11 @@ fn last_key(read: &str) -> Option<&str> {
 
 /// A message of serde; a map is called `map`.
 pub(crate) fn in_words(message: &str, map: &str) -> String {
+    // The parser of TOML takes a bare word for what it begins like.
+    let bare = ["invalid boolean", "invalid float", "string values must be quoted"];
+    if bare.iter().any(|start| message.starts_with(start)) {
+        return "expected a value: a text in double quotes, or a day as YYYY-MM-DD".to_owned();
+    }
     let other = || {
         let unknown = |what: &str| {
             let (word, known) = message.strip_prefix(what)?.split_once("`, ")?;
