@@ -152,6 +152,10 @@ fn what_would_be_run_is_listed() {
     let rows: Vec<&str> =
         rows.as_array().unwrap().iter().map(|row| row["id"].as_str().unwrap()).collect();
     assert_eq!(rows, ["VAR-8", "VAR-11", "VAR-14"]);
+    for (name, title) in [("variable-handle", "VAR-10  Handle"), ("readbyname", "VAR-14  Value")] {
+        let rows = ads_cnc(&["requirements", name]).stdout;
+        assert!(String::from_utf8(rows).unwrap().contains(title), "{name}");
+    }
 }
 
 /// The list counts the cases that a run against the same target does not leave out.
