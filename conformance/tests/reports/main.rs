@@ -270,6 +270,9 @@ fn statements_and_comparisons_are_made_of_reports() {
         code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 mended, "),
         "{shown}"
     );
+    let quiet = ads_cnc(&["report", "-q", &now, "--against", &before]).stdout;
+    let quiet = String::from_utf8(quiet).unwrap();
+    assert!(quiet.lines().count() == 1 && quiet.contains(" newly failing, "), "{quiet}");
 }
 
 /// An interrupted run is one line of a comparison and no success; whoever compares two kinds of runs is
