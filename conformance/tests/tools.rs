@@ -223,7 +223,8 @@ fn channels_are_what_is_there() {
     let simulated = "ads-cnc: simulated CNC, no machine: --target is not given\n";
     assert_eq!(listed, (3, simulated.to_owned()));
     let listed = browse(&["9,1"]);
-    assert_eq!(listed, (2, format!("{simulated}ads-cnc: channel 9: not there, or not active\n")));
+    let absent = "ads-cnc: the CNC has no active channel 9; channels: 1, 2, 6\n";
+    assert_eq!(listed, (2, format!("{simulated}{absent}")));
 }
 
 /// A CNC that does not describe variables by name has them all the same.

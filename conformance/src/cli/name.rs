@@ -3,7 +3,7 @@
 use std::io;
 use std::time::Duration;
 
-use ads_cnc::address::ChannelAxis;
+use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::Function;
 use ads_cnc::value::DataType;
 use clap::Args;
@@ -122,6 +122,15 @@ impl NameArgs {
     }
 }
 
+/// What to say about channels that the CNC does not have.
+pub(super) fn no_channel(absent: &[Channel], there: &[Channel]) -> String {
+    let [absent, there] = [(absent, " or "), (there, ", ")].map(|(channels, between)| {
+        let numbers = channels.iter().map(|one| one.number().to_string());
+        numbers.collect::<Vec<_>>().join(between)
+    });
+    format!("the CNC has no active channel {absent}; channels: {there}")
+}
+
 /// Maximum number of axes of a channel that are asked for a variable.
 const AXES_MAX: u32 = 32;
 
@@ -162,9 +171,7 @@ impl NameArgs {
         let channel = self.channel.channel;
         let channels = channels_of(&mut session).ok()?;
         if !channels.contains(&channel) {
-            let there: Vec<String> = channels.iter().map(|one| one.number().to_string()).collect();
-            let number = channel.number();
-            return Some(format!("there is no channel {number}; channels: {}", there.join(", ")));
+            return Some(no_channel(&[channel], &channels));
         }
         let mut names: Vec<String> = Vec::new();
         for variables in [true, false] {

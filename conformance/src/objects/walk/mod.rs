@@ -112,6 +112,20 @@ pub(crate) fn channels_of(session: &mut Session) -> Result<Vec<Channel>, ToolErr
     Walk::new(session, &Options::default(), &mut |_| {}).channels()
 }
 
+/// Those of these channels that the CNC does not have.
+pub(crate) fn absent_of(
+    session: &mut Session,
+    channels: &[Channel],
+) -> Result<Vec<Channel>, ToolError> {
+    let options = Options { channels: channels.to_vec(), ..Options::default() };
+    let there = Walk::new(session, &options, &mut |_| {}).channels_given()?;
+    let mut absent = channels.to_vec();
+    absent.retain(|channel| !there.contains(channel));
+    absent.sort_unstable();
+    absent.dedup();
+    Ok(absent)
+}
+
 struct Walk<'w> {
     session: &'w mut Session,
     options: &'w Options,
@@ -225,14 +239,11 @@ impl<'w> Walk<'w> {
     fn channels_given(&mut self) -> Result<Vec<Channel>, ToolError> {
         let mut found = Vec::new();
         for &channel in &self.options.channels {
-            if found.contains(&channel) {
-                continue;
-            }
-            if self.count_objects(channel)?.is_some() || self.is_instance(decoder_of(channel))? {
+            if !found.contains(&channel)
+                && (self.count_objects(channel)?.is_some()
+                    || self.is_instance(decoder_of(channel))?)
+            {
                 found.push(channel);
-            } else {
-                let number = channel.number();
-                self.found.notes.push(format!("channel {number}: not there, or not active"));
             }
         }
         Ok(found)
